@@ -1,0 +1,268 @@
+#include "image/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "error.h"
+#include "image/ldr.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+constexpr std::int64_t max_pixels = std::int64_t{1} << 28;  // 16384 x 16384
+constexpr int max_side = 1 << 16;
+constexpr int max_channels = 4096;
+
+/// First line of an OpenImageIO message, which may repeat itself over several.
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+std::uint64_t physical_memory() {
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+/// Sizes come from the header, before anything is allocated: OpenImageIO does not limit EXR.
+void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t bytes_before) {
+  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
+  if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
+      pixels > max_pixels || spec.depth > 1) {
+    fail(ExitCode::input, "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all",
+         path, spec.width, spec.height, spec.depth, max_side, max_pixels);
+  }
+  if (spec.nchannels < 1 || spec.nchannels > max_channels) {
+    fail(ExitCode::input, "{}: header says {} channels; allowed are 1 to {}", path, spec.nchannels,
+         max_channels);
+  }
+  if (spec.full_width < 1 || spec.full_height < 1) {
+    fail(ExitCode::input, "{}: display window {}x{} is empty", path, spec.full_width,
+         spec.full_height);
+  }
+  const std::uint64_t bytes = bytes_before + spec.image_bytes(true);
+  if (bytes > physical_memory()) {
+    fail(ExitCode::input, "{}: its pixels take {} MiB; this machine has {} MiB of memory", path,
+         bytes >> 20, physical_memory() >> 20);
+  }
+}
+
+std::vector<std::string> string_list(const ImageSpec& spec, const std::string& name) {
+  const OIIO::ParamValue* value = spec.find_attribute(name);
+  std::vector<std::string> list;
+  if (!value || value->type().basetype != TypeDesc::STRING) return list;
+  for (int i = 0; i < static_cast<int>(value->type().numelements()); ++i) {
+    list.push_back(value->get_string_indexed(i));
+  }
+  return list;
+}
+
+std::int64_t pixel_count(const ImageSpec& spec) { return std::int64_t{spec.width} * spec.height; }
+
+/// Bytes of one channel in a native pixel, and where it starts.
+std::size_t channel_offset(const ImageSpec& spec, int channel) {
+  return spec.pixel_bytes(0, channel, true);
+}
+
+}  // namespace
+
+struct ImageFile::Part {
+  ImageSpec spec;
+  std::vector<std::byte> pixels;
+};
+
+ImageFile::ImageFile() = default;
+ImageFile::ImageFile(ImageFile&&) noexcept = default;
+ImageFile& ImageFile::operator=(ImageFile&&) noexcept = default;
+ImageFile::~ImageFile() = default;
+
+std::string to_string(const Window& w) {
+  return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y);
+}
+
+ImageFile ImageFile::read(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) fail(ExitCode::input, "{}: no such file", path);
+  if (std::filesystem::is_directory(path, error)) {
+    fail(ExitCode::input, "{}: is a folder, not an image", path);
+  }
+  if (!is_ldr_path(path)) return read_linear_file(path);
+  const LdrPicture picture = read_ldr(path);
+  ImageFile file =
+      from_planes(picture.channels, picture.planes, picture.width, picture.height);
+  file.path_ = path;
+  return file;
+}
+
+ImageFile ImageFile::read_linear_file(const std::string& path) {
+  ImageFile file;
+  file.path_ = path;
+  // Damaged headers make the library throw now and then; all of it is one kind of bad input.
+  try {
+    const auto input = ImageInput::open(path);
+    if (!input) {
+      fail(ExitCode::input, "{}: not a readable image: {}", path, first_line(OIIO::geterror()));
+    }
+    std::uint64_t bytes = 0;
+    for (int s = 0; input->seek_subimage(s, 0); ++s) {
+      const ImageSpec spec = input->spec();
+      check_size(path, spec, bytes);
+      bytes += spec.image_bytes(true);
+      if (spec.deep) {
+        fail(ExitCode::input, "{}: is a deep image; flatten it first (oiiotool --flatten)", path);
+      }
+      Part part{spec, std::vector<std::byte>(spec.image_bytes(true))};
+      if (!input->read_image(s, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, part.pixels.data())) {
+        fail(ExitCode::input, "{}: cannot read its pixels: {}", path,
+             first_line(input->geterror()));
+      }
+      file.parts_.push_back(std::move(part));
+    }
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail(ExitCode::input, "{}: not enough memory to read it", path);
+  } catch (const std::exception& error) {
+    fail(ExitCode::input, "{}: not a readable image: {}", path, first_line(error.what()));
+  }
+  if (file.parts_.empty()) fail(ExitCode::input, "{}: holds no image", path);
+  file.refresh_info();
+  return file;
+}
+
+ImageFile ImageFile::from_planes(const std::vector<std::string>& channels,
+                                 const std::vector<Plane>& planes, int width, int height) {
+  ImageFile file;
+  Part part;
+  part.spec = ImageSpec(width, height, static_cast<int>(channels.size()), TypeDesc::HALF);
+  part.spec.channelnames = channels;
+  part.spec.attribute("compression", "zip");
+  part.pixels.resize(part.spec.image_bytes(true));
+  file.parts_.push_back(std::move(part));
+  file.refresh_info();
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    file.set_plane(0, static_cast<int>(c), planes[c]);
+  }
+  return file;
+}
+
+ImageFile ImageFile::as_float() const {
+  std::vector<int> all(info_.front().channels.size());
+  for (std::size_t c = 0; c < all.size(); ++c) all[c] = static_cast<int>(c);
+  return extract(0, all);
+}
+
+void ImageFile::refresh_info() {
+  info_.clear();
+  for (const Part& part : parts_) {
+    const ImageSpec& s = part.spec;
+    PartInfo info;
+    info.name = s.get_string_attribute("oiio:subimagename");
+    info.view = s.get_string_attribute("view");
+    info.views = string_list(s, "multiView");
+    info.channels = s.channelnames;
+    info.data = {s.x, s.y, s.width, s.height};
+    info.display = {s.full_x, s.full_y, s.full_width, s.full_height};
+    info_.push_back(std::move(info));
+  }
+}
+
+Plane ImageFile::plane(int part, int channel) const {
+  const Part& p = parts_.at(static_cast<std::size_t>(part));
+  Plane out(static_cast<std::size_t>(pixel_count(p.spec)));
+  OIIO::convert_image(1, p.spec.width, p.spec.height, 1,
+                      p.pixels.data() + channel_offset(p.spec, channel),
+                      p.spec.channelformat(channel),
+                      static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)), OIIO::AutoStride,
+                      OIIO::AutoStride, out.data(), TypeDesc::FLOAT, sizeof(float),
+                      OIIO::AutoStride, OIIO::AutoStride);
+  return out;
+}
+
+void ImageFile::set_plane(int part, int channel, const Plane& plane) {
+  Part& p = parts_.at(static_cast<std::size_t>(part));
+  OIIO::convert_image(1, p.spec.width, p.spec.height, 1, plane.data(), TypeDesc::FLOAT,
+                      sizeof(float), OIIO::AutoStride, OIIO::AutoStride,
+                      p.pixels.data() + channel_offset(p.spec, channel),
+                      p.spec.channelformat(channel),
+                      static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)), OIIO::AutoStride,
+                      OIIO::AutoStride);
+}
+
+std::optional<double> ImageFile::metadata_number(const std::string& name) const {
+  for (const Part& part : parts_) {
+    const OIIO::ParamValue* value = part.spec.find_attribute(name);
+    if (!value) continue;
+    if (value->type().basetype != TypeDesc::STRING) {
+      return static_cast<double>(value->get_float());
+    }
+    const std::string text = value->get_string();
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc() && end != text.data()) return number;
+  }
+  return std::nullopt;
+}
+
+ImageFile ImageFile::extract(int part, const std::vector<int>& channels) const {
+  const ImageSpec& from = parts_.at(static_cast<std::size_t>(part)).spec;
+  ImageFile file;
+  file.path_ = path_;
+  Part to;
+  to.spec = from;
+  to.spec.nchannels = static_cast<int>(channels.size());
+  to.spec.channelformats.clear();
+  to.spec.set_format(TypeDesc::FLOAT);
+  to.spec.channelnames.clear();
+  to.spec.alpha_channel = to.spec.z_channel = -1;
+  for (const int c : channels) {
+    const std::string& name = from.channelnames[static_cast<std::size_t>(c)];
+    to.spec.channelnames.push_back(split(name, '.').back());
+    if (to.spec.channelnames.back() == "A") {
+      to.spec.alpha_channel = to.spec.nchannels - 1;
+    }
+  }
+  to.pixels.resize(to.spec.image_bytes(true));
+  file.parts_.push_back(std::move(to));
+  file.refresh_info();
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    file.set_plane(0, static_cast<int>(c), plane(part, channels[c]));
+  }
+  return file;
+}
+
+void ImageFile::write(const std::string& path) const {
+  const auto output = ImageOutput::create(path);
+  if (!output) {
+    fail(ExitCode::output, "{}: unknown image format: {}", path, first_line(OIIO::geterror()));
+  }
+  const auto check = [&](bool ok) {
+    if (!ok) {
+      fail(ExitCode::output, "{}: cannot write: {}", path, first_line(output->geterror()));
+    }
+  };
+  std::vector<ImageSpec> specs;
+  for (const Part& part : parts_) {
+    specs.push_back(part.spec);
+    specs.back().erase_attribute("openexr:levelmode");  // the base level alone was read
+  }
+  if (specs.size() == 1) {
+    check(output->open(path, specs.front()));
+  } else {
+    check(output->open(path, static_cast<int>(specs.size()), specs.data()));
+  }
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (i > 0) check(output->open(path, specs[i], ImageOutput::AppendSubimage));
+    check(output->write_image(TypeDesc::UNKNOWN, parts_[i].pixels.data()));
+  }
+  check(output->close());
+}
+
+}  // namespace defray

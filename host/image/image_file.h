@@ -1,0 +1,75 @@
+#pragma once
+// An image file in memory: every part and channel in its own type, so that what defray does not
+// touch is written back bit for bit. The only header that the OpenImageIO code shows to the rest.
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rdb.h"
+
+namespace defray {
+
+struct Window {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Window&) const = default;
+};
+
+/// "1280x720+0+0".
+std::string to_string(const Window& window);
+
+struct PartInfo {
+  std::string name;
+  std::string view;                 ///< The part's own view, empty where it has none.
+  std::vector<std::string> views;   ///< multiView of a single-part stereo file, default view first.
+  std::vector<std::string> channels;
+  Window data;                      ///< Data window: the pixels that are stored.
+  Window display;                   ///< Display window: the picture's frame.
+};
+
+class ImageFile {
+ public:
+  /// Reads every part of a file. PNG and JPEG are decoded from sRGB to linear.
+  /// Throws Error(input) naming the file: missing, unreadable, truncated, deep, absurd size.
+  static ImageFile read(const std::string& path);
+
+  /// A single-part half-float image with these channels.
+  static ImageFile from_planes(const std::vector<std::string>& channels,
+                               const std::vector<Plane>& planes, int width, int height);
+
+  /// The same data in 32-bit floats.
+  ImageFile as_float() const;
+
+  ImageFile(ImageFile&&) noexcept;
+  ImageFile& operator=(ImageFile&&) noexcept;
+  ~ImageFile();
+
+  const std::string& path() const { return path_; }
+  const std::vector<PartInfo>& parts() const { return info_; }
+
+  Plane plane(int part, int channel) const;
+  void set_plane(int part, int channel, const Plane& plane);
+
+  /// A number among the metadata of any part, whatever type it was stored in (text included).
+  std::optional<double> metadata_number(const std::string& name) const;
+
+  /// Writes all parts with their windows, metadata, types and compression where the format of
+  /// `path` is the one that was read; throws Error(output) otherwise or when writing fails.
+  void write(const std::string& path) const;
+
+  /// One part with only these channels, as float where the format can, metadata kept.
+  ImageFile extract(int part, const std::vector<int>& channels) const;
+
+ private:
+  struct Part;
+  ImageFile();
+  static ImageFile read_linear_file(const std::string& path);
+  void refresh_info();
+
+  std::string path_;
+  std::vector<PartInfo> info_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace defray

@@ -1,0 +1,113 @@
+#include "image/ldr.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+std::string extension(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
+
+/// OpenCV stores B G R A.
+int bgr_index(std::size_t channel) {
+  return channel < 3 ? 2 - static_cast<int>(channel) : static_cast<int>(channel);
+}
+
+double stored_value(const cv::Mat& image, int y, int x, int channel) {
+  const int at = x * image.channels() + channel;
+  if (image.depth() == CV_16U) return image.ptr<std::uint16_t>(y)[at] / 65535.0;
+  return image.ptr<std::uint8_t>(y)[at] / 255.0;
+}
+
+std::uint8_t to_byte(double encoded) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0, 1.0)));
+}
+
+}  // namespace
+
+bool is_ldr_path(const std::string& path) {
+  const std::string e = extension(path);
+  return e == ".png" || e == ".jpg" || e == ".jpeg";
+}
+
+double srgb_encode(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+double srgb_decode(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+LdrPicture read_ldr(const std::string& path) {
+  cv::Mat image;
+  try {
+    image = cv::imread(path, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {
+    fail(ExitCode::input, "{}: not a readable image: {}", path, error.err);
+  }
+  if (image.empty()) fail(ExitCode::input, "{}: not a readable image (damaged or truncated)", path);
+  if (image.depth() != CV_8U && image.depth() != CV_16U) {
+    fail(ExitCode::input, "{}: neither 8 nor 16 bits a channel", path);
+  }
+  LdrPicture picture;
+  picture.width = image.cols;
+  picture.height = image.rows;
+  picture.channels = {"R", "G", "B"};
+  const bool has_alpha = image.channels() == 4;
+  if (has_alpha) picture.channels.push_back("A");
+  picture.planes.assign(picture.channels.size(), Plane(image.total()));
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols) +
+                             static_cast<std::size_t>(x);
+      const double alpha = has_alpha ? stored_value(image, y, x, 3) : 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const int stored = image.channels() == 1 ? 0 : bgr_index(c);
+        picture.planes[c][at] =
+            static_cast<float>(alpha * srgb_decode(stored_value(image, y, x, stored)));
+      }
+      if (has_alpha) picture.planes[3][at] = static_cast<float>(alpha);
+    }
+  }
+  return picture;
+}
+
+void write_ldr(const std::string& path, const LdrPicture& picture) {
+  const bool has_alpha = picture.planes.size() == 4;
+  const bool keeps_alpha = has_alpha && extension(path) == ".png";
+  cv::Mat image(picture.height, picture.width, keeps_alpha ? CV_8UC4 : CV_8UC3);
+  const int channels = image.channels();
+  for (int y = 0; y < picture.height; ++y) {
+    std::uint8_t* row = image.ptr<std::uint8_t>(y);
+    for (int x = 0; x < picture.width; ++x) {
+      const std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+          static_cast<std::size_t>(x);
+      const double alpha = keeps_alpha ? static_cast<double>(picture.planes[3][at]) : 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double colour = static_cast<double>(picture.planes[c][at]);
+        // PNG stores unassociated alpha; a transparent pixel has no colour to recover.
+        const double straight = alpha > 0 ? colour / alpha : 0;
+        row[x * channels + bgr_index(c)] = to_byte(srgb_encode(straight));
+      }
+      if (keeps_alpha) row[x * channels + 3] = to_byte(alpha);
+    }
+  }
+  bool ok = false;
+  std::string why;
+  try {
+    ok = cv::imwrite(path, image, {cv::IMWRITE_JPEG_QUALITY, 95});
+  } catch (const cv::Exception& error) {
+    why = ": " + error.err;
+  }
+  if (!ok) fail(ExitCode::output, "{}: cannot write{}", path, why);
+}
+
+}  // namespace defray

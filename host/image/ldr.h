@@ -1,0 +1,30 @@
+#pragma once
+// Display-encoded pictures (PNG, JPEG) through OpenCV: sRGB in the file, linear in memory.
+#include <string>
+#include <vector>
+
+#include "rdb.h"
+
+namespace defray {
+
+/// True for .png, .jpg and .jpeg.
+bool is_ldr_path(const std::string& path);
+
+/// sRGB transfer function (IEC 61966-2-1) and its inverse, for values of any size.
+double srgb_encode(double linear);
+double srgb_decode(double encoded);
+
+struct LdrPicture {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;  ///< R G B, and A where the file has it.
+  std::vector<Plane> planes;          ///< Linear; alpha premultiplied.
+};
+
+/// Throws Error(input) on a file that OpenCV cannot decode.
+LdrPicture read_ldr(const std::string& path);
+
+/// Writes RGB or RGBA planes as 8 bits a channel; values outside 0...1 are clipped, as the formats
+/// demand. JPEG leaves alpha out. Throws Error(output).
+void write_ldr(const std::string& path, const LdrPicture& picture);
+
+}  // namespace defray

@@ -1,0 +1,107 @@
+#include "image/safe_output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include "error.h"
+
+namespace defray {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The temporary file in hand, for the signal handler: empty, or a complete path.
+std::array<char, 4096> temporary_path{};
+
+void on_signal(int signal) {
+  if (temporary_path[0] != '\0') unlink(temporary_path.data());
+  _exit(128 + signal);
+}
+
+/// Registers a temporary file for the time it exists; removes it when it was not renamed.
+class Temporary {
+ public:
+  explicit Temporary(const std::string& path) : path_(path) {
+    if (path.size() < temporary_path.size()) {
+      std::memcpy(temporary_path.data() + 1, path.c_str() + 1, path.size());
+      temporary_path[0] = path[0];  // last: the handler never sees half a name
+    }
+  }
+  ~Temporary() {
+    temporary_path[0] = '\0';
+    unlink(path_.c_str());  // fails harmlessly after the rename
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+ private:
+  std::string path_;
+};
+
+fs::path folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+/// Hidden, beside the target, unique to this process, with the same extension: image libraries
+/// choose the format by it.
+std::string temporary_name(const std::string& path) {
+  const fs::path target(path);
+  const std::string name = fmt::format(".{}.defray-{}{}", target.stem().string(), getpid(),
+                                       target.extension().string());
+  return (folder_of(path) / name).string();
+}
+
+void sync_path(const std::string& what, const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY);
+  const bool ok = file >= 0 && fsync(file) == 0;
+  const int code = errno;
+  if (file >= 0) close(file);
+  if (!ok) fail(ExitCode::output, "{}: cannot sync it to disk: {}", what, std::strerror(code));
+}
+
+}  // namespace
+
+void check_can_write(const std::string& path) {
+  if (fs::is_directory(path)) fail(ExitCode::output, "{}: is a folder, not a file name", path);
+  const std::string probe = temporary_name(path);
+  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0666);
+  if (file < 0) {
+    fail(ExitCode::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),
+         std::strerror(errno));
+  }
+  close(file);
+  unlink(probe.c_str());
+}
+
+void write_safely(const std::string& path, const std::function<void(const std::string&)>& write) {
+  const std::string name = temporary_name(path);
+  const Temporary temporary(name);
+  try {
+    write(name);
+  } catch (const Error& error) {  // the user knows the output by its own name
+    std::string message = error.what();
+    if (const auto at = message.find(name); at != std::string::npos) {
+      message.replace(at, name.size(), path);
+    }
+    throw Error(error.code(), message);
+  }
+  sync_path(path, name);
+  if (std::rename(name.c_str(), path.c_str()) != 0) {
+    fail(ExitCode::output, "{}: cannot rename the finished file to it: {}", path,
+         std::strerror(errno));
+  }
+  sync_path(path, folder_of(path).string());
+}
+
+void remove_temporary_on_signal() {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
+}
+
+}  // namespace defray

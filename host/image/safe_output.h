@@ -1,0 +1,19 @@
+#pragma once
+// Outputs appear whole or not at all.
+#include <functional>
+#include <string>
+
+namespace defray {
+
+/// Throws Error(output) unless a file could be created where `path` is to go, without touching
+/// what is there. For finding out before the work rather than after.
+void check_can_write(const std::string& path);
+
+/// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it
+/// to `path`. When anything fails, the temporary file is removed and an old `path` stays.
+void write_safely(const std::string& path, const std::function<void(const std::string&)>& write);
+
+/// On SIGINT and SIGTERM: removes the temporary file in hand, then ends the process.
+void remove_temporary_on_signal();
+
+}  // namespace defray

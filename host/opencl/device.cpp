@@ -1,0 +1,103 @@
+#include "opencl/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include "error.h"
+#include "opencl/kernel_cache.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+std::string type_name(cl_device_type type) {
+  if (type & CL_DEVICE_TYPE_GPU) return "GPU";
+  if (type & CL_DEVICE_TYPE_CPU) return "CPU";
+  return "accelerator";
+}
+
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
+  const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
+  DeviceInfo info;
+  info.device = device;
+  info.name = device.getInfo<CL_DEVICE_NAME>();
+  info.platform = platform.getInfo<CL_PLATFORM_NAME>();
+  info.version =
+      device.getInfo<CL_DEVICE_VERSION>() + ", driver " + device.getInfo<CL_DRIVER_VERSION>();
+  info.type = type_name(device.getInfo<CL_DEVICE_TYPE>());
+  info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  info.max_work_group = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  info.global_memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  info.local_memory_bytes = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+  info.max_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  info.has_int64_atomics =
+      extensions.find("cl_khr_int64_extended_atomics") != std::string::npos;
+  info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
+  return info;
+}
+
+std::string listing(const std::vector<DeviceInfo>& devices) {
+  std::string text;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    text += fmt::format("{}{}: {} ({})", i ? "; " : "", i, devices[i].name, devices[i].platform);
+  }
+  return text;
+}
+
+bool is_pocl(const DeviceInfo& info) { return info.platform == "Portable Computing Language"; }
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+  prepare_kernel_cache();
+  std::vector<DeviceInfo> found;
+  std::vector<cl::Platform> platforms;
+  try {
+    cl::Platform::get(&platforms);
+  } catch (const cl::Error&) {
+    return found;  // the loader reports "no platform" as an error
+  }
+  for (const cl::Platform& platform : platforms) {
+    std::vector<cl::Device> devices;
+    try {
+      platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    } catch (const cl::Error&) {
+      continue;  // and "no device" likewise
+    }
+    for (const cl::Device& device : devices) found.push_back(describe(platform, device));
+  }
+  return found;
+}
+
+DeviceInfo select_device(const std::string& wanted) {
+  const std::vector<DeviceInfo> devices = list_devices();
+  if (devices.empty()) {
+    fail(ExitCode::device,
+         "no OpenCL device found: install one (Debian: apt-get install pocl-opencl-icd), or use "
+         "--device reference for the slow scalar twin");
+  }
+  if (wanted.empty()) {
+    const auto pocl = std::find_if(devices.begin(), devices.end(), is_pocl);
+    return pocl != devices.end() ? *pocl : devices.front();
+  }
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  if (error == std::errc() && end == wanted.data() + wanted.size() && index < devices.size()) {
+    return devices[index];
+  }
+  std::vector<DeviceInfo> matches;
+  for (const DeviceInfo& info : devices) {
+    if (contains_ignoring_case(info.platform + " " + info.name, wanted)) matches.push_back(info);
+  }
+  if (matches.empty()) {
+    fail(ExitCode::device, "no OpenCL device is called '{}'; there are {}; or use 'reference'",
+         wanted, listing(devices));
+  }
+  if (matches.size() > 1) {
+    fail(ExitCode::device, "'{}' names more than one OpenCL device: {}", wanted, listing(matches));
+  }
+  return matches.front();
+}
+
+}  // namespace defray

@@ -1,0 +1,167 @@
+#include "opencl/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "error.h"
+#include "kernels_source.h"
+
+namespace defray {
+namespace {
+
+/// Runs `call`; a cl::Error becomes an Error that says what failed.
+template <typename Call>
+auto checked(const DeviceInfo& info, const std::string& what, Call&& call) {
+  try {
+    return call();
+  } catch (const cl::Error& error) {
+    fail(ExitCode::device, "{} failed on {}: {} ({})", what, info.name,
+         opencl_error_name(error.err()), error.what());
+  }
+}
+
+std::string build_log(const cl::Program& program, const cl::Device& device) {
+  try {
+    return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
+  } catch (const cl::Error&) {
+    return "";
+  }
+}
+
+/// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails
+/// with an empty log, and a new program succeeds. A real compile error has a log: no second try.
+cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
+                          const std::string& options) {
+  constexpr int attempts = 8;
+  for (int attempt = 1;; ++attempt) {
+    cl::Program program(context, std::string(kernels_source));
+    try {
+      program.build({info.device}, options.c_str());
+      return program;
+    } catch (const cl::Error& error) {
+      const std::string log = build_log(program, info.device);
+      const bool is_real = log.find_first_not_of(" \n\t") != std::string::npos;
+      if (is_real || attempt == attempts) {
+        fail(ExitCode::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
+             opencl_error_name(error.err()), options, log);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50 * attempt));
+    }
+  }
+}
+
+}  // namespace
+
+Session::Session(const DeviceInfo& info, bool use_int64_atomics)
+    : info_(info), int64_atomics_(use_int64_atomics && info.has_int64_atomics) {
+  context_ = checked(info_, "clCreateContext", [&] { return cl::Context(info.device); });
+  queue_ = checked(info_, "clCreateCommandQueue", [&] { return cl::CommandQueue(context_); });
+  const std::string options =
+      std::string("-cl-std=CL1.2") + (int64_atomics_ ? " -DDEFRAY_INT64_ATOMICS" : "");
+  program_ = checked(info_, "clCreateProgramWithSource",
+                     [&] { return build_program(context_, info_, options); });
+}
+
+void Session::set_work_group(std::size_t x, std::size_t y) {
+  if (x * y > info_.max_work_group) {
+    fail(ExitCode::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
+         info_.name, info_.max_work_group);
+  }
+  group_x_ = x;
+  group_y_ = y;
+}
+
+cl::Buffer Session::buffer(std::size_t bytes) {
+  if (bytes > info_.max_buffer_bytes) {
+    fail(ExitCode::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
+  }
+  return checked(info_, "clCreateBuffer",
+                 [&] { return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes); });
+}
+
+cl::Buffer Session::view(const void* data, std::size_t bytes) {
+  if (bytes > info_.max_buffer_bytes) {
+    fail(ExitCode::device,
+         "{} MiB of one image plane are within reach of a band: {} allows at most {} MiB a buffer; "
+         "lower --max-coc",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
+  }
+  // The flag makes it read-only to kernels; OpenCL's signature has no const.
+  return checked(info_, "clCreateBuffer", [&] {
+    return cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes,
+                      const_cast<void*>(data));
+  });
+}
+
+void Session::fill(const cl::Buffer& buffer, unsigned value, std::size_t bytes) {
+  checked(info_, "clEnqueueFillBuffer", [&] {
+    queue_.enqueueFillBuffer(buffer, static_cast<cl_uint>(value), 0, bytes);
+  });
+}
+
+void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes) {
+  checked(info_, "clEnqueueReadBuffer",
+          [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
+}
+
+void Session::finish() {
+  checked(info_, "clFinish", [&] { queue_.finish(); });
+}
+
+cl::Kernel Session::make_kernel(const char* name) {
+  return checked(info_, std::string("clCreateKernel ") + name,
+                 [&] { return cl::Kernel(program_, name); });
+}
+
+void Session::fail_argument(const char* name, cl_uint index, int code) const {
+  fail(ExitCode::device, "clSetKernelArg({}, {}) failed on {}: {}", name, index, info_.name,
+       opencl_error_name(code));
+}
+
+void Session::enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
+                      const std::vector<std::size_t>& global) {
+  const bool is_set = group_x_ != 0;
+  const std::size_t group[3] = {is_set ? group_x_ : default_group_x,
+                                is_set && global.size() > 1 ? group_y_ : 1, 1};
+  std::size_t padded[3] = {1, 1, 1};
+  for (std::size_t d = 0; d < global.size(); ++d) {
+    padded[d] = (global[d] + group[d] - 1) / group[d] * group[d];
+  }
+  checked(info_, std::string("clEnqueueNDRangeKernel ") + name, [&] {
+    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(padded[0], padded[1], padded[2]),
+                                cl::NDRange(group[0], group[1], group[2]));
+  });
+}
+
+std::string opencl_error_name(int code) {
+  switch (code) {
+#define DEFRAY_NAME(name) \
+  case name:              \
+    return #name
+    DEFRAY_NAME(CL_DEVICE_NOT_FOUND);
+    DEFRAY_NAME(CL_DEVICE_NOT_AVAILABLE);
+    DEFRAY_NAME(CL_COMPILER_NOT_AVAILABLE);
+    DEFRAY_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE);
+    DEFRAY_NAME(CL_OUT_OF_RESOURCES);
+    DEFRAY_NAME(CL_OUT_OF_HOST_MEMORY);
+    DEFRAY_NAME(CL_BUILD_PROGRAM_FAILURE);
+    DEFRAY_NAME(CL_INVALID_VALUE);
+    DEFRAY_NAME(CL_INVALID_DEVICE);
+    DEFRAY_NAME(CL_INVALID_BUFFER_SIZE);
+    DEFRAY_NAME(CL_INVALID_BUILD_OPTIONS);
+    DEFRAY_NAME(CL_INVALID_KERNEL_NAME);
+    DEFRAY_NAME(CL_INVALID_KERNEL_ARGS);
+    DEFRAY_NAME(CL_INVALID_ARG_INDEX);
+    DEFRAY_NAME(CL_INVALID_ARG_SIZE);
+    DEFRAY_NAME(CL_INVALID_WORK_GROUP_SIZE);
+    DEFRAY_NAME(CL_INVALID_WORK_ITEM_SIZE);
+    DEFRAY_NAME(CL_INVALID_HOST_PTR);
+#undef DEFRAY_NAME
+    default:
+      return fmt::format("OpenCL error {}", code);
+  }
+}
+
+}  // namespace defray

@@ -1,0 +1,71 @@
+#pragma once
+// One device, made ready: context, queue and the kernels, built once.
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "opencl/device.h"
+
+namespace defray {
+
+/// Runs kernels on one device. Every failure is an Error(device) that names the call and the
+/// OpenCL error; a failed build carries the compiler's log.
+class Session {
+ public:
+  /// `use_int64_atomics` false takes the two-pass scatter even where the device could do better.
+  explicit Session(const DeviceInfo& info, bool use_int64_atomics = true);
+
+  const DeviceInfo& info() const { return info_; }
+  bool has_int64_atomics() const { return int64_atomics_; }
+
+  /// Work-group for every kernel, {x, y}; {0, 0}: each kernel's own default.
+  void set_work_group(std::size_t x, std::size_t y);
+
+  cl::Buffer buffer(std::size_t bytes);
+
+  /// A read-only view of host memory; no copy on a CPU device. The memory must stay alive and
+  /// unchanged as long as the buffer.
+  cl::Buffer view(const void* data, std::size_t bytes);
+
+  void fill(const cl::Buffer& buffer, unsigned value, std::size_t bytes);
+  void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
+
+  /// Enqueues kernel `name` over at least `global` work-items (kernels test their bounds).
+  template <typename... Args>
+  void launch(const char* name, std::size_t default_group_x, const std::vector<std::size_t>& global,
+              const Args&... args) {
+    cl::Kernel kernel = make_kernel(name);
+    cl_uint index = 0;
+    (set_argument(kernel, name, index++, args), ...);
+    enqueue(kernel, name, default_group_x, global);
+  }
+
+  void finish();
+
+ private:
+  cl::Kernel make_kernel(const char* name);
+  template <typename T>
+  void set_argument(cl::Kernel& kernel, const char* name, cl_uint index, const T& value) {
+    try {
+      kernel.setArg(index, value);
+    } catch (const cl::Error& error) {
+      fail_argument(name, index, error.err());
+    }
+  }
+  [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
+  void enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
+               const std::vector<std::size_t>& global);
+
+  DeviceInfo info_;
+  bool int64_atomics_;
+  std::size_t group_x_ = 0;
+  std::size_t group_y_ = 0;
+  cl::Context context_;
+  cl::CommandQueue queue_;
+  cl::Program program_;
+};
+
+/// "CL_INVALID_VALUE" for -30, and so on; "OpenCL error N" for codes outside OpenCL 1.2.
+std::string opencl_error_name(int code);
+
+}  // namespace defray

@@ -1,0 +1,34 @@
+#pragma once
+// The scalar twins: every kernel once more, in double, written from the papers' formulas and not
+// from the kernels. They define what a kernel must compute; --device reference runs them.
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "lens.h"
+#include "lens_cells.h"
+#include "rdb.h"
+
+namespace defray::reference {
+
+/// Signed CoC radius in pixels of a point at planar depth z > 0 (inf: background), exact to a few
+/// double roundings, before any limit.
+double coc_px(const Lens& lens, int display_width_px, double depth_units);
+
+/// Twin of kernel `coc`: radii limited and rounded to quanta of 1/256 px.
+std::vector<std::int32_t> coc(const Lens& lens, int display_width_px, const Plane& depth);
+
+/// Twin of kernel `rdb_scatter` for one lens cell over the whole frame: index of the nearest source
+/// pixel whose ray arrives at each target pixel, or -1.
+std::vector<std::int64_t> rdb_scatter(int width, int height, const LensCells& cells,
+                                      std::size_t cell, std::uint32_t seed,
+                                      const std::vector<std::int32_t>& coc_quanta,
+                                      const Plane& depth);
+
+/// Twins of `rdb_scatter` and `rdb_merge`: the lens picture.
+std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
+                              const Plane& depth, const std::vector<Plane>& channels,
+                              const RdbSettings& settings,
+                              const std::function<void(double)>& progress = {});
+
+}  // namespace defray::reference

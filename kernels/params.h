@@ -1,0 +1,63 @@
+// Parameter blocks that kernels (OpenCL C) and host (C++) both read: data is shared, arithmetic never.
+// Every field is four bytes wide, so that the layout is the same in both languages.
+#ifndef DEFRAY_KERNELS_PARAMS_H
+#define DEFRAY_KERNELS_PARAMS_H
+
+#ifdef __OPENCL_C_VERSION__
+#define DEFRAY_UINT uint
+#define DEFRAY_INT int
+#else
+#include <cstdint>
+#define DEFRAY_UINT std::uint32_t
+#define DEFRAY_INT std::int32_t
+#endif
+
+/// Signed CoC radii are integers in units of 2^-8 px (the CoC quantum, 1/256 px).
+#define DEFRAY_COC_FRACTION_BITS 8
+/// Lens coordinates are integers in units of 2^-16 of the aperture radius.
+#define DEFRAY_LENS_FRACTION_BITS 16
+/// Largest CoC radius in quanta: 2^22 px. A frame is at most 2^16 px wide and the smallest lens
+/// coordinate of a 64x64 RDB is 1/64, so rays off the lens centre have left the frame before it.
+#define DEFRAY_COC_LIMIT_QUANTA (1 << 30)
+/// A cell that no ray has reached: both halves of its (depth, source) key.
+#define DEFRAY_EMPTY 0xffffffffu
+
+/// Default work-groups (x, all other dimensions 1); any other size gives the same bits.
+#define DEFRAY_COC_GROUP 64
+#define DEFRAY_RDB_SCATTER_GROUP 64
+#define DEFRAY_RDB_MERGE_GROUP 64
+
+/// Thin-lens constants of `coc`.
+typedef struct {
+  DEFRAY_UINT pixel_count;
+  DEFRAY_UINT focus_is_infinite;      ///< 1: coc = -infinite_focus_scale / depth.
+  float scale_quanta;                 ///< K = A F / (2 z0), in quanta; 0 for a closed aperture.
+  float focus_hi_units;               ///< Focus distance z0 = hi + lo, scene units.
+  float focus_lo_units;               ///< What float rounding takes from z0.
+  float infinite_focus_scale;         ///< A F / 2, in quanta x scene units.
+  float limit_quanta;                 ///< Largest |coc| let through.
+} DefrayCocParams;
+
+/// One pass of the ray distribution buffer: some cells of one band of target rows.
+/// The source window is the band and the rows around it from which a ray can reach it.
+typedef struct {
+  DEFRAY_UINT width;                  ///< Pixels in a row, of source and target.
+  DEFRAY_UINT window_y;               ///< First source row, in frame coordinates.
+  DEFRAY_UINT window_rows;
+  DEFRAY_UINT band_y;                 ///< First target row, in frame coordinates.
+  DEFRAY_UINT band_rows;
+  DEFRAY_UINT first_cell;             ///< First lens cell of this pass.
+  DEFRAY_UINT cell_count;             ///< Lens cells in this pass.
+  DEFRAY_UINT is_first_pass;          ///< 1: sums start at zero.
+  DEFRAY_UINT is_last_pass;           ///< 1: sums become means.
+  DEFRAY_UINT is_index_pass;          ///< 1: second of two scatters, without 64-bit atomics.
+  DEFRAY_INT jitter_lens;             ///< Largest jitter offset, lens units; 0: no jitter.
+  DEFRAY_UINT seed;
+} DefrayRdbParams;
+
+#ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DefrayCocParams) == 28);
+static_assert(sizeof(DefrayRdbParams) == 48);
+#endif
+
+#endif

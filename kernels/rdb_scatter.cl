@@ -1,0 +1,93 @@
+// rdb_scatter: sends every source pixel's rays into the ray distribution buffers (RDBs).
+//
+// Source pixel p with signed CoC radius r reaches cell k of target pixel x exactly when
+// x - p - r u_k lies in [-1/2, 1/2)^2 (Shinya 1994, section 4, step 4 and figure 6: the square is
+// the quadrilateral s0..s3, seen from the lens). The cell keeps the nearest source; equal depths
+// go to the smaller source index, so the result does not depend on the order of arrival.
+// All arithmetic is on integers: the same cells win on every device.
+//
+// coc_quanta  [window_rows][width]              signed radius, 1/256 px
+// depth_bits  [window_rows][width]              bits of a float > 0: they order as the float does
+// lens        [cells]                           u_k, 2^-16 of the aperture radius
+// winner      [cell_count][band_rows][width]    (x: source index in the window, y: depth bits),
+//                                               all ones where no ray has arrived
+//
+// Build with -DDEFRAY_INT64_ATOMICS where the device has cl_khr_int64_extended_atomics: the pair
+// is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
+// of the indices that have this depth. Global size: (width, window_rows, cell_count).
+#include "params.h"
+
+#ifdef DEFRAY_INT64_ATOMICS
+#pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
+#pragma OPENCL EXTENSION cl_khr_int64_extended_atomics : enable
+#endif
+
+#define RAY_FRACTION_BITS (DEFRAY_COC_FRACTION_BITS + DEFRAY_LENS_FRACTION_BITS)
+#define HALF_PIXEL (1L << (RAY_FRACTION_BITS - 1))
+
+// The one d with d - offset in [-1/2, 1/2): where a ray with this offset lands, in whole pixels.
+int landing(const long offset) { return (int)((offset + HALF_PIXEL - 1) >> RAY_FRACTION_BITS); }
+
+// Jitter of a target pixel's lens samples, in [-largest, largest)^2. The hash is pcg3d
+// (Jarzynski & Olano 2020) of absolute frame coordinates: no tile or band shows.
+int2 jitter_offset(const uint x, const uint y, const uint seed, const int largest) {
+  uint3 v = (uint3)(x, y, seed) * 1664525u + 1013904223u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z;
+  v.y += v.z * v.x;
+  const uint range = 2u * (uint)largest;
+  return (int2)((int)mul_hi(v.x, range) - largest, (int)mul_hi(v.y, range) - largest);
+}
+
+void deposit(__global uint2* winner, const size_t slot, const uint depth, const uint source,
+             const uint is_index_pass) {
+#ifdef DEFRAY_INT64_ATOMICS
+  (void)is_index_pass;
+  atom_min((volatile __global ulong*)(winner + slot), upsample(depth, source));
+#else
+  volatile __global uint* half_keys = (volatile __global uint*)(winner + slot);
+  if (!is_index_pass) {
+    atomic_min(half_keys + 1, depth);
+  } else if (half_keys[1] == depth) {
+    atomic_min(half_keys, source);
+  }
+#endif
+}
+
+__kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict coc_quanta,
+                          __global const uint* restrict depth_bits,
+                          __global const int2* restrict lens, __global uint2* winner) {
+  const uint sx = get_global_id(0);
+  const uint row = get_global_id(1);
+  const uint cell = get_global_id(2);
+  if (sx >= p.width || row >= p.window_rows || cell >= p.cell_count) return;
+
+  const uint source = row * p.width + sx;
+  const long r = coc_quanta[source];
+  const long2 u = convert_long2(lens[p.first_cell + cell]);
+  const long spread = (r < 0 ? -r : r) * p.jitter_lens;
+  const int sy = (int)(p.window_y + row);
+  const int left = max((int)sx + landing(r * u.x - spread), 0);
+  const int right = min((int)sx + landing(r * u.x + spread), (int)p.width - 1);
+  const int top = max(sy + landing(r * u.y - spread), (int)p.band_y);
+  const int bottom = min(sy + landing(r * u.y + spread), (int)(p.band_y + p.band_rows) - 1);
+  const uint depth = depth_bits[source];
+
+  for (int y = top; y <= bottom; ++y) {
+    for (int x = left; x <= right; ++x) {
+      if (p.jitter_lens != 0) {
+        const long2 v = u + convert_long2(jitter_offset((uint)x, (uint)y, p.seed, p.jitter_lens));
+        const bool through_aperture =
+            v.x * v.x + v.y * v.y <= 1L << (2 * DEFRAY_LENS_FRACTION_BITS);
+        if (!through_aperture || landing(r * v.x) != x - (int)sx || landing(r * v.y) != y - sy) {
+          continue;
+        }
+      }
+      const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
+      deposit(winner, target, depth, source, p.is_index_pass);
+    }
+  }
+}
