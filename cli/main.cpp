@@ -1,1 +1,103 @@
-int main(){}
+// defray: reads the command line, runs one command, turns an Error into one line and an exit code.
+#include <cstdlib>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "error.h"
+#include "image/safe_output.h"
+#include "text.h"
+
+namespace defray::cli {
+namespace {
+
+constexpr const char* about = R"(defray: depth of field for pinhole renders with depth, on OpenCL.
+
+It turns a picture with depth into the picture a real lens takes, and can say how far from the
+truth a fast setting is.)";
+
+constexpr const char* footer = R"(Examples:
+  defray render beauty.exr -o out.exr --focus 3 --fstop 2.8 --focal-length 50
+  defray render 'shot.####.exr' -o 'out/shot.####.exr' --frames 1-8 --camera camera.json
+  defray devices
+
+'defray COMMAND --help' explains a command.
+Exit codes: 0 done; 1 some frames failed, or a comparison missed its bound; 2 wrong usage;
+3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray.)";
+
+/// Every option name, or every command name, that `app` knows.
+std::vector<std::string> known_words(const CLI::App& app) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) words.push_back("-" + name);
+  }
+  for (const CLI::App* sub : app.get_subcommands({})) words.push_back(sub->get_name());
+  return words;
+}
+
+/// "unknown option '--focsu'. Did you mean '--focus'?"
+std::string explain_extras(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& scope = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> extras = app.remaining(true);
+  std::string word = extras.empty() ? "" : extras.front();
+  word = word.substr(0, word.find('='));
+  const char* kind = word.rfind('-', 0) == 0 ? "option" : chosen.empty() ? "command" : "argument";
+  const std::string help =
+      chosen.empty() ? "defray --help" : "defray " + scope.get_name() + " --help";
+  return fmt::format("unknown {} '{}'.{} See '{}'.", kind, word,
+                     did_you_mean(word, known_words(scope)), help);
+}
+
+int fail_with(ExitCode code, const std::string& message) {
+  fmt::print(stderr, "defray: error: {}\n", message);
+  return static_cast<int>(code);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{about, "defray"};
+  app.footer(footer);
+  app.set_version_flag("--version", "defray " DEFRAY_VERSION);
+  app.option_defaults()->always_capture_default();
+  std::vector<std::pair<CLI::App*, Run>> commands;
+  for (const auto add : {add_render, add_devices, add_scene, add_compare, add_sheet}) {
+    const Run command = add(app);
+    commands.emplace_back(app.get_subcommands({}).back(), command);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return fail_with(ExitCode::usage, explain_extras(app));
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::ParseError& error) {
+    return fail_with(ExitCode::usage, error.what());
+  }
+  for (const auto& [app_of, command] : commands) {
+    if (app_of->parsed()) return command();
+  }
+  fmt::print("{}", app.help());
+  return static_cast<int>(ExitCode::usage);
+}
+
+}  // namespace
+}  // namespace defray::cli
+
+int main(int argc, char** argv) {
+  // OpenCV must not open an OpenCL context of its own beside ours.
+  setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
+  defray::remove_temporary_on_signal();
+  try {
+    return defray::cli::run(argc, argv);
+  } catch (const defray::Error& error) {
+    return defray::cli::fail_with(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return defray::cli::fail_with(defray::ExitCode::input, "not enough memory for this picture");
+  } catch (const std::exception& error) {
+    return defray::cli::fail_with(defray::ExitCode::internal, error.what());
+  }
+}

@@ -138,10 +138,12 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
 }
 
 ImageFile ImageFile::from_planes(const std::vector<std::string>& channels,
-                                 const std::vector<Plane>& planes, int width, int height) {
+                                 const std::vector<Plane>& planes, int width, int height,
+                                 Sample sample) {
   ImageFile file;
   Part part;
-  part.spec = ImageSpec(width, height, static_cast<int>(channels.size()), TypeDesc::HALF);
+  part.spec = ImageSpec(width, height, static_cast<int>(channels.size()),
+                        sample == Sample::half_float ? TypeDesc::HALF : TypeDesc::FLOAT);
   part.spec.channelnames = channels;
   part.spec.attribute("compression", "zip");
   part.pixels.resize(part.spec.image_bytes(true));
@@ -153,10 +155,10 @@ ImageFile ImageFile::from_planes(const std::vector<std::string>& channels,
   return file;
 }
 
-ImageFile ImageFile::as_float() const {
-  std::vector<int> all(info_.front().channels.size());
-  for (std::size_t c = 0; c < all.size(); ++c) all[c] = static_cast<int>(c);
-  return extract(0, all);
+void ImageFile::rename_channel(int part, int channel, const std::string& name) {
+  parts_.at(static_cast<std::size_t>(part))
+      .spec.channelnames.at(static_cast<std::size_t>(channel)) = name;
+  refresh_info();
 }
 
 void ImageFile::refresh_info() {

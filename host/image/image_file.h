@@ -28,18 +28,18 @@ struct PartInfo {
   Window display;                   ///< Display window: the picture's frame.
 };
 
+enum class Sample { half_float, single_float };
+
 class ImageFile {
  public:
   /// Reads every part of a file. PNG and JPEG are decoded from sRGB to linear.
   /// Throws Error(input) naming the file: missing, unreadable, truncated, deep, absurd size.
   static ImageFile read(const std::string& path);
 
-  /// A single-part half-float image with these channels.
+  /// A single-part image with these channels, stored as half or 32-bit floats.
   static ImageFile from_planes(const std::vector<std::string>& channels,
-                               const std::vector<Plane>& planes, int width, int height);
-
-  /// The same data in 32-bit floats.
-  ImageFile as_float() const;
+                               const std::vector<Plane>& planes, int width, int height,
+                               Sample sample = Sample::half_float);
 
   ImageFile(ImageFile&&) noexcept;
   ImageFile& operator=(ImageFile&&) noexcept;
@@ -50,6 +50,8 @@ class ImageFile {
 
   Plane plane(int part, int channel) const;
   void set_plane(int part, int channel, const Plane& plane);
+
+  void rename_channel(int part, int channel, const std::string& name);
 
   /// A number among the metadata of any part, whatever type it was stored in (text included).
   std::optional<double> metadata_number(const std::string& name) const;

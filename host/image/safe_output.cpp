@@ -71,7 +71,7 @@ void sync_path(const std::string& what, const std::string& path) {
 void check_can_write(const std::string& path) {
   if (fs::is_directory(path)) fail(ExitCode::output, "{}: is a folder, not a file name", path);
   const std::string probe = temporary_name(path);
-  const int file = open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0666);
+  const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
     fail(ExitCode::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),
          std::strerror(errno));

@@ -1,0 +1,22 @@
+#pragma once
+// What commands share on the command line.
+#include <map>
+#include <string>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray::cli {
+
+/// The value that `word` names; an Error(usage) with the allowed words otherwise.
+template <typename T>
+T choice(const std::string& option, const std::string& word, const std::map<std::string, T>& of) {
+  const auto found = of.find(word);
+  if (found != of.end()) return found->second;
+  std::vector<std::string> words;
+  for (const auto& [name, value] : of) words.push_back(name);
+  fail(ExitCode::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
+       did_you_mean(word, words), join(words, " "));
+}
+
+}  // namespace defray::cli

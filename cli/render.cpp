@@ -1,0 +1,143 @@
+// defray render: one picture or a sequence through the lens.
+#include "render.h"
+
+#include <filesystem>
+
+#include "display.h"
+#include "image/output.h"
+#include "options.h"
+#include "progress.h"
+#include "sequence.h"
+
+namespace defray::cli {
+namespace {
+
+/// The frames to render; a single empty one for a picture without a pattern.
+std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
+  const bool is_sequence = has_frame_pattern(o.input);
+  if (!is_sequence) {
+    if (!o.frames.empty()) {
+      fail(ExitCode::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
+    }
+    return {std::nullopt};
+  }
+  const std::vector<int> numbers = o.frames.empty() ? find_frames(o.input) : parse_frames(o.frames);
+  for (const std::string& name : {o.output, o.coc_out}) {
+    if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
+      fail(ExitCode::usage, "{}: {} frames would go to one file; put #### in its name", name,
+           numbers.size());
+    }
+  }
+  return {numbers.begin(), numbers.end()};
+}
+
+FramePaths paths_of(const RenderOptions& o, std::optional<int> frame) {
+  FramePaths paths{o.input, o.depth, o.output, o.coc_out};
+  if (!frame) return paths;
+  for (std::string* path : {&paths.input, &paths.depth, &paths.output, &paths.coc}) {
+    if (!path->empty()) *path = frame_path(*path, *frame);
+  }
+  return paths;
+}
+
+/// Renders frame after frame and tells about each.
+class SequenceRun {
+ public:
+  SequenceRun(const RenderOptions& options, std::size_t frame_count)
+      : options_(options),
+        settings_(to_settings(options)),
+        bar_(frame_count, frame_count == 1 ? "frame" : "frames", !options.quiet) {
+    check_output_format(options.output);
+    const auto group = parse_work_group(options.work_group);
+    if (options.device == "reference") {
+      device_ = "the scalar reference";
+      return;
+    }
+    session_ = std::make_unique<Session>(select_device(options.device));
+    session_->set_work_group(group[0], group[1]);
+    device_ = session_->info().name;
+  }
+
+  /// False when the frame failed and --skip-bad-frames lets the run go on.
+  bool render(std::optional<int> frame, std::size_t done) {
+    FrameOutcome outcome{frame, paths_of(options_, frame), "ok", "", {}};
+    if (options_.skip_existing && std::filesystem::exists(outcome.paths.output)) {
+      outcome.status = "skipped";
+      report(outcome);
+      return true;
+    }
+    try {
+      bar_.update(done, 0);
+      FrameResult result = render_frame(outcome.paths, settings_, session_.get(),
+                                        [&](double share) { bar_.update(done, share); });
+      outcome.report = std::move(result.report);
+      last_ = std::move(result.colour);
+    } catch (const Error& error) {
+      outcome.status = "failed";
+      outcome.error = error.what();
+      if (options_.json) report(outcome);
+      bar_.clear();
+      if (!options_.skip_bad_frames || error.code() == ExitCode::device) throw;
+      fmt::print(stderr, "defray: error: {}\n", error.what());
+      return false;
+    }
+    last_window_ = outcome.report.data;
+    report(outcome);
+    return true;
+  }
+
+  void show_last() {
+    std::string why;
+    if (last_.empty()) return;
+    if (!has_display(why)) {
+      fmt::print(stderr, "defray: --show skipped: {}\n", why);
+      return;
+    }
+    bar_.clear();
+    show("defray: " + options_.output, last_, last_window_.width, last_window_.height);
+  }
+
+ private:
+  void report(const FrameOutcome& outcome) {
+    bar_.clear();
+    if (options_.json) {
+      print_json_line(outcome, device_);
+    } else if (!options_.quiet) {
+      print_text(outcome, device_);
+    }
+  }
+
+  const RenderOptions& options_;
+  RenderSettings settings_;
+  ProgressBar bar_;
+  std::unique_ptr<Session> session_;
+  std::string device_;
+  std::vector<Plane> last_;
+  Window last_window_;
+};
+
+int run(const RenderOptions& options) {
+  const auto frames = frames_of(options);
+  SequenceRun sequence(options, frames.size());
+  std::size_t failed = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!sequence.render(frames[i], i)) ++failed;
+  }
+  if (options.show) sequence.show_last();
+  if (failed > 0) {
+    fail(ExitCode::failed, "{} of {} frames failed", failed, frames.size());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Run add_render(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("render", "Render depth of field into a picture or a sequence");
+  auto options = std::make_shared<RenderOptions>();
+  add_render_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace defray::cli

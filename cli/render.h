@@ -1,0 +1,52 @@
+#pragma once
+// defray render, in three files: options (render_options.cpp), the run over frames (render.cpp),
+// what is printed (render_report.cpp).
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "commands.h"
+#include "pipeline.h"
+
+namespace defray::cli {
+
+/// The command line of `defray render` as typed; to_settings gives it meaning.
+struct RenderOptions {
+  std::string input, output, depth, coc_out, frames;
+  std::string layer, view, depth_channel;
+  std::string depth_kind = "z", background, unit = "m";
+  double near_units = 0, far_units = 0;
+  bool invert = false;
+  std::optional<double> focus, fstop, aperture_diameter, focal_length, sensor_width;
+  std::optional<double> max_coc;
+  std::string camera, focus_setting, lens_model = "cg";
+  std::string method = "rdb", nonfinite = "zero";
+  int rdb = 9;
+  bool jitter = false;
+  std::uint32_t seed = 0;
+  double memory_mib = 512;
+  std::string device, work_group;
+  bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
+};
+
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// Throws Error(usage) on values that are not allowed.
+RenderSettings to_settings(const RenderOptions& options);
+
+/// "64x1" -> {64, 1}; {0, 0} for an empty text. Throws Error(usage).
+std::array<std::size_t, 2> parse_work_group(const std::string& text);
+
+/// What became of one frame.
+struct FrameOutcome {
+  std::optional<int> frame;   ///< Empty for a single picture.
+  FramePaths paths;
+  std::string status;         ///< ok, skipped, failed.
+  std::string error;
+  FrameReport report;         ///< Of an ok frame.
+};
+
+void print_text(const FrameOutcome& outcome, const std::string& device);
+void print_json_line(const FrameOutcome& outcome, const std::string& device);
+
+}  // namespace defray::cli

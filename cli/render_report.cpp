@@ -1,0 +1,99 @@
+// What defray render prints about a frame.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "render.h"
+#include "text.h"
+
+namespace defray::cli {
+namespace {
+
+std::string depth_line(const FrameReport& r) {
+  std::string line = fmt::format("depth {}, {:.6g} to {:.6g} units", r.depth_channel,
+                                 r.depth.nearest_units, r.depth.farthest_units);
+  if (r.depth.background > 0) {
+    line += fmt::format(", background {} px", r.depth.background);
+  }
+  if (r.depth.not_a_number > 0) line += fmt::format(" ({} of them NaN)", r.depth.not_a_number);
+  return line;
+}
+
+std::string lens_line(const FrameReport& r) {
+  const Lens& l = r.lens;
+  return fmt::format("{:.6g} mm, aperture {:.6g} mm{}, sensor {:.6g} mm, focus {:.6g} units of {:.6g} m",
+                     l.focal_length_mm, l.aperture_diameter_mm,
+                     l.aperture_diameter_mm > 0
+                         ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
+                         : "",
+                     l.sensor_width_mm, l.focus_distance_units, l.metres_per_unit);
+}
+
+std::vector<std::string> notes_of(const FrameReport& r) {
+  std::vector<std::string> notes = r.notes;
+  if (r.nonfinite > 0) notes.push_back(fmt::format("{} NaN or Inf colour values", r.nonfinite));
+  if (r.coc_limited > 0) {
+    notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
+  }
+  return notes;
+}
+
+nlohmann::ordered_json report_json(const FrameReport& r) {
+  return {{"colour_channels", r.colour_channels},
+          {"depth_channel", r.depth_channel},
+          {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
+          {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}},
+          {"focal_length_mm", r.lens.focal_length_mm},
+          {"aperture_diameter_mm", r.lens.aperture_diameter_mm},
+          {"sensor_width_mm", r.lens.sensor_width_mm},
+          {"focus_distance_units", r.lens.focus_distance_units},
+          {"metres_per_unit", r.lens.metres_per_unit},
+          {"nearest_units", r.depth.nearest_units},
+          {"farthest_units", r.depth.farthest_units},
+          {"background_px", r.depth.background},
+          {"nan_depth_px", r.depth.not_a_number},
+          {"nearest_coc_px", r.nearest_coc_px},
+          {"farthest_coc_px", r.farthest_coc_px},
+          {"coc_limited_px", r.coc_limited},
+          {"nonfinite_values", r.nonfinite},
+          {"notes", r.notes},
+          {"read_s", r.read_seconds},
+          {"render_s", r.render_seconds},
+          {"write_s", r.write_seconds}};
+}
+
+}  // namespace
+
+void print_text(const FrameOutcome& o, const std::string& device) {
+  if (o.status == "skipped") {
+    fmt::print("{}: exists, skipped\n", o.paths.output);
+    return;
+  }
+  const FrameReport& r = o.report;
+  fmt::print("{} -> {}\n", r.paths.input, r.paths.output);
+  fmt::print("  colour {}, {}\n", join(r.colour_channels, " "), depth_line(r));
+  fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
+  fmt::print("  lens {}\n", lens_line(r));
+  fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
+  for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
+  fmt::print("  read {:.3f} s, render {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
+             r.render_seconds, device, r.write_seconds);
+}
+
+void print_json_line(const FrameOutcome& o, const std::string& device) {
+  nlohmann::ordered_json line;
+  if (o.frame) line["frame"] = *o.frame;
+  line["status"] = o.status;
+  line["input"] = o.paths.input;
+  line["output"] = o.paths.output;
+  if (!o.error.empty()) line["error"] = o.error;
+  if (o.status == "ok") {
+    line["device"] = device;
+    line.update(report_json(o.report));
+  }
+  // Names come from files: bytes that are no UTF-8 are replaced, not fatal.
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  std::fflush(stdout);
+}
+
+}  // namespace defray::cli

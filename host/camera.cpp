@@ -1,0 +1,148 @@
+#include "camera.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+using nlohmann::json;
+
+json parse_file(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) fail(ExitCode::input, "{}: cannot open the camera file", path);
+  try {
+    return json::parse(stream);
+  } catch (const json::exception& error) {
+    fail(ExitCode::input, "{}: not valid JSON: {}", path, error.what());
+  }
+}
+
+std::optional<double> number(const std::string& path, const json& object, const char* key) {
+  if (!object.is_object() || !object.contains(key)) return std::nullopt;
+  if (!object[key].is_number()) fail(ExitCode::input, "{}: '{}' is not a number", path, key);
+  return object[key].get<double>();
+}
+
+/// The focus setting asked for, or the only one there is.
+json choose_setting(const std::string& path, const json& root, const std::string& setting) {
+  const json settings = root.value("focus_settings", json::object());
+  if (!settings.is_object()) fail(ExitCode::input, "{}: 'focus_settings' is no object", path);
+  std::vector<std::string> names;
+  for (const auto& item : settings.items()) names.push_back(item.key());
+  if (!setting.empty()) {
+    if (settings.contains(setting)) return settings[setting];
+    fail(ExitCode::input, "{}: no focus setting '{}'.{} It has: {}", path, setting,
+         did_you_mean(setting, names), join(names, " "));
+  }
+  if (names.size() > 1) {
+    fail(ExitCode::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
+         join(names, " "));
+  }
+  return names.empty() ? json::object() : settings[names.front()];
+}
+
+std::optional<double> scaled(std::optional<double> value, double factor) {
+  if (value) *value *= factor;
+  return value;
+}
+
+std::optional<double> first_number(const ImageFile& file, const std::vector<std::string>& keys) {
+  for (const std::string& key : keys) {
+    if (const auto value = file.metadata_number(key)) return value;
+  }
+  return std::nullopt;
+}
+
+template <typename T>
+std::optional<T> either(const std::optional<T>& first, const std::optional<T>& second) {
+  return first ? first : second;
+}
+
+}  // namespace
+
+CameraValues CameraValues::overridden_by(const CameraValues& over) const {
+  CameraValues values;
+  values.focal_length_mm = either(over.focal_length_mm, focal_length_mm);
+  values.sensor_width_mm = either(over.sensor_width_mm, sensor_width_mm);
+  values.focus_distance_units = either(over.focus_distance_units, focus_distance_units);
+  // The f-number and the diameter say the same thing: stating one replaces both.
+  const bool replaces_aperture = over.fstop || over.aperture_diameter_mm;
+  values.fstop = replaces_aperture ? over.fstop : fstop;
+  values.aperture_diameter_mm =
+      replaces_aperture ? over.aperture_diameter_mm : aperture_diameter_mm;
+  return values;
+}
+
+CameraValues read_camera_json(const std::string& path, const std::string& setting,
+                              double metres_per_unit) {
+  const json root = parse_file(path);
+  if (!root.is_object()) fail(ExitCode::input, "{}: not a JSON object", path);
+  const json focus = choose_setting(path, root, setting);
+  CameraValues values;
+  values.focal_length_mm = number(path, root, "focal_length_mm");
+  values.sensor_width_mm = number(path, root, "sensor_width_mm");
+  values.focus_distance_units =
+      scaled(number(path, focus, "focus_distance_m"), 1 / metres_per_unit);
+  // Renderers trace with the diameter; an f-number beside it is rounded or derived.
+  values.aperture_diameter_mm = scaled(number(path, focus, "aperture_diameter_m"), 1000);
+  if (!values.aperture_diameter_mm) values.fstop = number(path, focus, "f_stop");
+  return values;
+}
+
+CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit) {
+  CameraValues values;
+  // EXR standard attributes first (focus is in metres), then Nuke's and V-Ray's.
+  values.focal_length_mm = first_number(
+      file, {"FocalLength", "Exif:FocalLength", "exr/nuke/camera/focal", "nuke/camera/focal",
+             "cameraFocalLength", "vray/cameraFocalLength"});
+  values.sensor_width_mm =
+      first_number(file, {"exr/nuke/camera/haperture", "nuke/camera/haperture", "cameraAperture",
+                          "vray/cameraAperture"});
+  values.fstop = first_number(file, {"FNumber", "Exif:FNumber", "aperture", "cameraFNumber",
+                                     "vray/cameraFNumber", "exr/nuke/camera/fstop"});
+  values.focus_distance_units = scaled(
+      first_number(file, {"focus", "Exif:SubjectDistance"}), 1 / metres_per_unit);
+  if (!values.focus_distance_units) {  // scene units already
+    values.focus_distance_units =
+        first_number(file, {"exr/nuke/camera/focal_point", "nuke/camera/focal_point",
+                            "cameraFocusDistance", "cameraTargetDistance",
+                            "vray/cameraFocusDistance"});
+  }
+  return values;
+}
+
+Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel model,
+               double max_coc_px) {
+  std::vector<std::string> missing;
+  if (!values.focus_distance_units) missing.push_back("--focus");
+  if (!values.focal_length_mm) missing.push_back("--focal-length");
+  if (!values.fstop && !values.aperture_diameter_mm) {
+    missing.push_back("--fstop or --aperture-diameter");
+  }
+  if (!missing.empty()) {
+    fail(ExitCode::usage, "the lens is not complete: give {} (or --camera)", join(missing, ", "));
+  }
+  if (values.fstop && values.aperture_diameter_mm) {
+    fail(ExitCode::usage, "--fstop and --aperture-diameter say the same thing: give one of them");
+  }
+  if (values.fstop && !(*values.fstop > 0)) {
+    fail(ExitCode::usage, "f-number is {}: it must be above 0", *values.fstop);
+  }
+  Lens lens;
+  lens.focal_length_mm = *values.focal_length_mm;
+  lens.sensor_width_mm = values.sensor_width_mm.value_or(36);
+  lens.focus_distance_units = *values.focus_distance_units;
+  lens.aperture_diameter_mm = values.fstop ? lens.focal_length_mm / *values.fstop
+                                           : *values.aperture_diameter_mm;
+  lens.metres_per_unit = metres_per_unit;
+  lens.model = model;
+  lens.max_coc_px = max_coc_px;
+  validate(lens);
+  return lens;
+}
+
+}  // namespace defray

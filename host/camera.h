@@ -1,0 +1,37 @@
+#pragma once
+// Lens data from where pipelines keep them: camera.json and image metadata.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/image_file.h"
+#include "lens.h"
+
+namespace defray {
+
+/// Lens values as a source states them; whatever it does not state is empty.
+struct CameraValues {
+  std::optional<double> focal_length_mm;
+  std::optional<double> sensor_width_mm;
+  std::optional<double> fstop;
+  std::optional<double> aperture_diameter_mm;
+  std::optional<double> focus_distance_units;
+
+  /// Values of `over` win over these.
+  CameraValues overridden_by(const CameraValues& over) const;
+};
+
+/// A camera.json: focal_length_mm, sensor_width_mm, and focus_settings {name: {focus_distance_m,
+/// f_stop or aperture_diameter_m}}. `setting` picks one of several. Throws Error(input).
+CameraValues read_camera_json(const std::string& path, const std::string& setting,
+                              double metres_per_unit);
+
+/// Lens values among an image's metadata (standard EXR, Nuke and V-Ray keys). Empty where absent.
+CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit);
+
+/// The lens these values describe; 36 mm sensor width by default. Throws Error(usage) that names
+/// every value that is missing or contradicts another.
+Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel model,
+               double max_coc_px);
+
+}  // namespace defray

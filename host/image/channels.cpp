@@ -1,0 +1,271 @@
+#include "image/channels.h"
+
+#include <algorithm>
+#include <set>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+bool is_one_of(const std::string& word, const std::set<std::string>& words) {
+  return words.count(lower_case(word)) > 0;
+}
+
+std::string last_token(const std::string& layer) {
+  const auto tokens = split(layer, '.');
+  return tokens.empty() ? "" : tokens.back();
+}
+
+std::string first_token(const std::string& layer) { return layer.substr(0, layer.find('.')); }
+
+std::set<std::string> view_names(const std::vector<PartInfo>& parts) {
+  std::set<std::string> views{"left", "right"};
+  for (const PartInfo& part : parts) {
+    if (!part.view.empty()) views.insert(lower_case(part.view));
+    for (const std::string& view : part.views) views.insert(lower_case(view));
+  }
+  return views;
+}
+
+/// "rgba_left" and "rgba.left" of view "left" -> "rgba".
+std::string without_view(const std::string& name, const std::string& view) {
+  const std::string tail = lower_case(view);
+  if (view.empty() || name.size() <= tail.size() || !lower_case(name).ends_with(tail)) return name;
+  const std::size_t cut = name.size() - tail.size() - 1;
+  return name[cut] == '_' || name[cut] == '.' ? name.substr(0, cut) : name;
+}
+
+ChannelName take_apart(const std::vector<PartInfo>& parts, std::size_t part, std::size_t channel,
+                       const std::set<std::string>& views) {
+  const PartInfo& info = parts[part];
+  ChannelName name;
+  name.part = static_cast<int>(part);
+  name.channel = static_cast<int>(channel);
+  name.full = info.channels[channel];
+  name.view = info.view;
+  std::vector<std::string> layer = split(name.full, '.');
+  if (!layer.empty()) {
+    name.base = layer.back();
+    layer.pop_back();
+  }
+  // A token that is a view's name is not part of the layer; without one, a stereo file's channel
+  // belongs to the default view (OpenEXR's multi-view convention).
+  std::erase_if(layer, [&](const std::string& token) {
+    if (!is_one_of(token, views)) return false;
+    name.view = token;
+    return true;
+  });
+  if (name.view.empty() && !info.views.empty()) name.view = info.views.front();
+  name.layer = join(layer, ".");
+  if (name.layer.empty() && parts.size() > 1) name.layer = without_view(info.name, name.view);
+  return name;
+}
+
+/// Whole layer name, or its beginning or end at a dot; any case.
+bool layer_matches(const std::string& layer, const std::string& wanted) {
+  const std::string l = "." + lower_case(layer) + ".";
+  const std::string w = "." + lower_case(wanted) + ".";
+  return l.starts_with(w) || l.ends_with(w);
+}
+
+/// Channel index of base name `base` in this group, or -1.
+int find_base(const std::vector<ChannelName>& group, const std::string& base) {
+  for (const ChannelName& name : group) {
+    if (lower_case(name.base) == base) return name.channel;
+  }
+  return -1;
+}
+
+std::vector<ChannelName> group_of(const std::vector<ChannelName>& names, const ChannelName& one) {
+  std::vector<ChannelName> group;
+  for (const ChannelName& name : names) {
+    if (name.part == one.part && name.layer == one.layer && name.view == one.view) {
+      group.push_back(name);
+    }
+  }
+  return group;
+}
+
+std::vector<ColourChoice> colour_candidates(const std::vector<ChannelName>& names) {
+  std::vector<ColourChoice> found;
+  for (const ChannelName& name : names) {
+    if (lower_case(name.base) != "r" && lower_case(name.base) != "red") continue;
+    const std::vector<ChannelName> group = group_of(names, name);
+    const bool is_long = lower_case(name.base) == "red";
+    ColourChoice choice{name.part, name.layer, name.view, {name.channel}};
+    choice.channels.push_back(find_base(group, is_long ? "green" : "g"));
+    choice.channels.push_back(find_base(group, is_long ? "blue" : "b"));
+    if (std::count(choice.channels.begin(), choice.channels.end(), -1) > 0) continue;
+    const int alpha = find_base(group, is_long ? "alpha" : "a");
+    if (alpha >= 0) choice.channels.push_back(alpha);
+    found.push_back(choice);
+  }
+  return found;
+}
+
+/// Keeps the elements that `keep` accepts, unless it accepts none.
+template <typename T, typename Keep>
+void prefer(std::vector<T>& items, const Keep& keep) {
+  std::vector<T> kept;
+  std::copy_if(items.begin(), items.end(), std::back_inserter(kept), keep);
+  if (!kept.empty()) items = std::move(kept);
+}
+
+std::string colour_listing(const std::vector<ColourChoice>& choices) {
+  std::vector<std::string> lines;
+  for (const ColourChoice& c : choices) {
+    lines.push_back(fmt::format("layer '{}'{}", c.layer,
+                                c.view.empty() ? "" : fmt::format(" view '{}'", c.view)));
+  }
+  return join(lines, ", ");
+}
+
+/// How sure a name is to be the depth of `colour`: smaller is surer, -1: it is no depth.
+int depth_rank(const std::vector<ChannelName>& names, const ChannelName& name,
+               const ColourChoice& colour) {
+  static const std::set<std::string> depth_words{"depth", "z", "zdepth", "vrayzdepth", "pz"};
+  const std::string base = lower_case(name.base);
+  const std::string own_layer = last_token(name.layer);
+  const std::vector<ChannelName> group = group_of(names, name);
+  const bool is_vector = find_base(group, "x") >= 0 && find_base(group, "y") >= 0;
+  const bool is_depth_layer = is_one_of(own_layer, depth_words);
+  const bool in_colour_layer = name.layer == colour.layer;
+  const bool in_same_tree = first_token(name.layer) == first_token(colour.layer) ||
+                            name.layer.find('.') == std::string::npos;
+  if (is_one_of(base, depth_words) && !is_vector) {
+    if (in_colour_layer) return 0;
+    if (is_depth_layer && in_same_tree) return 1;
+    if (name.layer.empty()) return 2;
+    return is_depth_layer ? 3 : 4;
+  }
+  // Depth rendered into a colour-like layer, as V-Ray and Arnold do: one of its equal channels.
+  if (is_depth_layer && (base == "r" || base == "y" || base == "v")) return in_same_tree ? 1 : 3;
+  return -1;
+}
+
+std::string depth_listing(const std::vector<ChannelName>& names,
+                          const std::vector<PartInfo>& parts) {
+  std::vector<std::string> lines;
+  for (const ChannelName& name : names) lines.push_back(describe(name, parts));
+  return join(lines, ", ");
+}
+
+std::string channel_listing(const std::vector<ChannelName>& names) {
+  constexpr std::size_t shown = 24;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(shown, names.size()); ++i) lines.push_back(names[i].full);
+  if (names.size() > shown) lines.push_back(fmt::format("and {} more", names.size() - shown));
+  return join(lines, " ");
+}
+
+ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& parts,
+                        const std::vector<ChannelName>& names, const ChannelRequest& request,
+                        const ColourChoice& colour) {
+  std::vector<ChannelName> found;
+  std::vector<std::string> all;
+  for (const ChannelName& name : names) {
+    if (name.full == request.depth_channel) found.push_back(name);
+    all.push_back(name.full);
+  }
+  if (found.empty()) {
+    fail(ExitCode::input, "{}: has no channel '{}'.{} It has: {}", path, request.depth_channel,
+         did_you_mean(request.depth_channel, all), channel_listing(names));
+  }
+  prefer(found, [&](const ChannelName& n) { return n.view == colour.view; });
+  prefer(found, [&](const ChannelName& n) { return n.part == colour.part; });
+  if (found.size() > 1) {
+    fail(ExitCode::input, "{}: several channels are called '{}': {}; choose with --view", path,
+         request.depth_channel, depth_listing(found, parts));
+  }
+  return found.front();
+}
+
+}  // namespace
+
+std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts) {
+  const std::set<std::string> views = view_names(parts);
+  std::vector<ChannelName> names;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t c = 0; c < parts[p].channels.size(); ++c) {
+      names.push_back(take_apart(parts, p, c, views));
+    }
+  }
+  return names;
+}
+
+ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>& parts,
+                           const ChannelRequest& request) {
+  const std::vector<ChannelName> names = channel_names(parts);
+  const std::vector<ColourChoice> all = colour_candidates(names);
+  if (all.empty()) {
+    fail(ExitCode::input, "{}: no colour: no layer has channels R, G and B. It has: {}", path,
+         channel_listing(names));
+  }
+  std::vector<ColourChoice> left;
+  for (const ColourChoice& c : all) {
+    const bool right_view =
+        request.view.empty() || lower_case(c.view) == lower_case(request.view);
+    if (right_view && (request.layer.empty() || layer_matches(c.layer, request.layer))) {
+      left.push_back(c);
+    }
+  }
+  if (left.empty()) {
+    fail(ExitCode::input, "{}: no colour in layer '{}' view '{}'; there is {}", path, request.layer,
+         request.view, colour_listing(all));
+  }
+  static const std::set<std::string> beauty{"rgba", "rgb",    "beauty", "combined",
+                                            "c",    "colour", "color",  "main"};
+  if (request.layer.empty()) {
+    prefer(left, [](const ColourChoice& c) { return c.layer.empty(); });
+    prefer(left, [](const ColourChoice& c) {
+      return c.layer.empty() || is_one_of(last_token(c.layer), beauty);
+    });
+  }
+  if (request.view.empty() && !parts.front().views.empty()) {
+    prefer(left, [&](const ColourChoice& c) { return c.view == parts.front().views.front(); });
+  }
+  if (left.size() > 1) {
+    fail(ExitCode::input, "{}: colour could be {}; choose with --layer or --view", path,
+         colour_listing(left));
+  }
+  return left.front();
+}
+
+ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,
+                         const ChannelRequest& request, const ColourChoice& colour) {
+  const std::vector<ChannelName> names = channel_names(parts);
+  if (!request.depth_channel.empty()) return asked_depth(path, parts, names, request, colour);
+  std::vector<ChannelName> best;
+  int best_rank = -1;
+  for (const ChannelName& name : names) {
+    const bool other_view =
+        !name.view.empty() && !colour.view.empty() && name.view != colour.view;
+    const int rank = depth_rank(names, name, colour);
+    if (rank < 0 || other_view) continue;
+    if (best.empty() || rank < best_rank) {
+      best.clear();
+      best_rank = rank;
+    }
+    if (rank == best_rank) best.push_back(name);
+  }
+  if (best.empty()) {
+    fail(ExitCode::input,
+         "{}: no depth: no channel is called Z or depth (a Z beside X and Y is a vector). Give "
+         "--depth FILE or --depth-channel NAME. It has: {}",
+         path, channel_listing(names));
+  }
+  if (best.size() > 1) {
+    fail(ExitCode::input, "{}: depth could be {}; choose with --depth-channel", path,
+         depth_listing(best, parts));
+  }
+  return best.front();
+}
+
+std::string describe(const ChannelName& name, const std::vector<PartInfo>& parts) {
+  if (parts.size() < 2) return name.full;
+  return fmt::format("{} (part {})", name.full, parts[static_cast<std::size_t>(name.part)].name);
+}
+
+}  // namespace defray

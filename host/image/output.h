@@ -1,0 +1,25 @@
+#pragma once
+// Rendered frames to files of any of the formats that defray writes.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "image/channels.h"
+#include "image/image_file.h"
+
+namespace defray {
+
+/// Throws Error(usage) unless the extension of `path` is one that defray writes.
+void check_output_format(const std::string& path);
+
+/// Puts `colour` in place of the chosen channels of `file` and writes it. The input's own format
+/// keeps everything; another one keeps what it can hold, and `notes` says what was left out.
+void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
+                   const std::vector<Plane>& colour, std::vector<std::string>& notes);
+
+/// Writes signed CoC radii (pixels) as the float channel "coc", with the windows and metadata of
+/// `part` of `like`.
+void write_coc(const std::string& path, const ImageFile& like, int part,
+               const std::vector<std::int32_t>& coc_quanta);
+
+}  // namespace defray

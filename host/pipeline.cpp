@@ -1,0 +1,169 @@
+#include "pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "error.h"
+#include "image/output.h"
+#include "image/safe_output.h"
+#include "reference/reference.h"
+
+namespace defray {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A frame ready for the lens.
+struct Frame {
+  ImageFile file;
+  ColourChoice choice;
+  std::vector<Plane> colour;
+  Plane depth;
+  const PartInfo& part() const { return file.parts()[static_cast<std::size_t>(choice.part)]; }
+};
+
+void check_paths(const FramePaths& paths) {
+  std::error_code ignored;
+  for (const std::string& output : {paths.output, paths.coc}) {
+    if (output.empty()) continue;
+    for (const std::string& input : {paths.input, paths.depth}) {
+      if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
+        fail(ExitCode::usage, "{}: is input and output at once; write to another file", output);
+      }
+    }
+  }
+  if (paths.coc == paths.output) {
+    fail(ExitCode::usage, "{}: -o and --coc-out are the same file", paths.coc);
+  }
+}
+
+std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const Window& data,
+                             const std::string& path) {
+  std::size_t count = 0;
+  for (Plane& plane : colour) {
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      if (std::isfinite(plane[i])) continue;
+      ++count;
+      if (policy == Nonfinite::zero) plane[i] = 0;
+      if (policy == Nonfinite::error) {
+        const auto width = static_cast<std::size_t>(data.width);
+        fail(ExitCode::input,
+             "{}: colour {} at pixel ({}, {}); --nonfinite zero replaces such values, keep lets "
+             "them through",
+             path, plane[i], data.x + static_cast<int>(i % width),
+             data.y + static_cast<int>(i / width));
+      }
+    }
+  }
+  return count;
+}
+
+/// Depth from the colour's own file, or from another one with the same data window.
+Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const Frame& frame,
+                 FrameReport& report) {
+  std::optional<ImageFile> other;
+  if (!paths.depth.empty()) other = ImageFile::read(paths.depth);
+  const ImageFile& file = other ? *other : frame.file;
+  const ChannelName name =
+      choose_depth(file.path(), file.parts(), settings.request, frame.choice);
+  report.depth_channel = describe(name, file.parts());
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
+  if (part.data != report.data) {
+    fail(ExitCode::input,
+         "{}: depth {} has data window {}, colour in {} has {}; both must be the same", file.path(),
+         report.depth_channel, to_string(part.data), paths.input, to_string(report.data));
+  }
+  return file.plane(name.part, name.channel);
+}
+
+Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameReport& report) {
+  Frame frame{ImageFile::read(paths.input), {}, {}, {}};
+  frame.choice = choose_colour(paths.input, frame.file.parts(), settings.request);
+  const PartInfo& part = frame.part();
+  report.data = part.data;
+  report.display = part.display;
+  for (const int c : frame.choice.channels) {
+    report.colour_channels.push_back(part.channels[static_cast<std::size_t>(c)]);
+    frame.colour.push_back(frame.file.plane(frame.choice.part, c));
+  }
+  report.nonfinite =
+      handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
+  frame.depth = read_depth(paths, settings, frame, report);
+  CameraValues camera = settings.camera;
+  if (settings.camera_from_metadata) {
+    camera = camera_from_metadata(frame.file, settings.metres_per_unit).overridden_by(camera);
+  }
+  report.lens =
+      make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
+  report.depth = convert_depth(frame.depth, settings.depth, part.data, part.display,
+                               pixel_focal_length(report.lens, part.display.width),
+                               paths.depth.empty() ? paths.input : paths.depth);
+  const auto aspect = frame.file.metadata_number("PixelAspectRatio");
+  if (aspect && std::fabs(*aspect - 1) > 1e-6) {
+    report.notes.push_back(fmt::format(
+        "pixel aspect ratio {} is not modelled: the CoC is round in pixels", *aspect));
+  }
+  return frame;
+}
+
+void describe_coc(const std::vector<std::int32_t>& coc, const Lens& lens, FrameReport& report) {
+  const auto [smallest, largest] = std::minmax_element(coc.begin(), coc.end());
+  constexpr double quantum = 1.0 / (1 << DEFRAY_COC_FRACTION_BITS);
+  report.nearest_coc_px = *smallest * quantum;
+  report.farthest_coc_px = *largest * quantum;
+  const auto limit =
+      static_cast<std::int32_t>(coc_params(lens, report.display.width, 0).limit_quanta);
+  report.coc_limited = static_cast<std::size_t>(
+      std::count_if(coc.begin(), coc.end(), [&](auto q) { return std::abs(q) == limit; }));
+}
+
+std::vector<Plane> apply_lens(const Frame& frame, const RenderSettings& settings, Session* session,
+                              const std::vector<std::int32_t>& coc,
+                              const std::function<void(double)>& progress) {
+  const Window& data = frame.part().data;
+  if (session) {
+    return render_rdb(*session, data.width, data.height, coc, frame.depth, frame.colour,
+                      settings.rdb, progress);
+  }
+  return reference::render_rdb(data.width, data.height, coc, frame.depth, frame.colour,
+                               settings.rdb, progress);
+}
+
+}  // namespace
+
+FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings, Session* session,
+                         const std::function<void(double)>& progress) {
+  FrameReport report;
+  report.paths = paths;
+  check_paths(paths);
+  check_can_write(paths.output);
+  if (!paths.coc.empty()) check_can_write(paths.coc);
+
+  auto start = Clock::now();
+  Frame frame = read_frame(paths, settings, report);
+  report.read_seconds = seconds_since(start);
+
+  start = Clock::now();
+  const int width = report.display.width;
+  const std::vector<std::int32_t> coc =
+      session ? coc_on_device(*session, report.lens, width, frame.depth)
+              : reference::coc(report.lens, width, frame.depth);
+  describe_coc(coc, report.lens, report);
+  std::vector<Plane> result = apply_lens(frame, settings, session, coc, progress);
+  report.render_seconds = seconds_since(start);
+
+  start = Clock::now();
+  write_picture(paths.output, frame.file, frame.choice, result, report.notes);
+  if (!paths.coc.empty()) write_coc(paths.coc, frame.file, frame.choice.part, coc);
+  report.write_seconds = seconds_since(start);
+  return {std::move(report), std::move(result)};
+}
+
+}  // namespace defray

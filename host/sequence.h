@@ -1,0 +1,20 @@
+#pragma once
+// Frame sequences: patterns and ranges in OpenImageIO's notation.
+#include <string>
+#include <vector>
+
+namespace defray {
+
+/// True where a name holds a frame pattern: "####", "@@", "%04d".
+bool has_frame_pattern(const std::string& path);
+
+/// Frame numbers of "1-8", "1-10x2", "1,5,9-12". Throws Error(usage) on anything else.
+std::vector<int> parse_frames(const std::string& text);
+
+/// Numbers of the files that match a pattern, ascending. Throws Error(input) when none does.
+std::vector<int> find_frames(const std::string& pattern);
+
+/// The name of one frame; a name without a pattern stays as it is.
+std::string frame_path(const std::string& pattern, int frame);
+
+}  // namespace defray
