@@ -81,7 +81,8 @@ class SequenceRun {
       fmt::print(stderr, "defray: error: {}\n", error.what());
       return false;
     }
-    last_window_ = outcome.report.data;
+    last_data_ = outcome.report.data;
+    last_display_ = outcome.report.display;
     report(outcome);
     return true;
   }
@@ -94,7 +95,8 @@ class SequenceRun {
       return;
     }
     bar_.clear();
-    show("defray: " + options_.output, last_, last_window_.width, last_window_.height);
+    show("defray: " + options_.output, to_display_window(last_, last_data_, last_display_),
+         last_display_.width, last_display_.height);
   }
 
  private:
@@ -113,7 +115,7 @@ class SequenceRun {
   std::unique_ptr<Session> session_;
   std::string device_;
   std::vector<Plane> last_;
-  Window last_window_;
+  Window last_data_, last_display_;
 };
 
 int run(const RenderOptions& options) {

@@ -12,7 +12,7 @@ constexpr std::size_t bytes_per_cell = sizeof(RdbWinner);
 /// A pass that stays in the last-level cache scatters twice as fast as one that does not; below a
 /// band height of a few reaches, rows that two bands share cost more than that.
 constexpr std::size_t pass_bytes_in_cache = std::size_t{16} << 20;
-constexpr std::size_t bytes_per_sum = sizeof(cl_float4) + sizeof(cl_uint);
+constexpr std::size_t bytes_per_sum = sizeof(cl_float4) + sizeof(cl_uint2);
 
 DefrayRdbParams params_of(const RdbPass& pass, int width, int total_cells, const LensCells& cells,
                           std::uint32_t seed) {
@@ -161,7 +161,7 @@ std::vector<Plane> render_rdb(Session& session, int width, int height,
   const cl::Buffer winner =
       session.buffer(band * static_cast<std::size_t>(biggest.cell_count) * bytes_per_cell);
   const cl::Buffer sum = session.buffer(band * sizeof(cl_float4));
-  const cl::Buffer filled = session.buffer(band * sizeof(cl_uint));
+  const cl::Buffer filled = session.buffer(band * sizeof(cl_uint2));
   const cl::Buffer lens = lens_buffer(session, cells);
   std::vector<Plane> out(channels.size(), Plane(depth.size()));
 

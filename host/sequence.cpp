@@ -14,10 +14,19 @@ namespace Fs = OIIO::Filesystem;
 
 constexpr std::size_t max_frames = 1000000;
 
+/// OpenImageIO pads "#" to four digits and "####" to sixteen; everybody else means four by "####".
+/// Two or more become as many "@", which OpenImageIO takes for one digit each.
+std::string with_plain_hashes(std::string path) {
+  for (std::size_t at = path.find("##"); at != std::string::npos; at = path.find("##", at)) {
+    while (at < path.size() && path[at] == '#') path[at++] = '@';
+  }
+  return path;
+}
+
 /// The pattern in printf form ("shot.%04d.exr"), or empty where there is none.
 std::string normalized(const std::string& path) {
   std::string pattern, range;
-  if (!Fs::parse_pattern(path.c_str(), 0, pattern, range)) return "";
+  if (!Fs::parse_pattern(with_plain_hashes(path).c_str(), 0, pattern, range)) return "";
   return pattern;
 }
 

@@ -1,14 +1,16 @@
 // rdb_merge: the mean over the cells of each pixel's ray distribution buffer (Shinya 1994,
 // section 4, step 5).
 //
-// Cells that no ray reached do not count; a pixel without any ray keeps its own colour. The cells
-// come in passes, and sums run over them in lens order whatever the passes: one result, bit for
-// bit, for every band height and memory budget.
+// Cells that no ray reached do not count; a pixel without any ray keeps its own colour. The mean is
+// taken of the differences to the first cell's colour: equal colours, as in focus, come out bit for
+// bit. The cells come in passes, and sums run over them in lens order whatever the passes: one
+// result, bit for bit, for every band height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // channel0..3     [window_rows][width]             colour planes of the source window
-// sum             [band_rows][width]               sums; after the last pass the means
-// filled          [band_rows][width]               cells that a ray has reached so far
+// sum             [band_rows][width]               differences' sums; after the last pass the means
+// filled          [band_rows][width]               (x: cells that a ray has reached so far,
+//                                                   y: source of the first of them)
 // Global size: (width, band_rows).
 #include "params.h"
 
@@ -19,31 +21,32 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
                         __global const float* restrict channel1,
                         __global const float* restrict channel2,
                         __global const float* restrict channel3, __global float4* restrict sum,
-                        __global uint* restrict filled) {
+                        __global uint2* restrict filled) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
 
   const size_t target = (size_t)row * p.width + x;
+  const size_t own = (size_t)(p.band_y - p.window_y + row) * p.width + x;
   const size_t cell_stride = (size_t)p.band_rows * p.width;
   float4 total = p.is_first_pass ? (float4)(0.0f) : sum[target];
-  uint count = p.is_first_pass ? 0u : filled[target];
+  uint2 state = p.is_first_pass ? (uint2)(0u, (uint)own) : filled[target];
 
   for (uint cell = 0; cell < p.cell_count; ++cell) {
     const uint s = winner[cell * cell_stride + target].x;
     if (s == DEFRAY_EMPTY) continue;
-    total += (float4)(channel0[s], channel1[s], channel2[s], channel3[s]);
-    ++count;
+    if (state.x == 0u) state.y = s;
+    const uint f = state.y;
+    total += (float4)(channel0[s] - channel0[f], channel1[s] - channel1[f],
+                      channel2[s] - channel2[f], channel3[s] - channel3[f]);
+    ++state.x;
   }
 
   if (p.is_last_pass) {
-    if (count == 0u) {
-      const size_t own = (size_t)(p.band_y - p.window_y + row) * p.width + x;
-      total = (float4)(channel0[own], channel1[own], channel2[own], channel3[own]);
-    } else {
-      total /= (float)count;
-    }
+    const uint f = state.y;  // the pixel itself where no ray has arrived
+    const float4 first = (float4)(channel0[f], channel1[f], channel2[f], channel3[f]);
+    total = first + total / (float)max(state.x, 1u);
   }
   sum[target] = total;
-  filled[target] = count;
+  filled[target] = state;
 }

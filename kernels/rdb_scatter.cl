@@ -42,6 +42,14 @@ int2 jitter_offset(const uint x, const uint y, const uint seed, const int larges
   return (int2)((int)mul_hi(v.x, range) - largest, (int)mul_hi(v.y, range) - largest);
 }
 
+// Whether jittered cell u of pixel x is hit from pixel p: its sample may have left the aperture.
+bool arrives(const int2 x, const int2 p, const long r, const long2 u, const uint seed,
+             const int jitter) {
+  const long2 v = u + convert_long2(jitter_offset((uint)x.x, (uint)x.y, seed, jitter));
+  return v.x * v.x + v.y * v.y <= 1L << (2 * DEFRAY_LENS_FRACTION_BITS) &&
+         landing(r * v.x) == x.x - p.x && landing(r * v.y) == x.y - p.y;
+}
+
 void deposit(__global uint2* winner, const size_t slot, const uint depth, const uint source,
              const uint is_index_pass) {
 #ifdef DEFRAY_INT64_ATOMICS
@@ -66,28 +74,23 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   if (sx >= p.width || row >= p.window_rows || cell >= p.cell_count) return;
 
   const uint source = row * p.width + sx;
-  const long r = coc_quanta[source];
-  const long2 u = convert_long2(lens[p.first_cell + cell]);
-  const long spread = (r < 0 ? -r : r) * p.jitter_lens;
-  const int sy = (int)(p.window_y + row);
-  const int left = max((int)sx + landing(r * u.x - spread), 0);
-  const int right = min((int)sx + landing(r * u.x + spread), (int)p.width - 1);
-  const int top = max(sy + landing(r * u.y - spread), (int)p.band_y);
-  const int bottom = min(sy + landing(r * u.y + spread), (int)(p.band_y + p.band_rows) - 1);
   const uint depth = depth_bits[source];
+  const int radius = coc_quanta[source];
+  const long r = radius;
+  const long2 u = convert_long2(lens[p.first_cell + cell]);
+  const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
+  const int2 from = (int2)((int)sx, (int)(p.window_y + row));
+  const int left = max(from.x + landing(r * u.x - spread), 0);
+  const int right = min(from.x + landing(r * u.x + spread), (int)p.width - 1);
+  const int top = max(from.y + landing(r * u.y - spread), (int)p.band_y);
+  const int bottom = min(from.y + landing(r * u.y + spread), (int)(p.band_y + p.band_rows) - 1);
 
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
-      if (p.jitter_lens != 0) {
-        const long2 v = u + convert_long2(jitter_offset((uint)x, (uint)y, p.seed, p.jitter_lens));
-        const bool through_aperture =
-            v.x * v.x + v.y * v.y <= 1L << (2 * DEFRAY_LENS_FRACTION_BITS);
-        if (!through_aperture || landing(r * v.x) != x - (int)sx || landing(r * v.y) != y - sy) {
-          continue;
-        }
+      if (p.jitter_lens == 0 || arrives((int2)(x, y), from, r, u, p.seed, p.jitter_lens)) {
+        const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
+        deposit(winner, target, depth, source, p.is_index_pass);
       }
-      const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
-      deposit(winner, target, depth, source, p.is_index_pass);
     }
   }
 }

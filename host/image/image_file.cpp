@@ -254,6 +254,7 @@ void ImageFile::write(const std::string& path) const {
   for (const Part& part : parts_) {
     specs.push_back(part.spec);
     specs.back().erase_attribute("openexr:levelmode");  // the base level alone was read
+    specs.back().erase_attribute("openexr:chunkCount");  // the new file counts its own
   }
   if (specs.size() == 1) {
     check(output->open(path, specs.front()));

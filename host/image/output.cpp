@@ -1,5 +1,6 @@
 #include "image/output.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "error.h"
@@ -17,14 +18,33 @@ std::string extension(const std::string& path) {
 
 bool is_exr(const std::string& path) { return extension(path) == ".exr"; }
 
-void write_display_encoded(const std::string& path, const Window& data,
+void write_display_encoded(const std::string& path, const PartInfo& part,
                            const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   notes.push_back("values outside 0...1 are clipped by the 8-bit output");
-  const LdrPicture picture{data.width, data.height, {}, colour};
+  const LdrPicture picture{part.display.width, part.display.height, {},
+                           to_display_window(colour, part.data, part.display)};
   write_safely(path, [&](const std::string& name) { write_ldr(name, picture); });
 }
 
 }  // namespace
+
+std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Window& data,
+                                     const Window& display) {
+  if (data == display) return planes;
+  const auto size = [](int pixels) { return static_cast<std::size_t>(pixels); };
+  const int left = std::max(data.x, display.x);
+  const int right = std::min(data.x + data.width, display.x + display.width);
+  std::vector<Plane> out(planes.size(), Plane(size(display.width) * size(display.height)));
+  for (int y = display.y; y < display.y + display.height; ++y) {
+    if (y < data.y || y >= data.y + data.height || left >= right) continue;
+    const std::size_t from = size(y - data.y) * size(data.width) + size(left - data.x);
+    const std::size_t to = size(y - display.y) * size(display.width) + size(left - display.x);
+    for (std::size_t c = 0; c < planes.size(); ++c) {
+      std::copy_n(planes[c].data() + from, right - left, out[c].data() + to);
+    }
+  }
+  return out;
+}
 
 void check_output_format(const std::string& path) {
   const std::vector<std::string> allowed{".exr", ".tif", ".tiff", ".hdr", ".png", ".jpg", ".jpeg"};
@@ -39,7 +59,7 @@ void check_output_format(const std::string& path) {
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
-  if (is_ldr_path(path)) return write_display_encoded(path, part.data, colour, notes);
+  if (is_ldr_path(path)) return write_display_encoded(path, part, colour, notes);
   for (std::size_t c = 0; c < colour.size(); ++c) {
     file.set_plane(choice.part, choice.channels[c], colour[c]);
   }

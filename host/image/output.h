@@ -12,8 +12,13 @@ namespace defray {
 /// Throws Error(usage) unless the extension of `path` is one that defray writes.
 void check_output_format(const std::string& path);
 
+/// What the display window shows: planes cropped to it, black where there is no data.
+std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Window& data,
+                                     const Window& display);
+
 /// Puts `colour` in place of the chosen channels of `file` and writes it. The input's own format
 /// keeps everything; another one keeps what it can hold, and `notes` says what was left out.
+/// PNG and JPEG get the display window.
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes);
 

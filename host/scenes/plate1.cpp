@@ -73,12 +73,12 @@ Scene make_plate1(int width, int height) {
   scene.height = height;
   scene.lens.focal_length_mm = 50;
   scene.lens.sensor_width_mm = 36;
-  scene.lens.aperture_diameter_mm = 50 / 1.4;
+  scene.lens.aperture_diameter_mm = 50 / 0.95;
   scene.lens.focus_distance_units = 3;
   scene.primitives.push_back(std::make_unique<Rectangle>(-3, -3, 3, 3, 6, plaid));
   scene.primitives.push_back(std::make_unique<Rectangle>(-0.9, -0.05, 0.9, 0.03, 3, dark));
   scene.primitives.push_back(std::make_unique<Rectangle>(-0.42, -0.6, -0.38, 0.6, 3, dark));
-  scene.primitives.push_back(std::make_unique<Ball>(Vec3{0.25, 0.13, 1.6}, 0.16));
+  scene.primitives.push_back(std::make_unique<Ball>(Vec3{0.17, 0.1, 1.1}, 0.11));
   return scene;
 }
 

@@ -1,0 +1,97 @@
+#include "support.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <random>
+
+namespace defray::test {
+
+DeviceInfo device_under_test() {
+  const char* name = std::getenv("DEFRAY_TEST_DEVICE");
+  return select_device(name ? name : "");
+}
+
+Session& session() {
+  static Session shared(device_under_test());
+  return shared;
+}
+
+Session& session_without_int64() {
+  static Session shared(device_under_test(), false);
+  return shared;
+}
+
+bool is_slow_device() { return device_under_test().name.find("Oclgrind") != std::string::npos; }
+
+std::vector<Size> awkward_sizes() { return {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {640, 480}}; }
+
+namespace {
+
+std::size_t pixels(Size size) {
+  return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+
+}  // namespace
+
+Plane random_depth(Size size, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  Plane plane(pixels(size));
+  for (float& z : plane) {
+    const auto step = random() % 40;  // few values: many ties
+    z = step == 0 ? std::numeric_limits<float>::infinity() : 1.0f + 0.2f * static_cast<float>(step);
+  }
+  return plane;
+}
+
+std::vector<std::int32_t> random_coc(Size size, double largest_px, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<std::int32_t> coc(pixels(size));
+  for (std::int32_t& q : coc) {
+    q = static_cast<std::int32_t>(256 * largest_px * share(random));
+    if (random() % 4 == 0) q = q / 128 * 128;  // whole and half pixels: rays on pixel borders
+    if (random() % 8 == 0) q = 0;
+  }
+  return coc;
+}
+
+Plane random_plane(Size size, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> exponent(-6, 6);
+  Plane plane(pixels(size));
+  for (float& c : plane) c = std::exp2(exponent(random)) * (random() % 8 == 0 ? -1.0f : 1.0f);
+  return plane;
+}
+
+std::uint64_t hash_of(const std::vector<Plane>& planes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const Plane& plane : planes) {
+    for (const float value : plane) {
+      std::uint32_t bits;
+      std::memcpy(&bits, &value, sizeof(bits));
+      hash = (hash ^ bits) * 0x100000001b3u;
+    }
+  }
+  return hash;
+}
+
+Folder::Folder() {
+  std::string path = (std::filesystem::temp_directory_path() / "defray-test-XXXXXX").string();
+  if (!mkdtemp(path.data())) throw std::runtime_error("cannot make a temporary folder");
+  path_ = path;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string shared_folder() {
+  const std::filesystem::path folder = std::filesystem::path(DEFRAY_SOURCE_DIR) / ".." / "shared";
+  return std::filesystem::exists(folder) ? folder.string() : "";
+}
+
+}  // namespace defray::test

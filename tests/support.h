@@ -1,0 +1,87 @@
+#pragma once
+// What several tests share: the device under test, inputs that hurt, and a folder to write in.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rdb.h"
+
+namespace defray::test {
+
+/// The device that tests run on: $DEFRAY_TEST_DEVICE, else the default.
+DeviceInfo device_under_test();
+
+/// A session on it, shared by all tests of the process.
+Session& session();
+
+/// The same, without 64-bit atomics.
+Session& session_without_int64();
+
+/// True where every work-item costs a thousand times more (Oclgrind): fewer cells, same sizes.
+bool is_slow_device();
+
+struct Size {
+  int width, height;
+};
+
+/// 1x1, a column, a row, odd, prime, and a picture.
+std::vector<Size> awkward_sizes();
+
+/// Depths 1...9 with many ties, some background.
+Plane random_depth(Size size, std::uint32_t seed);
+
+/// Signed radii up to `largest_px`, whole, half and odd ones, both signs.
+std::vector<std::int32_t> random_coc(Size size, double largest_px, std::uint32_t seed);
+
+/// Colours of several magnitudes.
+Plane random_plane(Size size, std::uint32_t seed);
+
+/// FNV-1a over the bytes of planes.
+std::uint64_t hash_of(const std::vector<Plane>& planes);
+
+/// A folder of this test's own, removed with it.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The data folder beside the project, or an empty string: tests that need it skip themselves.
+std::string shared_folder();
+
+#define SKIP_WITHOUT_SHARED() \
+  if (defray::test::shared_folder().empty()) GTEST_SKIP() << "no ../shared beside the project"
+
+/// Expects an Error with this code whose message contains each of the words.
+template <typename Call>
+void expect_error(int code, const std::vector<std::string>& words, const Call& call);
+
+}  // namespace defray::test
+
+#include "error.h"
+
+template <typename Call>
+void defray::test::expect_error(int code, const std::vector<std::string>& words,
+                                const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(static_cast<int>(error.code()), code) << error.what();
+    for (const std::string& word : words) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
+          << "'" << word << "' is not in: " << error.what();
+    }
+    return;
+  }
+  ADD_FAILURE() << "no error was thrown";
+}
