@@ -52,7 +52,7 @@ cl::Buffer lens_buffer(Session& session, const LensCells& cells) {
 void scatter(Session& session, DefrayRdbParams p, const cl::Buffer& coc, const cl::Buffer& depth,
              const cl::Buffer& lens, const cl::Buffer& winner) {
   const std::size_t cells = std::size_t{p.cell_count} * p.band_rows * p.width;
-  session.fill(winner, DEFRAY_EMPTY, cells * bytes_per_cell);
+  session.launch("rdb_clear", DEFRAY_RDB_CLEAR_GROUP, {cells}, p, winner);
   const int scatters = session.has_int64_atomics() ? 1 : 2;
   for (int i = 0; i < scatters; ++i) {
     p.is_index_pass = i == 1;
@@ -61,11 +61,33 @@ void scatter(Session& session, DefrayRdbParams p, const cl::Buffer& coc, const c
   }
 }
 
-/// Moves a band's means from the device's float4 layout to the output planes.
-void store_band(const std::vector<cl_float4>& means, std::size_t first_pixel,
+/// The source rows that can reach a band, on the device.
+struct SourceWindow {
+  cl::Buffer coc, depth, channel[4];
+};
+
+SourceWindow view_window(Session& session, int width, const RdbPass& pass,
+                         const std::vector<std::int32_t>& coc, const Plane& depth,
+                         const std::vector<Plane>& channels) {
+  const auto view = [&](const auto& plane) {
+    return view_rows(session, plane, width, pass.window_y, pass.window_rows);
+  };
+  SourceWindow window{view(coc), view(depth), {}};
+  // The kernel always sums four channels; a missing one repeats the last and is not read back.
+  for (std::size_t c = 0; c < 4; ++c) {
+    window.channel[c] = c < channels.size() ? view(channels[c]) : window.channel[c - 1];
+  }
+  return window;
+}
+
+/// Reads a finished band's means and moves them to the output planes.
+void store_band(Session& session, const cl::Buffer& sum, int width, const RdbPass& pass,
                 std::vector<Plane>& out) {
+  std::vector<cl_float4> means(band_pixels(width, pass));
+  session.read(sum, means.data(), means.size() * sizeof(cl_float4));
+  const std::size_t first = static_cast<std::size_t>(pass.band_y) * static_cast<std::size_t>(width);
   for (std::size_t c = 0; c < out.size(); ++c) {
-    for (std::size_t i = 0; i < means.size(); ++i) out[c][first_pixel + i] = means[i].s[c];
+    for (std::size_t i = 0; i < means.size(); ++i) out[c][first + i] = means[i].s[c];
   }
 }
 
@@ -165,27 +187,19 @@ std::vector<Plane> render_rdb(Session& session, int width, int height,
   const cl::Buffer lens = lens_buffer(session, cells);
   std::vector<Plane> out(channels.size(), Plane(depth.size()));
 
+  SourceWindow window;
   for (std::size_t i = 0; i < passes.size(); ++i) {
     const RdbPass& pass = passes[i];
     const DefrayRdbParams p = params_of(pass, width, total, cells, settings.seed);
-    const auto window = [&](const auto& plane) {
-      return view_rows(session, plane, width, pass.window_y, pass.window_rows);
-    };
-    scatter(session, p, window(coc_quanta), window(depth), lens, winner);
-    // The kernel always sums four channels; a missing one repeats the last and is not read back.
-    const auto channel = [&](std::size_t c) {
-      return window(channels[std::min(c, channels.size() - 1)]);
-    };
-    session.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner,
-                   channel(0), channel(1), channel(2), channel(3), sum, filled);
-    if (p.is_last_pass) {
-      std::vector<cl_float4> means(band_pixels(width, pass));
-      session.read(sum, means.data(), means.size() * sizeof(cl_float4));
-      const RdbPass above{0, pass.band_y, 0, 0, 0, 0};
-      store_band(means, band_pixels(width, above), out);
-    } else {
-      session.finish();
+    if (p.is_first_pass) {
+      window = view_window(session, width, pass, coc_quanta, depth, channels);
     }
+    scatter(session, p, window.coc, window.depth, lens, winner);
+    session.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner,
+                   window.channel[0], window.channel[1], window.channel[2], window.channel[3], sum,
+                   filled);
+    session.finish();
+    if (p.is_last_pass) store_band(session, sum, width, pass, out);
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(passes.size()));
   }
   return out;

@@ -24,6 +24,7 @@
 
 /// Default work-groups (x, all other dimensions 1); any other size gives the same bits.
 #define DEFRAY_COC_GROUP 64
+#define DEFRAY_RDB_CLEAR_GROUP 256
 #define DEFRAY_RDB_SCATTER_GROUP 64
 #define DEFRAY_RDB_MERGE_GROUP 64
 

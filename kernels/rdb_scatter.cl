@@ -12,6 +12,8 @@
 // winner      [cell_count][band_rows][width]    (x: source index in the window, y: depth bits),
 //                                               all ones where no ray has arrived
 //
+// rdb_clear empties the cells before it. Global size: (cells of the pass).
+//
 // Build with -DDEFRAY_INT64_ATOMICS where the device has cl_khr_int64_extended_atomics: the pair
 // is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
 // of the indices that have this depth. Global size: (width, window_rows, cell_count).
@@ -54,7 +56,7 @@ void deposit(__global uint2* winner, const size_t slot, const uint depth, const 
              const uint is_index_pass) {
 #ifdef DEFRAY_INT64_ATOMICS
   (void)is_index_pass;
-  atom_min((volatile __global ulong*)(winner + slot), upsample(depth, source));
+  atom_min((volatile __global ulong*)(winner + slot), ((ulong)depth << 32) | source);
 #else
   volatile __global uint* half_keys = (volatile __global uint*)(winner + slot);
   if (!is_index_pass) {
@@ -63,6 +65,12 @@ void deposit(__global uint2* winner, const size_t slot, const uint depth, const 
     atomic_min(half_keys, source);
   }
 #endif
+}
+
+__kernel void rdb_clear(const DefrayRdbParams p, __global uint2* winner) {
+  const size_t i = get_global_id(0);
+  if (i >= (size_t)p.cell_count * p.band_rows * p.width) return;
+  winner[i] = (uint2)(DEFRAY_EMPTY);
 }
 
 __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict coc_quanta,

@@ -22,6 +22,7 @@ struct DeviceInfo {
   std::size_t max_buffer_bytes = 0;
   bool has_int64_atomics = false;  ///< Packed z-test; without it the scatter runs twice.
   bool has_double = false;
+  bool shares_host_memory = false;  ///< A CPU: buffers can be host memory itself.
 };
 
 /// Every device of every platform, in platform order; empty where there is none.

@@ -88,16 +88,11 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
          "lower --max-coc",
          bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
   }
-  // The flag makes it read-only to kernels; OpenCL's signature has no const.
+  // A CPU works in host memory itself; anything else gets its copy once, here.
+  const cl_mem_flags how = info_.shares_host_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
   return checked(info_, "clCreateBuffer", [&] {
-    return cl::Buffer(context_, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes,
-                      const_cast<void*>(data));
-  });
-}
-
-void Session::fill(const cl::Buffer& buffer, unsigned value, std::size_t bytes) {
-  checked(info_, "clEnqueueFillBuffer", [&] {
-    queue_.enqueueFillBuffer(buffer, static_cast<cl_uint>(value), 0, bytes);
+    // OpenCL's signature has no const; the flag makes it read-only to kernels.
+    return cl::Buffer(context_, CL_MEM_READ_ONLY | how, bytes, const_cast<void*>(data));
   });
 }
 

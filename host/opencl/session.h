@@ -23,11 +23,10 @@ class Session {
 
   cl::Buffer buffer(std::size_t bytes);
 
-  /// A read-only view of host memory; no copy on a CPU device. The memory must stay alive and
-  /// unchanged as long as the buffer.
+  /// A read-only view of host memory; no copy where the device shares it. The memory must stay
+  /// alive and unchanged as long as the buffer.
   cl::Buffer view(const void* data, std::size_t bytes);
 
-  void fill(const cl::Buffer& buffer, unsigned value, std::size_t bytes);
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
 
   /// Enqueues kernel `name` over at least `global` work-items (kernels test their bounds).

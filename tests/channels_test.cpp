@@ -1,0 +1,106 @@
+// Choosing colour and depth by channel names.
+#include "image/channels.h"
+
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+PartInfo part(std::vector<std::string> channels, std::string name = "", std::string view = "",
+              std::vector<std::string> views = {}) {
+  return {name, view, views, channels, {0, 0, 4, 4}, {0, 0, 4, 4}};
+}
+
+ColourChoice colour(const std::vector<PartInfo>& parts, const ChannelRequest& request = {}) {
+  return choose_colour("f.exr", parts, request);
+}
+
+std::string depth(const std::vector<PartInfo>& parts, const ChannelRequest& request = {}) {
+  return choose_depth("f.exr", parts, request, colour(parts, request)).full;
+}
+
+TEST(Channels, PlainFile) {
+  const std::vector<PartInfo> parts{part({"A", "B", "G", "R", "Z"})};
+  EXPECT_EQ(colour(parts).channels, (std::vector<int>{3, 2, 1, 0}));
+  EXPECT_EQ(depth(parts), "Z");
+}
+
+TEST(Channels, BlenderLayers) {
+  const std::vector<PartInfo> parts{
+      part({"ViewLayer.Combined.A", "ViewLayer.Combined.B", "ViewLayer.Combined.G",
+            "ViewLayer.Combined.R", "ViewLayer.Depth.Z", "ViewLayer.Denoising Depth.Z",
+            "ViewLayer.DiffCol.R", "ViewLayer.DiffCol.G", "ViewLayer.DiffCol.B",
+            "ViewLayer.Normal.X", "ViewLayer.Normal.Y", "ViewLayer.Normal.Z"})};
+  EXPECT_EQ(colour(parts).layer, "ViewLayer.Combined");
+  EXPECT_EQ(depth(parts), "ViewLayer.Depth.Z");
+  EXPECT_EQ(colour(parts, {"DiffCol", "", ""}).layer, "ViewLayer.DiffCol");
+  EXPECT_EQ(depth(parts, {"", "", "ViewLayer.Denoising Depth.Z"}), "ViewLayer.Denoising Depth.Z");
+}
+
+TEST(Channels, DepthOfTheColoursOwnViewLayer) {
+  const std::vector<PartInfo> parts{part({"A.Combined.R", "A.Combined.G", "A.Combined.B",
+                                          "A.Depth.Z", "B.Combined.R", "B.Combined.G",
+                                          "B.Combined.B", "B.Depth.Z"})};
+  expect_error(3, {"A.Combined", "B.Combined", "--layer"}, [&] { colour(parts); });
+  EXPECT_EQ(depth(parts, {"B", "", ""}), "B.Depth.Z");
+  EXPECT_EQ(depth(parts, {"A.Combined", "", ""}), "A.Depth.Z");
+}
+
+TEST(Channels, OtherNamesOfDepth) {
+  for (const std::string name : {"depth.Z", "depth", "Depth.z", "ZDepth", "VRayZDepth.R", "Pz"}) {
+    EXPECT_EQ(depth({part({"R", "G", "B", name})}), name);
+  }
+}
+
+TEST(Channels, AVectorsZIsNoDepth) {
+  expect_error(3, {"no depth", "N.Z", "--depth-channel"},
+               [] { depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})}); });
+  EXPECT_EQ(depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z", "Z"})}), "Z");
+}
+
+TEST(Channels, SeveralDepthsAreAmbiguous) {
+  expect_error(3, {"depth.Z", "zdepth.Z", "--depth-channel"},
+               [] { depth({part({"R", "G", "B", "depth.Z", "zdepth.Z"})}); });
+}
+
+TEST(Channels, SinglePartStereo) {
+  const std::vector<PartInfo> parts{part({"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"},
+                                         "", "", {"right", "left"})};
+  EXPECT_EQ(colour(parts).view, "right");  // the file's default view
+  EXPECT_EQ(depth(parts), "Z");
+  EXPECT_EQ(depth(parts, {"", "left", ""}), "left.Z");
+  EXPECT_EQ(colour(parts, {"", "left", ""}).channels, (std::vector<int>{4, 5, 6}));
+  expect_error(3, {"view 'middle'", "right", "left"},
+               [&] { colour(parts, {"", "middle", ""}); });
+}
+
+TEST(Channels, MultiPartStereo) {
+  const std::vector<PartInfo> parts{
+      part({"R", "G", "B"}, "rgba_right", "right"), part({"Z"}, "depth_left", "left"),
+      part({"R", "G", "B"}, "rgba_left", "left"), part({"Z"}, "depth_right", "right")};
+  expect_error(3, {"view 'right'", "view 'left'", "--view"}, [&] { colour(parts); });
+  const ChannelRequest left{"", "left", ""};
+  EXPECT_EQ(colour(parts, left).part, 2);
+  EXPECT_EQ(choose_depth("f.exr", parts, left, colour(parts, left)).part, 1);
+  // Asking for "Z" by name still means the chosen view's.
+  const ChannelRequest right{"", "right", "Z"};
+  EXPECT_EQ(choose_depth("f.exr", parts, right, colour(parts, right)).part, 3);
+}
+
+TEST(Channels, PartsNamedAsLayers) {
+  const std::vector<PartInfo> parts{part({"R", "G", "B"}, "beauty"),
+                                    part({"R", "G", "B"}, "diffuse"), part({"Z"}, "depth")};
+  EXPECT_EQ(colour(parts).layer, "beauty");
+  EXPECT_EQ(colour(parts, {"diffuse", "", ""}).part, 1);
+  EXPECT_EQ(depth(parts), "Z");
+}
+
+TEST(Channels, ErrorsListWhatThereIs) {
+  expect_error(3, {"no colour", "Y", "Z"}, [] { colour({part({"Y", "Z"})}); });
+  expect_error(3, {"layer 'specular'"}, [] { colour({part({"R", "G", "B"})}, {"specular", "", ""}); });
+  expect_error(3, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"},
+               [] { depth({part({"R", "G", "B", "depth.Z"})}, {"", "", "depht.Z"}); });
+}
+
+}  // namespace
+}  // namespace defray::test

@@ -1,0 +1,205 @@
+// Image files: what is read is written back; what is damaged is refused.
+#include <cmath>
+#include <fstream>
+
+#include "image/image_file.h"
+#include "image/ldr.h"
+#include "image/output.h"
+#include "image/safe_output.h"
+#include "metrics.h"
+#include "scenes/scene.h"
+#include "support.h"
+#include "text.h"
+
+namespace defray::test {
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(ImageFile, RoundTripKeepsHalfAndFloat) {
+  const Folder folder;
+  const Plane r{0.1f, 65504, -2, 0}, z{1.00001f, 3e8f, 7, 1e-7f};
+  for (const Sample sample : {Sample::half_float, Sample::single_float}) {
+    ImageFile::from_planes({"R", "Z"}, {r, z}, 2, 2, sample).write(folder / "a.exr");
+    const ImageFile read = ImageFile::read(folder / "a.exr");
+    const double tolerance = sample == Sample::half_float ? 1e-3 : 0;
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(read.plane(0, 0)[i], r[i], tolerance);
+  }
+}
+
+TEST(ImageFile, SharedMultiPartFileSurvivesUntouched) {
+  SKIP_WITHOUT_SHARED();
+  const Folder folder;
+  const ImageFile in = ImageFile::read(shared_folder() + "/images/beachball/multipart.0001.exr");
+  in.write(folder / "out.exr");
+  const ImageFile out = ImageFile::read(folder / "out.exr");
+  ASSERT_EQ(in.parts().size(), 10u);
+  ASSERT_EQ(out.parts().size(), 10u);
+  for (std::size_t p = 0; p < 10; ++p) {
+    EXPECT_EQ(in.parts()[p].name, out.parts()[p].name);
+    EXPECT_EQ(in.parts()[p].view, out.parts()[p].view);
+    EXPECT_EQ(in.parts()[p].data, out.parts()[p].data);
+    EXPECT_EQ(in.parts()[p].display, out.parts()[p].display);
+    ASSERT_EQ(in.parts()[p].channels, out.parts()[p].channels);
+    for (std::size_t c = 0; c < in.parts()[p].channels.size(); ++c) {
+      const int part = static_cast<int>(p), channel = static_cast<int>(c);
+      EXPECT_EQ(hash_of({in.plane(part, channel)}), hash_of({out.plane(part, channel)}));
+    }
+  }
+}
+
+TEST(ImageFile, EveryDamagedFileIsRefusedUnderBothNames) {
+  SKIP_WITHOUT_SHARED();
+  const Folder folder;
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(shared_folder() + "/images/damaged")) {
+    const std::string copy = folder / "damaged.exr";
+    std::filesystem::copy_file(entry.path(), copy,
+                               std::filesystem::copy_options::overwrite_existing);
+    for (const std::string& path : {entry.path().string(), copy}) {
+      expect_error(3, {path}, [&] { ImageFile::read(path); });
+    }
+    ++count;
+  }
+  EXPECT_EQ(count, 92u);
+}
+
+TEST(ImageFile, TruncatedAtEveryLength) {
+  const Folder folder;
+  const Size size{40, 30};
+  ImageFile::from_planes({"R", "G", "B"}, {random_plane(size, 1), random_plane(size, 2),
+                                           random_plane(size, 3)}, 40, 30)
+      .write(folder / "whole.exr");
+  const std::string whole = bytes_of(folder / "whole.exr");
+  for (std::size_t length = 0; length + 40 < whole.size(); length += 97) {
+    std::ofstream(folder / "cut.exr", std::ios::binary) << whole.substr(0, length);
+    expect_error(3, {"cut.exr"}, [&] { ImageFile::read(folder / "cut.exr"); });
+  }
+}
+
+TEST(ImageFile, AbsurdHeaderSizesAreRefusedBeforeAllocation) {
+  const Folder folder;
+  ImageFile::from_planes({"R"}, {Plane(4)}, 2, 2).write(folder / "a.exr");
+  std::string bytes = bytes_of(folder / "a.exr");
+  const std::size_t window = bytes.find("dataWindow") + 11 + 6 + 4;
+  const std::uint32_t far = 3000000;
+  for (const std::size_t corner : {std::size_t{8}, std::size_t{12}}) {
+    bytes.replace(window + corner, 4, reinterpret_cast<const char*>(&far), 4);
+  }
+  std::ofstream(folder / "huge.exr", std::ios::binary) << bytes;
+  expect_error(3, {"huge.exr", "allowed"}, [&] { ImageFile::read(folder / "huge.exr"); });
+}
+
+TEST(ImageFile, MissingFilesAndFolders) {
+  const Folder folder;
+  expect_error(3, {"none.exr", "no such file"}, [&] { ImageFile::read(folder / "none.exr"); });
+  expect_error(3, {"is a folder"}, [&] { ImageFile::read(folder.path()); });
+}
+
+TEST(Ldr, EncodesAndDecodesSrgb) {
+  for (int i = 0; i <= 255; ++i) {
+    EXPECT_NEAR(255 * srgb_encode(srgb_decode(i / 255.0)), i, 1e-9);
+  }
+  EXPECT_NEAR(srgb_encode(0.18), 0.4613561, 1e-6);  // middle grey
+}
+
+TEST(Ldr, EveryByteSurvivesPng) {
+  const Folder folder;
+  LdrPicture picture{16, 16, {"R", "G", "B"}, std::vector<Plane>(3, Plane(256))};
+  for (std::size_t i = 0; i < 256; ++i) {
+    picture.planes[0][i] = static_cast<float>(srgb_decode(i / 255.0));
+    picture.planes[1][i] = 0.25f;
+    picture.planes[2][i] = 2;  // clipped to 1
+  }
+  write_ldr(folder / "a.png", picture);
+  const LdrPicture read = read_ldr(folder / "a.png");
+  for (std::size_t i = 0; i < 256; ++i) {
+    EXPECT_NEAR(read.planes[0][i], picture.planes[0][i], 1e-6) << i;
+    EXPECT_EQ(read.planes[2][i], 1);
+  }
+}
+
+TEST(Ldr, PngAlphaIsStraightAndOursPremultiplied) {
+  const Folder folder;
+  write_ldr(folder / "a.png", {1, 1, {"R", "G", "B", "A"}, {{0.25f}, {0.1f}, {0}, {0.5f}}});
+  const LdrPicture read = read_ldr(folder / "a.png");
+  ASSERT_EQ(read.planes.size(), 4u);
+  EXPECT_NEAR(read.planes[0][0], 0.25, 0.004);
+  EXPECT_NEAR(read.planes[3][0], 0.5, 0.002);
+}
+
+TEST(Output, DisplayWindowCropsAndPads) {
+  const Window display{0, 0, 4, 3};
+  const Plane inside = to_display_window({{1, 2}}, {1, 1, 2, 1}, display)[0];
+  EXPECT_EQ(inside, (Plane{0, 0, 0, 0, 0, 1, 2, 0, 0, 0, 0, 0}));
+  Plane over(36);
+  for (std::size_t i = 0; i < 36; ++i) over[i] = static_cast<float>(i);
+  const Plane cropped = to_display_window({over}, {-1, -1, 6, 6}, display)[0];
+  EXPECT_EQ(cropped, (Plane{7, 8, 9, 10, 13, 14, 15, 16, 19, 20, 21, 22}));
+  EXPECT_EQ(to_display_window({{5}}, {9, 9, 1, 1}, display)[0], Plane(12));
+}
+
+TEST(SafeOutput, FailureLeavesTheOldFileAndNothingElse) {
+  const Folder folder;
+  std::ofstream(folder / "out.txt") << "old";
+  expect_error(4, {"out.txt", "broken"}, [&] {
+    write_safely(folder / "out.txt", [](const std::string& name) {
+      std::ofstream(name) << "half";
+      fail(ExitCode::output, "{}: broken", name);
+    });
+  });
+  EXPECT_EQ(bytes_of(folder / "out.txt"), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(SafeOutput, UnwritablePlacesAreFoundEarly) {
+  const Folder folder;
+  expect_error(4, {"cannot write in folder"}, [&] { check_can_write(folder / "no/such/out.exr"); });
+  expect_error(4, {"cannot write in folder"}, [] { check_can_write("/proc/out.exr"); });
+  expect_error(4, {"is a folder"}, [&] { check_can_write(folder.path()); });
+}
+
+TEST(Metrics, KnownDifferences) {
+  const Plane a(100, 0.5f), b(100, 0.6f);
+  const Comparison c = compare({a, a, a}, {b, b, b}, 10);
+  EXPECT_NEAR(c.psnr_linear_db, 20, 1e-4);
+  EXPECT_NEAR(c.psnr_srgb_db, -20 * std::log10(srgb_encode(0.6) - srgb_encode(0.5)), 1e-4);
+  EXPECT_NEAR(c.rms, 0.1, 1e-6);
+  Plane spot = a;
+  spot[37] = 3;
+  const Comparison worst = compare({a, a, spot}, {a, a, a}, 10);
+  EXPECT_EQ(worst.worst_x, 7);
+  EXPECT_EQ(worst.worst_y, 3);
+  EXPECT_NEAR(worst.worst, 2.5, 1e-6);
+  EXPECT_TRUE(std::isinf(compare({a, a, a}, {a, a, a}, 10).psnr_srgb_db));
+}
+
+TEST(Scene, TruthIsSharpInFocusAndDeterministic) {
+  const Scene scene = make_scene("plate1", 64, 48);
+  const ScenePicture pinhole = render_pinhole(scene);
+  const ScenePicture truth = render_truth(scene, 64, 1), again = render_truth(scene, 64, 1);
+  EXPECT_EQ(hash_of(truth.colour), hash_of(again.colour));
+  EXPECT_NE(hash_of(truth.colour), hash_of(render_truth(scene, 64, 2).colour));
+  // The middle of the bar in focus stays as dark as it was: nothing shines through.
+  const std::size_t bar = 23 * 64 + 20;
+  ASSERT_NEAR(pinhole.depth[bar], 3, 1e-6);
+  EXPECT_NEAR(truth.colour[0][bar], pinhole.colour[0][bar], 1e-6);
+  expect_error(2, {"unknown scene 'plat1'", "plate1"}, [] { make_scene("plat1", 64, 48); });
+  expect_error(2, {"scene size"}, [] { make_scene("plate1", 0, 48); });
+  expect_error(2, {"--truth-samples"}, [&] { render_truth(scene, 0, 1); });
+}
+
+TEST(Text, NearestSpelling) {
+  const std::vector<std::string> words{"--focus", "--fstop", "--focal-length"};
+  EXPECT_EQ(nearest_spelling("--focsu", words), "--focus");
+  EXPECT_EQ(nearest_spelling("--fstp", words), "--fstop");
+  EXPECT_EQ(nearest_spelling("--focal-lenght", words), "--focal-length");
+  EXPECT_EQ(nearest_spelling("--zzz", words), "");
+}
+
+}  // namespace
+}  // namespace defray::test
