@@ -86,12 +86,10 @@ TEST(ImageFile, AbsurdHeaderSizesAreRefusedBeforeAllocation) {
   ImageFile::from_planes({"R"}, {Plane(4)}, 2, 2).write(folder / "a.exr");
   std::string bytes = bytes_of(folder / "a.exr");
   const std::size_t window = bytes.find("dataWindow") + 11 + 6 + 4;
-  const std::uint32_t far = 3000000;
-  for (const std::size_t corner : {std::size_t{8}, std::size_t{12}}) {
-    bytes.replace(window + corner, 4, reinterpret_cast<const char*>(&far), 4);
-  }
+  const std::uint32_t far_right = 3000000;
+  bytes.replace(window + 8, 4, reinterpret_cast<const char*>(&far_right), 4);
   std::ofstream(folder / "huge.exr", std::ios::binary) << bytes;
-  expect_error(3, {"huge.exr", "allowed"}, [&] { ImageFile::read(folder / "huge.exr"); });
+  expect_error(3, {"huge.exr", "3000001x2", "allowed"}, [&] { ImageFile::read(folder / "huge.exr"); });
 }
 
 TEST(ImageFile, MissingFilesAndFolders) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <random>
 
 namespace defray::test {
@@ -14,14 +15,39 @@ DeviceInfo device_under_test() {
   return select_device(name ? name : "");
 }
 
+namespace {
+
+/// Sessions end with the tests: an OpenCL runtime may be gone when static objects are destroyed.
+class Sessions : public testing::Environment {
+ public:
+  std::unique_ptr<Session> with_int64, without_int64;
+  void TearDown() override {
+    with_int64.reset();
+    without_int64.reset();
+  }
+};
+
+Sessions& sessions() {
+  static auto* const environment =
+      static_cast<Sessions*>(testing::AddGlobalTestEnvironment(new Sessions));
+  return *environment;
+}
+
+// Registered before the tests run: gtest ignores an environment that comes later.
+[[maybe_unused]] const Sessions& registered = sessions();
+
+}  // namespace
+
 Session& session() {
-  static Session shared(device_under_test());
-  return shared;
+  auto& shared = sessions().with_int64;
+  if (!shared) shared = std::make_unique<Session>(device_under_test());
+  return *shared;
 }
 
 Session& session_without_int64() {
-  static Session shared(device_under_test(), false);
-  return shared;
+  auto& shared = sessions().without_int64;
+  if (!shared) shared = std::make_unique<Session>(device_under_test(), false);
+  return *shared;
 }
 
 bool is_slow_device() { return device_under_test().name.find("Oclgrind") != std::string::npos; }

@@ -1,0 +1,177 @@
+// The program in awkward places: cold and unwritable kernel caches, no device, no display, a full
+// disk, signals, huge frames.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace defray::test {
+namespace {
+
+bool has_program(const std::string& name) {
+  const Folder folder;
+  return shell(folder, "command -v " + name).code == 0;
+}
+
+TEST(Devices, ListsInTextAndJson) {
+  const Folder folder;
+  const Result text = defray(folder, "devices");
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_NE(text.out.find("work-groups up to"), std::string::npos) << text.out;
+  const auto list = nlohmann::json::parse(defray(folder, "devices --json").out);
+  ASSERT_GE(list.size(), 1u);
+  EXPECT_TRUE(list[0].contains("int64_atomics"));
+}
+
+TEST(Devices, CanBeChosenByIndexAndNamePart) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  for (const char* name : {"0", "portable", "PTHREAD"}) {
+    const Result result =
+        defray(folder, "render in.exr -o out.exr --device " + std::string(name) + lens);
+    EXPECT_EQ(result.code, 0) << name << ": " << result.err;
+  }
+}
+
+TEST(Devices, NoneIsAnErrorThatNamesThePackage) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  const std::string none = "OCL_ICD_VENDORS='" + folder.path() + "'";
+  for (const std::string& command : {"render in.exr -o out.exr" + lens, std::string("devices")}) {
+    const Result result = defray(folder, command, none);
+    EXPECT_EQ(result.code, 5);
+    EXPECT_NE(result.err.find("pocl-opencl-icd"), std::string::npos) << result.err;
+  }
+  // The scalar twin needs no device.
+  EXPECT_EQ(defray(folder, "render in.exr -o out.exr --device reference" + lens, none).code, 0);
+}
+
+TEST(KernelCache, UnwritableFallsBackToAPrivateOne) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  std::ofstream(folder / "file") << "no folder";
+  // Not even root can make a folder inside a file.
+  const std::string home = "env -u XDG_CACHE_HOME HOME='" + (folder / "file") + "'";
+  const std::string variables[] = {"POCL_CACHE_DIR='" + (folder / "file") + "'",
+                                   "XDG_CACHE_HOME='" + (folder / "file") + "'", home};
+  for (const std::string& variable : variables) {
+    const std::string temporary = " TMPDIR='" + folder.path() + "'";
+    const Result result = defray(folder, "render in.exr -o out.exr" + lens,
+                                 (variable == home ? variable : "env " + variable) + temporary);
+    EXPECT_EQ(result.code, 0) << variable << ": " << result.err;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      EXPECT_EQ(entry.path().filename().string().find("defray-kcache"), std::string::npos);
+    }
+  }
+}
+
+TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  for (int round = 0; round < 5; ++round) {
+    const std::string cache = folder / ("cache" + std::to_string(round));
+    std::string command = "export POCL_CACHE_DIR='" + cache + "'; pids=; ";
+    for (int i = 0; i < 6; ++i) {
+      command += program() + " render in.exr -q -o out" + std::to_string(i) + ".exr" + lens +
+                 "& pids=\"$pids $!\"; ";
+    }
+    command += "bad=0; for p in $pids; do wait $p || bad=1; done; exit $bad";
+    const Result result = shell(folder, "(" + command + ")");
+    EXPECT_EQ(result.code, 0) << "round " << round << ": " << result.err;
+  }
+}
+
+TEST(Show, IsSkippedWithoutADisplay) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  const Result none = defray(folder, "render in.exr -o out.exr --show" + lens,
+                             "env -u DISPLAY -u WAYLAND_DISPLAY");
+  EXPECT_EQ(none.code, 0);
+  EXPECT_NE(none.err.find("--show skipped: neither DISPLAY"), std::string::npos) << none.err;
+  const Result dead = defray(folder, "render in.exr -o out.exr --show" + lens,
+                             "env -u WAYLAND_DISPLAY DISPLAY=:397");
+  EXPECT_EQ(dead.code, 0);
+  EXPECT_NE(dead.err.find("no X server answers"), std::string::npos) << dead.err;
+}
+
+TEST(Show, OpensARealWindowUntilAKeyIsPressed) {
+  if (!has_program("Xvfb") || !has_program("xdotool")) GTEST_SKIP() << "needs Xvfb and xdotool";
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  const std::string display = ":" + std::to_string(100 + getpid() % 800);
+  const Result result = shell(
+      folder,
+      "export DISPLAY=" + display + "; unset WAYLAND_DISPLAY; Xvfb $DISPLAY -screen 0 800x600x24 "
+      ">/dev/null 2>&1 & server=$!; n=0; until xdotool getdisplaygeometry >/dev/null 2>&1 || [ $n -gt 100 ]; "
+      "do sleep 0.1; n=$((n+1)); done; " +
+          program() + " render in.exr -o out.exr --show -q" + lens +
+          "& job=$!; window=$(timeout 20 xdotool search --sync --onlyvisible --name defray | head -1); "
+          "echo window $window; sleep 1; xdotool windowfocus $window key --window $window q; "
+          "wait $job; code=$?; kill $server; wait $server; exit $code");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("window "), std::string::npos);
+  EXPECT_GT(result.out.size(), std::string("window \n").size()) << "no window appeared";
+}
+
+TEST(Output, FullDiskLeavesTheOldFile) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root to mount a small file system";
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {320, 200});
+  std::filesystem::create_directory(folder / "disk");
+  if (shell(folder, "mount -t tmpfs -o size=64k tmpfs disk").code != 0) {
+    GTEST_SKIP() << "cannot mount here";
+  }
+  std::ofstream(folder / "disk/out.exr") << "old";
+  const Result exr = defray(folder, "render in.exr -o disk/out.exr" + lens);
+  const Result png = defray(folder, "render in.exr -o disk/out.png" + lens);
+  const std::string left = shell(folder, "ls -A disk; cat disk/out.exr").out;
+  shell(folder, "umount disk");
+  EXPECT_EQ(exr.code, 4) << exr.err;
+  EXPECT_EQ(png.code, 4) << png.err;
+  EXPECT_NE(exr.err.find("out.exr"), std::string::npos) << exr.err;
+  EXPECT_EQ(left, "out.exr\nold");
+}
+
+TEST(Output, InterruptedRunLeavesNothingBehind) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {640, 480});
+  std::filesystem::create_directory(folder / "out");
+  for (const char* delay : {"0.1", "0.3", "0.6"}) {
+    const Result result = shell(folder, "timeout -s INT " + std::string(delay) + " " + program() +
+                                            " render in.exr -o out/o.exr --rdb 33" + lens);
+    if (result.code == 0) continue;
+    EXPECT_EQ(result.code, 124) << result.err;
+    EXPECT_EQ(shell(folder, "ls -A out").out, "");
+  }
+}
+
+TEST(Help, ShowsUnitsDefaultsAndExamples) {
+  const Folder folder;
+  const Result top = defray(folder, "--help");
+  EXPECT_EQ(top.code, 0);
+  for (const char* word : {"render", "devices", "Examples", "Exit codes"}) {
+    EXPECT_NE(top.out.find(word), std::string::npos) << word;
+  }
+  const Result render = defray(folder, "render --help");
+  EXPECT_EQ(render.code, 0);
+  for (const char* word : {"--focus", "mm", "px", "Examples", "=9", "=512", "Units"}) {
+    EXPECT_NE(render.out.find(word), std::string::npos) << word << "\n" << render.out;
+  }
+  EXPECT_EQ(defray(folder, "--version").code, 0);
+  EXPECT_EQ(defray(folder, "").code, 2);
+}
+
+TEST(HugeFrame, RendersWithinItsMemoryBudget) {
+  const Folder folder;
+  const Result scene = defray(folder, "scene plate1 -o . --width 16384 --height 8192 --truth-samples 1");
+  ASSERT_EQ(scene.code, 0) << scene.err;
+  const std::string command = "render pinhole.exr -o out.exr --rdb 2 --camera camera.json";
+  const Result result = defray(folder, command + " --aperture-diameter 3");
+  EXPECT_EQ(result.code, 0) << result.err;
+}
+
+}  // namespace
+}  // namespace defray::test

@@ -1,0 +1,59 @@
+#include "program.h"
+
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace defray::test {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+std::string program() { return "'" DEFRAY_PROGRAM "'"; }
+
+Result shell(const Folder& folder, const std::string& command) {
+  const Folder logs;
+  const std::string line = "cd '" + folder.path() + "' && { " + command + "; } >'" +
+                           (logs / "out") + "' 2>'" + (logs / "err") + "' </dev/null";
+  const int status = std::system(line.c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, text_of(logs / "out"), text_of(logs / "err")};
+}
+
+Result defray(const Folder& folder, const std::string& arguments, const std::string& prefix) {
+  return shell(folder, prefix + " " + program() + " " + arguments);
+}
+
+void write_picture_file(const Folder& folder, const std::string& name,
+                        const std::vector<std::string>& channels, Size size) {
+  std::vector<Plane> planes;
+  for (const std::string& channel : channels) {
+    planes.push_back(random_plane(size, static_cast<std::uint32_t>(planes.size() + 1)));
+    for (float& value : planes.back()) {
+      value = channel.ends_with("Z") ? 1 + 8 * std::fmod(std::fabs(value), 1.0f)
+                                     : std::fmod(std::fabs(value), 1.0f);
+    }
+  }
+  ImageFile::from_planes(channels, planes, size.width, size.height, Sample::single_float)
+      .write(folder / name);
+}
+
+std::uint64_t file_hash(const std::string& path) {
+  const ImageFile file = ImageFile::read(path);
+  std::vector<Plane> planes;
+  for (std::size_t p = 0; p < file.parts().size(); ++p) {
+    for (std::size_t c = 0; c < file.parts()[p].channels.size(); ++c) {
+      planes.push_back(file.plane(static_cast<int>(p), static_cast<int>(c)));
+    }
+  }
+  return hash_of(planes);
+}
+
+}  // namespace defray::test
