@@ -8,6 +8,7 @@
 #include "lens.h"
 #include "lens_cells.h"
 #include "opencl/session.h"
+#include "rdb_plan.h"
 
 namespace defray {
 
@@ -21,36 +22,55 @@ struct RdbSettings {
   std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
 };
 
-/// One pass: which target rows, which lens cells, and which source rows can reach them.
-struct RdbPass {
-  int band_y, band_rows;
-  int window_y, window_rows;
-  int first_cell, cell_count;
-};
-
-/// Rows beyond a target row from which a ray can come, for this largest |CoC| in quanta.
-int rdb_reach(std::int32_t largest_coc_quanta);
-
-/// Cuts a frame into passes whose cells and sums fit `memory_bytes`: bands from the top, and in
-/// each band all cells in order. Throws Error(usage) when one row of one cell does not fit.
-std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes);
-
 /// Signed CoC radius of every pixel, in quanta (1/256 px). `depth` is planar, > 0, +inf: background.
 std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int display_width_px,
                                         const Plane& depth);
 
-/// A winner of one cell: all ones where no ray arrived.
-struct RdbWinner {
-  std::uint32_t source;      ///< Index in the pass's source window, row-major.
-  std::uint32_t depth_bits;  ///< Bits of its depth.
-};
+/// A frame on its way through the ray distribution buffers. The frame's planes must stay alive and
+/// unchanged meanwhile. Passes go through scatter and merge in order.
+class RdbRun {
+ public:
+  /// `channels`: 1 to 4 colour planes.
+  RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
+         const Plane& depth, const std::vector<Plane>& channels, const RdbSettings& settings);
 
-/// Scatters one pass and returns its winners, [cell][band row][x]. For checks against the twin.
-std::vector<RdbWinner> rdb_winners_on_device(Session& session, int width, const RdbPass& pass,
-                                             const LensCells& cells, std::uint32_t seed,
-                                             const std::vector<std::int32_t>& coc_quanta,
-                                             const Plane& depth);
+  const std::vector<RdbPass>& passes() const { return passes_; }
+
+  /// Empties the cells of a pass and scatters into them.
+  void scatter(const RdbPass& pass);
+
+  /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
+  void merge(const RdbPass& pass);
+
+  /// Copies a finished band's means into `out`, as many planes as there are channels.
+  void read_band(const RdbPass& pass, std::vector<Plane>& out);
+
+  /// Winners of the last scatter, [cell][band row][x].
+  std::vector<RdbWinner> winners(const RdbPass& pass);
+
+  bool is_last_of_band(const RdbPass& pass) const;
+  void finish() { session_.finish(); }
+
+ private:
+  /// The source rows that can reach a band, on the device.
+  struct Window {
+    int band_y = -1;
+    cl::Buffer coc, depth, channel[4];
+  };
+  void view_window(const RdbPass& pass);
+  DefrayRdbParams params_of(const RdbPass& pass) const;
+
+  Session& session_;
+  int width_;
+  const std::vector<std::int32_t>& coc_;
+  const Plane& depth_;
+  const std::vector<Plane>& channels_;
+  std::uint32_t seed_;
+  LensCells cells_;
+  std::vector<RdbPass> passes_;
+  Window window_;
+  cl::Buffer lens_, winner_, sum_, filled_;
+};
 
 /// The lens picture: 1 to 4 channels in, as many out. `progress` gets the share done, 0 to 1.
 std::vector<Plane> render_rdb(Session& session, int width, int height,

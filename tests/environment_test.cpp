@@ -164,14 +164,5 @@ TEST(Help, ShowsUnitsDefaultsAndExamples) {
   EXPECT_EQ(defray(folder, "").code, 2);
 }
 
-TEST(HugeFrame, RendersWithinItsMemoryBudget) {
-  const Folder folder;
-  const Result scene = defray(folder, "scene plate1 -o . --width 16384 --height 8192 --truth-samples 1");
-  ASSERT_EQ(scene.code, 0) << scene.err;
-  const std::string command = "render pinhole.exr -o out.exr --rdb 2 --camera camera.json";
-  const Result result = defray(folder, command + " --aperture-diameter 3");
-  EXPECT_EQ(result.code, 0) << result.err;
-}
-
 }  // namespace
 }  // namespace defray::test

@@ -1,0 +1,30 @@
+#pragma once
+// How the ray distribution buffers of a frame are cut to fit a memory budget.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace defray {
+
+/// A winner of one cell: all ones where no ray arrived.
+struct RdbWinner {
+  std::uint32_t source;      ///< Index in the pass's source window, row-major.
+  std::uint32_t depth_bits;  ///< Bits of its depth.
+};
+
+/// One pass: which target rows, which lens cells, and which source rows can reach them.
+struct RdbPass {
+  int band_y, band_rows;
+  int window_y, window_rows;
+  int first_cell, cell_count;
+};
+
+/// Rows beyond a target row from which a ray can come, for this largest |CoC| in quanta.
+int rdb_reach(std::int32_t largest_coc_quanta);
+
+/// Cuts a frame into passes whose cells and sums fit `memory_bytes`: bands from the top, and in
+/// each band all cells in order. Throws Error(usage) when one row of one cell does not fit.
+std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
+                                     std::size_t memory_bytes);
+
+}  // namespace defray

@@ -1,0 +1,153 @@
+// Each stage of the literal ray distribution buffer, in rays a second: pixels x round cells.
+//
+// Before a frame is timed whole, its like at 160x120 is checked against the scalar twin, which is
+// also timed: the baseline of the same run. Use --benchmark_repetitions=5 for median and spread.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "reference/reference.h"
+
+namespace {
+
+using namespace defray;
+
+struct Frame {
+  int width, height;
+  std::vector<std::int32_t> coc;
+  Plane depth;
+  std::vector<Plane> colour;
+};
+
+/// Near discs over a receding floor: depths continuous and not, CoC from 0 to `radius` either way.
+Frame make_frame(int width, int height, int radius) {
+  Frame frame{width, height, {}, {}, std::vector<Plane>(4)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double u = double(x) / width, v = double(y) / height;
+      const double disc = std::hypot(std::fmod(u * 5, 1.0) - 0.5, std::fmod(v * 4, 1.0) - 0.5);
+      const double z = disc < 0.3 ? 2.6 + u : 5 / (0.55 + 0.9 * v);
+      frame.coc.push_back(static_cast<std::int32_t>(std::lround(256 * radius * (z - 5) / z)));
+      frame.depth.push_back(static_cast<float>(z));
+      for (std::size_t c = 0; c < 4; ++c) {
+        frame.colour[c].push_back(static_cast<float>(((x >> c) ^ (y >> c)) & 1));
+      }
+    }
+  }
+  return frame;
+}
+
+Session& session() {
+  static Session& shared = *new Session(select_device(""));  // outlives the OpenCL runtime
+  return shared;
+}
+
+RdbSettings settings() { return {}; }
+
+double rays(const Frame& frame) {
+  const auto cells = make_lens_cells(settings().cells_per_side, false).centres.size();
+  return double(frame.width) * frame.height * double(cells);
+}
+
+std::vector<Plane> render(const Frame& f) {
+  return render_rdb(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+}
+
+/// Whether the device's picture is the twin's, within float rounding; on 160 x 120.
+bool is_correct(int radius) {
+  const Frame f = make_frame(160, 120, radius);
+  const auto kernel = render(f);
+  const auto twin =
+      reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings());
+  double worst = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < twin[c].size(); ++i) {
+      worst = std::fmax(worst, std::fabs(double(kernel[c][i]) - double(twin[c][i])));
+    }
+  }
+  return worst < 1e-5;
+}
+
+void set_rate(benchmark::State& state, double items, const char* name) {
+  state.counters[name] =
+      benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+Frame frame_of(const benchmark::State& state) {
+  return make_frame(int(state.range(0)), int(state.range(1)), int(state.range(2)));
+}
+
+void coc(benchmark::State& state) {
+  const Frame f = frame_of(state);
+  Lens lens;
+  lens.focus_distance_units = 5;
+  for (auto _ : state) benchmark::DoNotOptimize(coc_on_device(session(), lens, f.width, f.depth));
+  set_rate(state, double(f.width) * f.height, "pixels/s");
+}
+
+/// Clears and scatters every pass of a frame.
+void rdb_scatter(benchmark::State& state) {
+  const Frame f = frame_of(state);
+  RdbRun run(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+  for (auto _ : state) {
+    for (const RdbPass& pass : run.passes()) run.scatter(pass);
+    run.finish();
+  }
+  set_rate(state, rays(f), "rays/s");
+}
+
+/// Merges every pass of a frame; what the cells hold is the last pass's.
+void rdb_merge(benchmark::State& state) {
+  const Frame f = frame_of(state);
+  RdbRun run(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+  for (const RdbPass& pass : run.passes()) run.scatter(pass);
+  for (auto _ : state) {
+    for (const RdbPass& pass : run.passes()) run.merge(pass);
+    run.finish();
+  }
+  set_rate(state, rays(f), "rays/s");
+}
+
+/// The scalar twin, one thread: the baseline of the same run.
+void scalar_twin(benchmark::State& state) {
+  const Frame f = frame_of(state);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings()));
+  }
+  set_rate(state, rays(f), "rays/s");
+}
+
+void render_whole(benchmark::State& state) {
+  if (!is_correct(int(state.range(2)))) {
+    state.SkipWithError("the picture differs from the scalar twin's");
+    return;
+  }
+  const Frame f = frame_of(state);
+  for (auto _ : state) benchmark::DoNotOptimize(render(f));
+  set_rate(state, rays(f), "rays/s");
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"width", "height", "radius"})->Unit(benchmark::kMillisecond)->UseRealTime();
+  for (const int radius : {8, 32}) {
+    b->Args({640, 480, radius});
+    b->Args({1920, 1080, radius});
+  }
+}
+
+}  // namespace
+
+BENCHMARK(coc)->Apply(sizes);
+BENCHMARK(rdb_scatter)->Apply(sizes);
+BENCHMARK(rdb_merge)->Apply(sizes);
+BENCHMARK(render_whole)->Apply(sizes);
+BENCHMARK(scalar_twin)
+    ->ArgNames({"width", "height", "radius"})
+    ->Args({640, 480, 8})
+    ->Args({640, 480, 32})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+BENCHMARK_MAIN();

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Runs the kernel tests under Oclgrind: memory outside buffers and data races in every kernel.
+# oclgrind.sh PROGRAM [FILTER]. Oclgrind exits with 0 whatever it finds, so its log is what counts.
+set -euo pipefail
+program=$1
+filter=${2:-*}
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+oclgrind --data-races --log "$log" "$program" --gtest_filter="$filter"
+if [ -s "$log" ]; then
+  echo "Oclgrind found:"
+  head -40 "$log"
+  exit 1
+fi
+echo "Oclgrind found nothing."

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# All tests: installs what is missing, builds, runs CTest. Arguments go to ctest (-R Render, -V …).
+export EXTRA_PACKAGES="libgtest-dev libbenchmark-dev clang-format clang-tidy
+  oclgrind mesa-opencl-icd xvfb xdotool"
+source "$(dirname "${BASH_SOURCE[0]}")/../cli/setup.sh"
+build "$project/build" -DDEFRAY_TESTS=ON -DDEFRAY_BENCHMARKS=ON
+build "$project/build/asan" -DDEFRAY_TESTS=ON -DDEFRAY_SANITIZE=ON \
+  -DCMAKE_BUILD_TYPE=RelWithDebInfo
+exec ctest --test-dir "$project/build" --output-on-failure --parallel "$(nproc)" "$@"
