@@ -47,9 +47,12 @@ int run_compare(const CompareOptions& o) {
   require_same_size(o.a, a, o.b, b);
   const Comparison c = compare(a.planes, b.planes, a.data.width);
   if (o.json) {
-    const nlohmann::ordered_json line = {
-        {"psnr_srgb_db", c.psnr_srgb_db}, {"psnr_linear_db", c.psnr_linear_db}, {"rms", c.rms},
-        {"worst", c.worst},               {"worst_x", c.worst_x},               {"worst_y", c.worst_y}};
+    const nlohmann::ordered_json line = {{"psnr_srgb_db", c.psnr_srgb_db},
+                                         {"psnr_linear_db", c.psnr_linear_db},
+                                         {"rms", c.rms},
+                                         {"worst", c.worst},
+                                         {"worst_x", c.worst_x},
+                                         {"worst_y", c.worst_y}};
     fmt::print("{}\n", line.dump());
   } else {
     fmt::print("PSNR {:.2f} dB (sRGB-encoded), {:.2f} dB (linear), both clipped to 0...1\n",
@@ -78,8 +81,8 @@ int run_sheet(const SheetOptions& o) {
     Picture picture = read_picture(o.pictures[i]);
     if (i == 0) first.data = size = picture.data;
     require_same_size(o.pictures[0], first, o.pictures[i], picture);
-    panels.push_back({o.captions.empty() ? o.pictures[i] : o.captions[i],
-                      std::move(picture.planes)});
+    panels.push_back(
+        {o.captions.empty() ? o.pictures[i] : o.captions[i], std::move(picture.planes)});
   }
   write_sheet(o.output, panels, size.width, size.height);
   fmt::print("{}\n", o.output);
@@ -107,7 +110,8 @@ Run add_sheet(CLI::App& app) {
   command->add_option("--captions", o->captions, "A caption for each picture, comma-separated")
       ->delimiter(',');
   command->footer(
-      "Example: defray sheet in.exr out.exr truth.exr -o sheet.png --captions pinhole,result,truth");
+      "Example: defray sheet in.exr out.exr truth.exr -o sheet.png --captions "
+      "pinhole,result,truth");
   return [o] { return run_sheet(*o); };
 }
 

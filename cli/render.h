@@ -39,11 +39,11 @@ std::array<std::size_t, 2> parse_work_group(const std::string& text);
 
 /// What became of one frame.
 struct FrameOutcome {
-  std::optional<int> frame;   ///< Empty for a single picture.
+  std::optional<int> frame;  ///< Empty for a single picture.
   FramePaths paths;
-  std::string status;         ///< ok, skipped, failed.
+  std::string status;  ///< ok, skipped, failed.
   std::string error;
-  FrameReport report;         ///< Of an ok frame.
+  FrameReport report;  ///< Of an ok frame.
 };
 
 void print_text(const FrameOutcome& outcome, const std::string& device);

@@ -9,7 +9,8 @@
 namespace defray::cli {
 namespace {
 
-constexpr const char* footer = R"(Units: focus, --near, --far and depth in scene units (--unit says what one is); focal length,
+constexpr const char* footer =
+    R"(Units: focus, --near, --far and depth in scene units (--unit says what one is); focal length,
 sensor and aperture in millimetres; CoC in pixels (radius, negative in front of the focus).
 
 Examples:
@@ -93,7 +94,7 @@ void add_method(CLI::App& c, RenderOptions& o) {
 }
 
 double parse_unit(const std::string& text) {
-  static const std::map<std::string, double> metres{{"m", 1},    {"cm", 0.01},   {"mm", 0.001},
+  static const std::map<std::string, double> metres{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
                                                     {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -157,9 +158,9 @@ RenderSettings to_settings(const RenderOptions& o) {
     fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");
   }
   const bool has_file = !o.camera.empty() && !s.camera_from_metadata;
-  s.camera = has_file ? read_camera_json(o.camera, o.focus_setting, s.metres_per_unit)
-                            .overridden_by(typed)
-                      : typed;
+  s.camera =
+      has_file ? read_camera_json(o.camera, o.focus_setting, s.metres_per_unit).overridden_by(typed)
+               : typed;
   if (!s.camera_from_metadata) make_lens(s.camera, s.metres_per_unit, s.model, s.max_coc_px);
   make_lens_cells(o.rdb, o.jitter);
   if (!(o.memory_mib > 0) || o.memory_mib > 1048576) {

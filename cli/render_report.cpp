@@ -21,12 +21,13 @@ std::string depth_line(const FrameReport& r) {
 
 std::string lens_line(const FrameReport& r) {
   const Lens& l = r.lens;
-  return fmt::format("{:.6g} mm, aperture {:.6g} mm{}, sensor {:.6g} mm, focus {:.6g} units of {:.6g} m",
-                     l.focal_length_mm, l.aperture_diameter_mm,
-                     l.aperture_diameter_mm > 0
-                         ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
-                         : "",
-                     l.sensor_width_mm, l.focus_distance_units, l.metres_per_unit);
+  return fmt::format(
+      "{:.6g} mm, aperture {:.6g} mm{}, sensor {:.6g} mm, focus {:.6g} units of {:.6g} m",
+      l.focal_length_mm, l.aperture_diameter_mm,
+      l.aperture_diameter_mm > 0
+          ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
+          : "",
+      l.sensor_width_mm, l.focus_distance_units, l.metres_per_unit);
 }
 
 std::vector<std::string> notes_of(const FrameReport& r) {

@@ -1,4 +1,6 @@
 // defray scene: writes a built-in scene with its truth.
+#include "scenes/scene.h"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -9,7 +11,6 @@
 #include "image/image_file.h"
 #include "image/safe_output.h"
 #include "progress.h"
-#include "scenes/scene.h"
 
 namespace defray::cli {
 namespace {
@@ -22,8 +23,8 @@ struct Options {
 
 void write_planes(const std::string& path, const std::vector<std::string>& channels,
                   const std::vector<Plane>& planes, const Scene& scene) {
-  const ImageFile file = ImageFile::from_planes(channels, planes, scene.width, scene.height,
-                                                Sample::single_float);
+  const ImageFile file =
+      ImageFile::from_planes(channels, planes, scene.width, scene.height, Sample::single_float);
   write_safely(path, [&](const std::string& name) { file.write(name); });
 }
 
@@ -40,8 +41,8 @@ int run(const Options& o) {
   write_planes(pinhole, {"R", "G", "B", "Z"}, picture.colour, scene);
   {
     ProgressBar bar(1, "truth", true);
-    const ScenePicture exact = render_truth(scene, o.truth_samples, o.seed,
-                                            [&](double share) { bar.update(0, share); });
+    const ScenePicture exact =
+        render_truth(scene, o.truth_samples, o.seed, [&](double share) { bar.update(0, share); });
     write_planes(truth, {"R", "G", "B"}, exact.colour, scene);
   }
   write_safely(camera, [&](const std::string& name) {
@@ -57,8 +58,9 @@ int run(const Options& o) {
 
 Run add_scene(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "scene", "Write a built-in scene: pinhole.exr (R G B Z), truth.exr through a real lens, "
-               "camera.json");
+      "scene",
+      "Write a built-in scene: pinhole.exr (R G B Z), truth.exr through a real lens, "
+      "camera.json");
   auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "plate1: Shinya's Plate 1, a thin dark rectangle in focus")
       ->required();

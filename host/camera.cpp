@@ -96,21 +96,19 @@ CameraValues read_camera_json(const std::string& path, const std::string& settin
 CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit) {
   CameraValues values;
   // EXR standard attributes first (focus is in metres), then Nuke's and V-Ray's.
-  values.focal_length_mm = first_number(
-      file, {"FocalLength", "Exif:FocalLength", "exr/nuke/camera/focal", "nuke/camera/focal",
-             "cameraFocalLength", "vray/cameraFocalLength"});
-  values.sensor_width_mm =
-      first_number(file, {"exr/nuke/camera/haperture", "nuke/camera/haperture", "cameraAperture",
-                          "vray/cameraAperture"});
+  values.focal_length_mm =
+      first_number(file, {"FocalLength", "Exif:FocalLength", "exr/nuke/camera/focal",
+                          "nuke/camera/focal", "cameraFocalLength", "vray/cameraFocalLength"});
+  values.sensor_width_mm = first_number(file, {"exr/nuke/camera/haperture", "nuke/camera/haperture",
+                                               "cameraAperture", "vray/cameraAperture"});
   values.fstop = first_number(file, {"FNumber", "Exif:FNumber", "aperture", "cameraFNumber",
                                      "vray/cameraFNumber", "exr/nuke/camera/fstop"});
-  values.focus_distance_units = scaled(
-      first_number(file, {"focus", "Exif:SubjectDistance"}), 1 / metres_per_unit);
+  values.focus_distance_units =
+      scaled(first_number(file, {"focus", "Exif:SubjectDistance"}), 1 / metres_per_unit);
   if (!values.focus_distance_units) {  // scene units already
-    values.focus_distance_units =
-        first_number(file, {"exr/nuke/camera/focal_point", "nuke/camera/focal_point",
-                            "cameraFocusDistance", "cameraTargetDistance",
-                            "vray/cameraFocusDistance"});
+    values.focus_distance_units = first_number(
+        file, {"exr/nuke/camera/focal_point", "nuke/camera/focal_point", "cameraFocusDistance",
+               "cameraTargetDistance", "vray/cameraFocusDistance"});
   }
   return values;
 }
@@ -136,8 +134,8 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
   lens.focal_length_mm = *values.focal_length_mm;
   lens.sensor_width_mm = values.sensor_width_mm.value_or(36);
   lens.focus_distance_units = *values.focus_distance_units;
-  lens.aperture_diameter_mm = values.fstop ? lens.focal_length_mm / *values.fstop
-                                           : *values.aperture_diameter_mm;
+  lens.aperture_diameter_mm =
+      values.fstop ? lens.focal_length_mm / *values.fstop : *values.aperture_diameter_mm;
   lens.metres_per_unit = metres_per_unit;
   lens.model = model;
   lens.max_coc_px = max_coc_px;

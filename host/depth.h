@@ -18,17 +18,17 @@ enum class DepthKind {
 
 struct DepthSettings {
   DepthKind kind = DepthKind::z;
-  bool invert = false;        ///< normalized: 1 at near, 0 at far.
-  double near_units = 0;      ///< normalized only.
+  bool invert = false;    ///< normalized: 1 at near, 0 at far.
+  double near_units = 0;  ///< normalized only.
   double far_units = 0;
   /// The stored value that means "nothing there". Empty: 65504, anything >= 1e9, inf and <= 0.
   std::optional<double> background;
 };
 
 struct DepthReport {
-  std::size_t background = 0;  ///< Pixels taken as background.
+  std::size_t background = 0;    ///< Pixels taken as background.
   std::size_t not_a_number = 0;  ///< NaN pixels, taken as background too.
-  double nearest_units = 0;    ///< Range of the rest; 0 where nothing is left.
+  double nearest_units = 0;      ///< Range of the rest; 0 where nothing is left.
   double farthest_units = 0;
 };
 

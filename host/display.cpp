@@ -51,8 +51,7 @@ bool x_server_answers(const std::string& socket_path) {
 
 }  // namespace
 
-void write_sheet(const std::string& path, const std::vector<Panel>& panels, int width,
-                 int height) {
+void write_sheet(const std::string& path, const std::vector<Panel>& panels, int width, int height) {
   const int count = static_cast<int>(panels.size());
   cv::Mat sheet(height + caption_height, count * (width + gap) - gap, CV_8UC3,
                 cv::Scalar::all(255));

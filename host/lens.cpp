@@ -62,8 +62,7 @@ double pixel_focal_length(const Lens& lens, int display_width_px) {
 double background_coc_px(const Lens& lens, int display_width_px) {
   const double z0 = lens.focus_distance_units;
   if (is_focus_infinite(lens)) return 0;
-  const double distance =
-      lens.model == LensModel::breathing ? z0 - focal_length_units(lens) : z0;
+  const double distance = lens.model == LensModel::breathing ? z0 - focal_length_units(lens) : z0;
   return 0.5 * aperture_units(lens) * pixel_focal_length(lens, display_width_px) / distance;
 }
 

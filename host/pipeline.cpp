@@ -71,8 +71,7 @@ Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const 
   std::optional<ImageFile> other;
   if (!paths.depth.empty()) other = ImageFile::read(paths.depth);
   const ImageFile& file = other ? *other : frame.file;
-  const ChannelName name =
-      choose_depth(file.path(), file.parts(), settings.request, frame.choice);
+  const ChannelName name = choose_depth(file.path(), file.parts(), settings.request, frame.choice);
   report.depth_channel = describe(name, file.parts());
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
   if (part.data != report.data) {
@@ -93,22 +92,20 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
     report.colour_channels.push_back(part.channels[static_cast<std::size_t>(c)]);
     frame.colour.push_back(frame.file.plane(frame.choice.part, c));
   }
-  report.nonfinite =
-      handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
+  report.nonfinite = handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
   frame.depth = read_depth(paths, settings, frame, report);
   CameraValues camera = settings.camera;
   if (settings.camera_from_metadata) {
     camera = camera_from_metadata(frame.file, settings.metres_per_unit).overridden_by(camera);
   }
-  report.lens =
-      make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
+  report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
   report.depth = convert_depth(frame.depth, settings.depth, part.data, part.display,
                                pixel_focal_length(report.lens, part.display.width),
                                paths.depth.empty() ? paths.input : paths.depth);
   const auto aspect = frame.file.metadata_number("PixelAspectRatio");
   if (aspect && std::fabs(*aspect - 1) > 1e-6) {
-    report.notes.push_back(fmt::format(
-        "pixel aspect ratio {} is not modelled: the CoC is round in pixels", *aspect));
+    report.notes.push_back(
+        fmt::format("pixel aspect ratio {} is not modelled: the CoC is round in pixels", *aspect));
   }
   return frame;
 }

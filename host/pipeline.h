@@ -26,7 +26,7 @@ enum class Nonfinite {
 struct RenderSettings {
   ChannelRequest request;
   DepthSettings depth;
-  CameraValues camera;                 ///< Explicit values; they win over metadata.
+  CameraValues camera;  ///< Explicit values; they win over metadata.
   bool camera_from_metadata = false;
   double metres_per_unit = 1;
   LensModel model = LensModel::cg;
@@ -49,9 +49,9 @@ struct FrameReport {
   Lens lens;
   DepthReport depth;
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.
-  std::size_t coc_limited = 0;   ///< Pixels whose CoC the limit cut.
-  std::size_t nonfinite = 0;     ///< Colour values that were NaN or Inf.
-  std::vector<std::string> notes;  ///< Whatever else the user should know.
+  std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
+  std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
+  std::vector<std::string> notes;                  ///< Whatever else the user should know.
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
 };
 

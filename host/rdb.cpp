@@ -33,8 +33,7 @@ std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int 
   constexpr std::size_t chunk = std::size_t{1} << 24;  // bounds the device's memory
   for (std::size_t first = 0; first < depth.size(); first += chunk) {
     const std::size_t count = std::min(chunk, depth.size() - first);
-    const DefrayCocParams p =
-        coc_params(lens, display_width_px, static_cast<std::uint32_t>(count));
+    const DefrayCocParams p = coc_params(lens, display_width_px, static_cast<std::uint32_t>(count));
     const cl::Buffer in = session.view(depth.data() + first, count * sizeof(float));
     const cl::Buffer out = session.buffer(count * sizeof(std::int32_t));
     session.launch("coc", DEFRAY_COC_GROUP, {count}, p, in, out);
@@ -43,9 +42,8 @@ std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int 
   return coc;
 }
 
-RdbRun::RdbRun(Session& session, int width, int height,
-               const std::vector<std::int32_t>& coc_quanta, const Plane& depth,
-               const std::vector<Plane>& channels, const RdbSettings& settings)
+RdbRun::RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
+               const Plane& depth, const std::vector<Plane>& channels, const RdbSettings& settings)
     : session_(session),
       width_(width),
       coc_(coc_quanta),

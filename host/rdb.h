@@ -22,7 +22,8 @@ struct RdbSettings {
   std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
 };
 
-/// Signed CoC radius of every pixel, in quanta (1/256 px). `depth` is planar, > 0, +inf: background.
+/// Signed CoC radius of every pixel, in quanta (1/256 px). `depth` is planar, > 0, +inf:
+/// background.
 std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int display_width_px,
                                         const Plane& depth);
 

@@ -34,11 +34,11 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const int rows = static_cast<int>(std::max<std::size_t>(
       1, std::min({static_cast<std::size_t>(height), memory_bytes / row_bytes, rows_wanted})));
   const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
-  const std::size_t pass_bytes =
-      std::max(std::min(memory_bytes, pass_bytes_in_cache), row_bytes * static_cast<std::size_t>(rows));
+  const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
+                                          row_bytes * static_cast<std::size_t>(rows));
   const std::size_t for_cells = pass_bytes - band * bytes_per_sum;
-  const int cells = static_cast<int>(std::min<std::size_t>(
-      static_cast<std::size_t>(cell_count), for_cells / (band * bytes_per_cell)));
+  const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
+                                                           for_cells / (band * bytes_per_cell)));
   std::vector<RdbPass> passes;
   for (int y = 0; y < height; y += rows) {
     RdbPass pass{};

@@ -5,7 +5,8 @@
 
 namespace defray {
 
-/// True where a name holds a frame pattern: "####" (a digit each; a single # is four), "@@", "%04d".
+/// True where a name holds a frame pattern: "####" (a digit each; a single # is four), "@@",
+/// "%04d".
 bool has_frame_pattern(const std::string& path);
 
 /// Frame numbers of "1-8", "1-10x2", "1,5,9-12". Throws Error(usage) on anything else.

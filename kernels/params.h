@@ -1,5 +1,5 @@
-// Parameter blocks that kernels (OpenCL C) and host (C++) both read: data is shared, arithmetic never.
-// Every field is four bytes wide, so that the layout is the same in both languages.
+// Parameter blocks that kernels (OpenCL C) and host (C++) both read: data is shared, arithmetic
+// never. Every field is four bytes wide, so that the layout is the same in both languages.
 #ifndef DEFRAY_KERNELS_PARAMS_H
 #define DEFRAY_KERNELS_PARAMS_H
 
@@ -31,28 +31,28 @@
 /// Thin-lens constants of `coc`.
 typedef struct {
   DEFRAY_UINT pixel_count;
-  DEFRAY_UINT focus_is_infinite;      ///< 1: coc = -infinite_focus_scale / depth.
-  float scale_quanta;                 ///< K = A F / (2 z0), in quanta; 0 for a closed aperture.
-  float focus_hi_units;               ///< Focus distance z0 = hi + lo, scene units.
-  float focus_lo_units;               ///< What float rounding takes from z0.
-  float infinite_focus_scale;         ///< A F / 2, in quanta x scene units.
-  float limit_quanta;                 ///< Largest |coc| let through.
+  DEFRAY_UINT focus_is_infinite;  ///< 1: coc = -infinite_focus_scale / depth.
+  float scale_quanta;             ///< K = A F / (2 z0), in quanta; 0 for a closed aperture.
+  float focus_hi_units;           ///< Focus distance z0 = hi + lo, scene units.
+  float focus_lo_units;           ///< What float rounding takes from z0.
+  float infinite_focus_scale;     ///< A F / 2, in quanta x scene units.
+  float limit_quanta;             ///< Largest |coc| let through.
 } DefrayCocParams;
 
 /// One pass of the ray distribution buffer: some cells of one band of target rows.
 /// The source window is the band and the rows around it from which a ray can reach it.
 typedef struct {
-  DEFRAY_UINT width;                  ///< Pixels in a row, of source and target.
-  DEFRAY_UINT window_y;               ///< First source row, in frame coordinates.
+  DEFRAY_UINT width;     ///< Pixels in a row, of source and target.
+  DEFRAY_UINT window_y;  ///< First source row, in frame coordinates.
   DEFRAY_UINT window_rows;
-  DEFRAY_UINT band_y;                 ///< First target row, in frame coordinates.
+  DEFRAY_UINT band_y;  ///< First target row, in frame coordinates.
   DEFRAY_UINT band_rows;
-  DEFRAY_UINT first_cell;             ///< First lens cell of this pass.
-  DEFRAY_UINT cell_count;             ///< Lens cells in this pass.
-  DEFRAY_UINT is_first_pass;          ///< 1: sums start at zero.
-  DEFRAY_UINT is_last_pass;           ///< 1: sums become means.
-  DEFRAY_UINT is_index_pass;          ///< 1: second of two scatters, without 64-bit atomics.
-  DEFRAY_INT jitter_lens;             ///< Largest jitter offset, lens units; 0: no jitter.
+  DEFRAY_UINT first_cell;     ///< First lens cell of this pass.
+  DEFRAY_UINT cell_count;     ///< Lens cells in this pass.
+  DEFRAY_UINT is_first_pass;  ///< 1: sums start at zero.
+  DEFRAY_UINT is_last_pass;   ///< 1: sums become means.
+  DEFRAY_UINT is_index_pass;  ///< 1: second of two scatters, without 64-bit atomics.
+  DEFRAY_INT jitter_lens;     ///< Largest jitter offset, lens units; 0: no jitter.
   DEFRAY_UINT seed;
 } DefrayRdbParams;
 

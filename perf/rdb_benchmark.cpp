@@ -58,8 +58,7 @@ std::vector<Plane> render(const Frame& f) {
 bool is_correct(int radius) {
   const Frame f = make_frame(160, 120, radius);
   const auto kernel = render(f);
-  const auto twin =
-      reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings());
+  const auto twin = reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings());
   double worst = 0;
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t i = 0; i < twin[c].size(); ++i) {
@@ -70,8 +69,7 @@ bool is_correct(int radius) {
 }
 
 void set_rate(benchmark::State& state, double items, const char* name) {
-  state.counters[name] =
-      benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters[name] = benchmark::Counter(items, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 Frame frame_of(const benchmark::State& state) {

@@ -93,7 +93,8 @@ TEST_F(BadInput, Lens) {
   expect_render_refused(files + "--focus 3 --fstop -2 --focal-length 50", 2, {"f-number is -2"});
   expect_render_refused(files + "--focus 3 --fstop 2 --focal-length 0", 2, {"focal length is 0"});
   expect_render_refused(files + "--focus 3 --fstop nan --focal-length 50", 2, {"f-number is nan"});
-  expect_render_refused(files + "--focus 0 --fstop 2 --focal-length 50", 2, {"focus distance is 0"});
+  expect_render_refused(files + "--focus 0 --fstop 2 --focal-length 50", 2,
+                        {"focus distance is 0"});
   expect_render_refused(files + "--focus 0.05 --fstop 2 --focal-length 50", 2,
                         {"inside the focal length"});
   expect_render_refused(files + "--focus 3 --aperture-diameter -1 --focal-length 50", 2,

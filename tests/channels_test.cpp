@@ -38,9 +38,9 @@ TEST(Channels, BlenderLayers) {
 }
 
 TEST(Channels, DepthOfTheColoursOwnViewLayer) {
-  const std::vector<PartInfo> parts{part({"A.Combined.R", "A.Combined.G", "A.Combined.B",
-                                          "A.Depth.Z", "B.Combined.R", "B.Combined.G",
-                                          "B.Combined.B", "B.Depth.Z"})};
+  const std::vector<PartInfo> parts{
+      part({"A.Combined.R", "A.Combined.G", "A.Combined.B", "A.Depth.Z", "B.Combined.R",
+            "B.Combined.G", "B.Combined.B", "B.Depth.Z"})};
   expect_error(3, {"A.Combined", "B.Combined", "--layer"}, [&] { colour(parts); });
   EXPECT_EQ(depth(parts, {"B", "", ""}), "B.Depth.Z");
   EXPECT_EQ(depth(parts, {"A.Combined", "", ""}), "A.Depth.Z");
@@ -53,25 +53,26 @@ TEST(Channels, OtherNamesOfDepth) {
 }
 
 TEST(Channels, AVectorsZIsNoDepth) {
-  expect_error(3, {"no depth", "N.Z", "--depth-channel"},
-               [] { depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})}); });
+  expect_error(3, {"no depth", "N.Z", "--depth-channel"}, [] {
+    depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})});
+  });
   EXPECT_EQ(depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z", "Z"})}), "Z");
 }
 
 TEST(Channels, SeveralDepthsAreAmbiguous) {
-  expect_error(3, {"depth.Z", "zdepth.Z", "--depth-channel"},
-               [] { depth({part({"R", "G", "B", "depth.Z", "zdepth.Z"})}); });
+  expect_error(3, {"depth.Z", "zdepth.Z", "--depth-channel"}, [] {
+    depth({part({"R", "G", "B", "depth.Z", "zdepth.Z"})});
+  });
 }
 
 TEST(Channels, SinglePartStereo) {
-  const std::vector<PartInfo> parts{part({"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"},
-                                         "", "", {"right", "left"})};
+  const std::vector<PartInfo> parts{part(
+      {"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"}, "", "", {"right", "left"})};
   EXPECT_EQ(colour(parts).view, "right");  // the file's default view
   EXPECT_EQ(depth(parts), "Z");
   EXPECT_EQ(depth(parts, {"", "left", ""}), "left.Z");
   EXPECT_EQ(colour(parts, {"", "left", ""}).channels, (std::vector<int>{4, 5, 6}));
-  expect_error(3, {"view 'middle'", "right", "left"},
-               [&] { colour(parts, {"", "middle", ""}); });
+  expect_error(3, {"view 'middle'", "right", "left"}, [&] { colour(parts, {"", "middle", ""}); });
 }
 
 TEST(Channels, MultiPartStereo) {
@@ -97,9 +98,12 @@ TEST(Channels, PartsNamedAsLayers) {
 
 TEST(Channels, ErrorsListWhatThereIs) {
   expect_error(3, {"no colour", "Y", "Z"}, [] { colour({part({"Y", "Z"})}); });
-  expect_error(3, {"layer 'specular'"}, [] { colour({part({"R", "G", "B"})}, {"specular", "", ""}); });
-  expect_error(3, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"},
-               [] { depth({part({"R", "G", "B", "depth.Z"})}, {"", "", "depht.Z"}); });
+  expect_error(3, {"layer 'specular'"}, [] {
+    colour({part({"R", "G", "B"})}, {"specular", "", ""});
+  });
+  expect_error(3, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"}, [] {
+    depth({part({"R", "G", "B", "depth.Z"})}, {"", "", "depht.Z"});
+  });
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ TEST(Depth, AnExplicitBackgroundIsTheOnlyOne) {
   DepthSettings settings;
   settings.background = 7;
   EXPECT_EQ(converted({2, 7, 65504, 3, 4}, settings), (Plane{2, inf, 65504, 3, 4}));
-  expect_error(3, {"z.exr", "depth 0", "(3, 0)", "--background"},
-               [&] { converted({2, 7, 3, 0, 4}, settings); });
+  expect_error(3, {"z.exr", "depth 0", "(3, 0)", "--background"}, [&] {
+    converted({2, 7, 3, 0, 4}, settings);
+  });
   expect_error(3, {"depth -1"}, [&] { converted({2, 7, 3, -1, 4}, settings); });
 }
 
@@ -121,8 +122,8 @@ TEST(Camera, ReadsTheSharedShape) {
 TEST(Camera, BadFiles) {
   const Folder folder;
   expect_error(3, {"cannot open"}, [&] { read_camera_json(folder / "none.json", "", 1); });
-  for (const char* text : {"", "{", "[1]", "3", R"({"focal_length_mm": "x"})",
-                           R"({"focus_settings": 3})"}) {
+  for (const char* text :
+       {"", "{", "[1]", "3", R"({"focal_length_mm": "x"})", R"({"focus_settings": 3})"}) {
     expect_error(3, {"camera.json"}, [&] { read_camera_json(write_text(folder, text), "", 1); });
   }
 }

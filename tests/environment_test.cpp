@@ -87,8 +87,8 @@ TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {
 TEST(Show, IsSkippedWithoutADisplay) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
-  const Result none = defray(folder, "render in.exr -o out.exr --show" + lens,
-                             "env -u DISPLAY -u WAYLAND_DISPLAY");
+  const Result none =
+      defray(folder, "render in.exr -o out.exr --show" + lens, "env -u DISPLAY -u WAYLAND_DISPLAY");
   EXPECT_EQ(none.code, 0);
   EXPECT_NE(none.err.find("--show skipped: neither DISPLAY"), std::string::npos) << none.err;
   const Result dead = defray(folder, "render in.exr -o out.exr --show" + lens,
@@ -102,15 +102,18 @@ TEST(Show, OpensARealWindowUntilAKeyIsPressed) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
   const std::string display = ":" + std::to_string(100 + getpid() % 800);
-  const Result result = shell(
-      folder,
-      "export DISPLAY=" + display + "; unset WAYLAND_DISPLAY; Xvfb $DISPLAY -screen 0 800x600x24 "
-      ">/dev/null 2>&1 & server=$!; n=0; until xdotool getdisplaygeometry >/dev/null 2>&1 || [ $n -gt 100 ]; "
-      "do sleep 0.1; n=$((n+1)); done; " +
-          program() + " render in.exr -o out.exr --show -q" + lens +
-          "& job=$!; window=$(timeout 20 xdotool search --sync --onlyvisible --name defray | head -1); "
-          "echo window $window; sleep 1; xdotool windowfocus $window key --window $window q; "
-          "wait $job; code=$?; kill $server; wait $server; exit $code");
+  const Result result =
+      shell(folder,
+            "export DISPLAY=" + display +
+                "; unset WAYLAND_DISPLAY; Xvfb $DISPLAY -screen 0 800x600x24 "
+                ">/dev/null 2>&1 & server=$!; n=0; until xdotool getdisplaygeometry >/dev/null "
+                "2>&1 || [ $n -gt 100 ]; "
+                "do sleep 0.1; n=$((n+1)); done; " +
+                program() + " render in.exr -o out.exr --show -q" + lens +
+                "& job=$!; window=$(timeout 20 xdotool search --sync --onlyvisible --name defray | "
+                "head -1); "
+                "echo window $window; sleep 1; xdotool windowfocus $window key --window $window q; "
+                "wait $job; code=$?; kill $server; wait $server; exit $code");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("window "), std::string::npos);
   EXPECT_GT(result.out.size(), std::string("window \n").size()) << "no window appeared";

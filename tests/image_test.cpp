@@ -71,8 +71,9 @@ TEST(ImageFile, EveryDamagedFileIsRefusedUnderBothNames) {
 TEST(ImageFile, TruncatedAtEveryLength) {
   const Folder folder;
   const Size size{40, 30};
-  ImageFile::from_planes({"R", "G", "B"}, {random_plane(size, 1), random_plane(size, 2),
-                                           random_plane(size, 3)}, 40, 30)
+  ImageFile::from_planes({"R", "G", "B"},
+                         {random_plane(size, 1), random_plane(size, 2), random_plane(size, 3)}, 40,
+                         30)
       .write(folder / "whole.exr");
   const std::string whole = bytes_of(folder / "whole.exr");
   for (std::size_t length = 0; length + 40 < whole.size(); length += 97) {
@@ -89,7 +90,8 @@ TEST(ImageFile, AbsurdHeaderSizesAreRefusedBeforeAllocation) {
   const std::uint32_t far_right = 3000000;
   bytes.replace(window + 8, 4, reinterpret_cast<const char*>(&far_right), 4);
   std::ofstream(folder / "huge.exr", std::ios::binary) << bytes;
-  expect_error(3, {"huge.exr", "3000001x2", "allowed"}, [&] { ImageFile::read(folder / "huge.exr"); });
+  expect_error(3, {"huge.exr", "3000001x2", "allowed"},
+               [&] { ImageFile::read(folder / "huge.exr"); });
 }
 
 TEST(ImageFile, MissingFilesAndFolders) {

@@ -71,8 +71,8 @@ std::size_t differing_winners(Session& s, Size size, const RdbSettings& settings
   const CellWinners kernel = winners_on_device(s, size, settings, coc, depth);
   std::size_t differing = 0;
   for (std::size_t cell = 0; cell < kernel.size(); ++cell) {
-    const auto twin = reference::rdb_scatter(size.width, size.height, cells, cell, settings.seed,
-                                             coc, depth);
+    const auto twin =
+        reference::rdb_scatter(size.width, size.height, cells, cell, settings.seed, coc, depth);
     for (std::size_t i = 0; i < twin.size(); ++i) differing += kernel[cell][i] != twin[i];
   }
   return differing;
@@ -199,7 +199,8 @@ TEST(Rdb, MeansEqualTheTwinsWithinTheBoundOfFloatSums) {
     const RdbSettings settings = small_settings(jitter);
     const auto kernel = render(session(), in, settings);
     const auto twin = reference::render_rdb(67, 41, in.coc, in.depth, in.channels, settings);
-    const double cells = static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
+    const double cells =
+        static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
     for (std::size_t c = 0; c < 4; ++c) {
       double largest = 0;
       for (const float v : in.channels[c]) largest = std::fmax(largest, std::fabs(v));
@@ -307,7 +308,8 @@ TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
     const auto begin = [](const Plane& plane, int row) {
       return plane.begin() + std::int64_t{row} * width;
     };
-    EXPECT_TRUE(std::equal(begin(expected, reach), begin(expected, reach + rows), begin(whole, first)))
+    EXPECT_TRUE(
+        std::equal(begin(expected, reach), begin(expected, reach + rows), begin(whole, first)))
         << "rows from " << first;
   }
 }

@@ -26,7 +26,8 @@ TEST(Render, ReportsWhatItChose) {
   write_picture_file(folder, "in.exr", {"A", "B", "G", "R", "Z"});
   const Result result = defray(folder, "render in.exr -o out.exr" + lens);
   expect_ok(result);
-  for (const char* words : {"colour R G B A", "depth Z", "lens 50 mm", "CoC radius", "data window"}) {
+  for (const char* words :
+       {"colour R G B A", "depth Z", "lens 50 mm", "CoC radius", "data window"}) {
     EXPECT_NE(result.out.find(words), std::string::npos) << words << " in " << result.out;
   }
   EXPECT_EQ(result.err, "");
@@ -82,8 +83,8 @@ TEST(Render, MemoryAndWorkGroupChangeNoBit) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {97, 61});
   const std::uint64_t base = rendered(folder, lens);
-  for (const char* options : {"--memory 0.004", "--memory 1", "--work-group 7x3",
-                              "--work-group 16", "--memory 0.01 --work-group 1x1"}) {
+  for (const char* options : {"--memory 0.004", "--memory 1", "--work-group 7x3", "--work-group 16",
+                              "--memory 0.01 --work-group 1x1"}) {
     EXPECT_EQ(rendered(folder, lens + options), base) << options;
   }
 }
@@ -165,10 +166,14 @@ TEST(Render, LensFromMetadataWhenAskedFor) {
     copy.write(folder / name);
   };
   with("exr.exr", {{"focus", 3.0f}, {"FNumber", 0.5f}, {"FocalLength", 50.0f}});
-  with("nuke.exr", {{"exr/nuke/camera/focal", 50.0f}, {"exr/nuke/camera/haperture", 24.0f},
-                    {"FNumber", 0.5f}, {"focus", 3.0f}});
-  with("vray.exr", {{"cameraFocalLength", 50.0f}, {"cameraAperture", 36.0f},
-                    {"cameraFNumber", 0.5f}, {"cameraFocusDistance", 3.0f}});
+  with("nuke.exr", {{"exr/nuke/camera/focal", 50.0f},
+                    {"exr/nuke/camera/haperture", 24.0f},
+                    {"FNumber", 0.5f},
+                    {"focus", 3.0f}});
+  with("vray.exr", {{"cameraFocalLength", 50.0f},
+                    {"cameraAperture", 36.0f},
+                    {"cameraFNumber", 0.5f},
+                    {"cameraFocusDistance", 3.0f}});
   const std::uint64_t expected = rendered(folder, lens, "plain.exr");
   EXPECT_EQ(rendered(folder, "--camera from-metadata", "exr.exr"), expected);
   EXPECT_EQ(rendered(folder, "--camera from-metadata", "vray.exr"), expected);
@@ -199,7 +204,8 @@ TEST(Render, OtherFormats) {
 TEST(Render, LinearAndDisplayEncodedInputsAgree) {
   const Folder folder;
   expect_ok(defray(folder, "scene plate1 -o . --width 64 --height 48 --truth-samples 1"));
-  expect_ok(defray(folder, "render pinhole.exr -o sharp.png --camera camera.json --aperture-diameter 0"));
+  expect_ok(
+      defray(folder, "render pinhole.exr -o sharp.png --camera camera.json --aperture-diameter 0"));
   expect_ok(defray(folder, "render pinhole.exr -o a.exr --camera camera.json"));
   expect_ok(defray(folder, "render sharp.png --depth pinhole.exr -o b.exr --camera camera.json"));
   expect_ok(defray(folder, "compare a.exr b.exr --min-psnr 50"));  // 8 bits are 59 dB at best
@@ -238,7 +244,8 @@ TEST(Render, NonfiniteColours) {
   const Result zero = defray(folder, "render in.exr -o out.exr" + lens);
   expect_ok(zero);
   EXPECT_NE(zero.out.find("2 NaN or Inf colour values"), std::string::npos) << zero.out;
-  for (const float v : ImageFile::read(folder / "out.exr").plane(0, 0)) EXPECT_TRUE(std::isfinite(v));
+  for (const float v : ImageFile::read(folder / "out.exr").plane(0, 0))
+    EXPECT_TRUE(std::isfinite(v));
   expect_ok(defray(folder, "render in.exr -o out.exr --nonfinite keep" + lens));
   std::size_t kept = 0;
   for (const float v : ImageFile::read(folder / "out.exr").plane(0, 0)) kept += !std::isfinite(v);
@@ -282,12 +289,13 @@ TEST(Sequence, RendersFindsSkipsAndReports) {
   expect_ok(skip);
   EXPECT_NE(skip.out.find("a.0001.exr: exists, skipped"), std::string::npos) << skip.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "a.0002.exr"));
-  const Result missing = defray(folder, "render 's.####.exr' -o 'b.####.exr' --frames 1-5x2" + lens);
+  const Result missing =
+      defray(folder, "render 's.####.exr' -o 'b.####.exr' --frames 1-5x2" + lens);
   EXPECT_EQ(missing.code, 3);
   EXPECT_NE(missing.err.find("s.0003.exr: no such file"), std::string::npos) << missing.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "b.0005.exr"));
-  const Result on = defray(
-      folder, "render 's.####.exr' -o 'b.####.exr' --frames 1-5x2 --skip-bad-frames" + lens);
+  const Result on =
+      defray(folder, "render 's.####.exr' -o 'b.####.exr' --frames 1-5x2 --skip-bad-frames" + lens);
   EXPECT_EQ(on.code, 1);
   EXPECT_NE(on.err.find("1 of 3 frames failed"), std::string::npos) << on.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "b.0005.exr"));
@@ -300,7 +308,8 @@ TEST(Sequence, ProgressBarOnATerminalOnly) {
   }
   const std::string command = "render s.%04d.exr -o a.%04d.exr" + lens;
   EXPECT_EQ(defray(folder, command).err, "");
-  const Result terminal = shell(folder, "script -qec \"" + program() + " " + command + "\" /dev/null");
+  const Result terminal =
+      shell(folder, "script -qec \"" + program() + " " + command + "\" /dev/null");
   expect_ok(terminal);
   EXPECT_NE(terminal.out.find("1/2 frames"), std::string::npos) << terminal.out;
   EXPECT_NE(terminal.out.find("left"), std::string::npos) << terminal.out;

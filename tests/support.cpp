@@ -52,7 +52,9 @@ Session& session_without_int64() {
 
 bool is_slow_device() { return device_under_test().name.find("Oclgrind") != std::string::npos; }
 
-std::vector<Size> awkward_sizes() { return {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {640, 480}}; }
+std::vector<Size> awkward_sizes() {
+  return {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {640, 480}};
+}
 
 namespace {
 

@@ -71,8 +71,7 @@ void expect_error(int code, const std::vector<std::string>& words, const Call& c
 #include "error.h"
 
 template <typename Call>
-void defray::test::expect_error(int code, const std::vector<std::string>& words,
-                                const Call& call) {
+void defray::test::expect_error(int code, const std::vector<std::string>& words, const Call& call) {
   try {
     call();
   } catch (const Error& error) {

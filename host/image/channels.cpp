@@ -205,8 +205,7 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
   }
   std::vector<ColourChoice> left;
   for (const ColourChoice& c : all) {
-    const bool right_view =
-        request.view.empty() || lower_case(c.view) == lower_case(request.view);
+    const bool right_view = request.view.empty() || lower_case(c.view) == lower_case(request.view);
     if (right_view && (request.layer.empty() || layer_matches(c.layer, request.layer))) {
       left.push_back(c);
     }
@@ -240,8 +239,7 @@ ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& p
   std::vector<ChannelName> best;
   int best_rank = -1;
   for (const ChannelName& name : names) {
-    const bool other_view =
-        !name.view.empty() && !colour.view.empty() && name.view != colour.view;
+    const bool other_view = !name.view.empty() && !colour.view.empty() && name.view != colour.view;
     const int rank = depth_rank(names, name, colour);
     if (rank < 0 || other_view) continue;
     if (best.empty() || rank < best_rank) {

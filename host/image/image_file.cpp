@@ -36,8 +36,9 @@ void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t by
   const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
   if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
       pixels > max_pixels || spec.depth > 1) {
-    fail(ExitCode::input, "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all",
-         path, spec.width, spec.height, spec.depth, max_side, max_pixels);
+    fail(ExitCode::input,
+         "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all", path,
+         spec.width, spec.height, spec.depth, max_side, max_pixels);
   }
   if (spec.nchannels < 1 || spec.nchannels > max_channels) {
     fail(ExitCode::input, "{}: header says {} channels; allowed are 1 to {}", path, spec.nchannels,
@@ -95,8 +96,7 @@ ImageFile ImageFile::read(const std::string& path) {
   }
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path);
-  ImageFile file =
-      from_planes(picture.channels, picture.planes, picture.width, picture.height);
+  ImageFile file = from_planes(picture.channels, picture.planes, picture.width, picture.height);
   file.path_ = path;
   return file;
 }
@@ -179,23 +179,21 @@ void ImageFile::refresh_info() {
 Plane ImageFile::plane(int part, int channel) const {
   const Part& p = parts_.at(static_cast<std::size_t>(part));
   Plane out(static_cast<std::size_t>(pixel_count(p.spec)));
-  OIIO::convert_image(1, p.spec.width, p.spec.height, 1,
-                      p.pixels.data() + channel_offset(p.spec, channel),
-                      p.spec.channelformat(channel),
-                      static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)), OIIO::AutoStride,
-                      OIIO::AutoStride, out.data(), TypeDesc::FLOAT, sizeof(float),
-                      OIIO::AutoStride, OIIO::AutoStride);
+  OIIO::convert_image(
+      1, p.spec.width, p.spec.height, 1, p.pixels.data() + channel_offset(p.spec, channel),
+      p.spec.channelformat(channel), static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)),
+      OIIO::AutoStride, OIIO::AutoStride, out.data(), TypeDesc::FLOAT, sizeof(float),
+      OIIO::AutoStride, OIIO::AutoStride);
   return out;
 }
 
 void ImageFile::set_plane(int part, int channel, const Plane& plane) {
   Part& p = parts_.at(static_cast<std::size_t>(part));
-  OIIO::convert_image(1, p.spec.width, p.spec.height, 1, plane.data(), TypeDesc::FLOAT,
-                      sizeof(float), OIIO::AutoStride, OIIO::AutoStride,
-                      p.pixels.data() + channel_offset(p.spec, channel),
-                      p.spec.channelformat(channel),
-                      static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)), OIIO::AutoStride,
-                      OIIO::AutoStride);
+  OIIO::convert_image(
+      1, p.spec.width, p.spec.height, 1, plane.data(), TypeDesc::FLOAT, sizeof(float),
+      OIIO::AutoStride, OIIO::AutoStride, p.pixels.data() + channel_offset(p.spec, channel),
+      p.spec.channelformat(channel), static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)),
+      OIIO::AutoStride, OIIO::AutoStride);
 }
 
 std::optional<double> ImageFile::metadata_number(const std::string& name) const {
@@ -253,7 +251,7 @@ void ImageFile::write(const std::string& path) const {
   std::vector<ImageSpec> specs;
   for (const Part& part : parts_) {
     specs.push_back(part.spec);
-    specs.back().erase_attribute("openexr:levelmode");  // the base level alone was read
+    specs.back().erase_attribute("openexr:levelmode");   // the base level alone was read
     specs.back().erase_attribute("openexr:chunkCount");  // the new file counts its own
   }
   if (specs.size() == 1) {

@@ -21,11 +21,11 @@ std::string to_string(const Window& window);
 
 struct PartInfo {
   std::string name;
-  std::string view;                 ///< The part's own view, empty where it has none.
-  std::vector<std::string> views;   ///< multiView of a single-part stereo file, default view first.
+  std::string view;                ///< The part's own view, empty where it has none.
+  std::vector<std::string> views;  ///< multiView of a single-part stereo file, default view first.
   std::vector<std::string> channels;
-  Window data;                      ///< Data window: the pixels that are stored.
-  Window display;                   ///< Display window: the picture's frame.
+  Window data;     ///< Data window: the pixels that are stored.
+  Window display;  ///< Display window: the picture's frame.
 };
 
 enum class Sample { half_float, single_float };

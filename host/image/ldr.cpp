@@ -87,9 +87,8 @@ void write_ldr(const std::string& path, const LdrPicture& picture) {
   for (int y = 0; y < picture.height; ++y) {
     std::uint8_t* row = image.ptr<std::uint8_t>(y);
     for (int x = 0; x < picture.width; ++x) {
-      const std::size_t at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-          static_cast<std::size_t>(x);
+      const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                             static_cast<std::size_t>(x);
       const double alpha = keeps_alpha ? static_cast<double>(picture.planes[3][at]) : 1;
       for (std::size_t c = 0; c < 3; ++c) {
         const double colour = static_cast<double>(picture.planes[c][at]);

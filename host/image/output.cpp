@@ -21,7 +21,9 @@ bool is_exr(const std::string& path) { return extension(path) == ".exr"; }
 void write_display_encoded(const std::string& path, const PartInfo& part,
                            const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   notes.push_back("values outside 0...1 are clipped by the 8-bit output");
-  const LdrPicture picture{part.display.width, part.display.height, {},
+  const LdrPicture picture{part.display.width,
+                           part.display.height,
+                           {},
                            to_display_window(colour, part.data, part.display)};
   write_safely(path, [&](const std::string& name) { write_ldr(name, picture); });
 }

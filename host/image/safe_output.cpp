@@ -53,8 +53,8 @@ fs::path folder_of(const std::string& path) {
 /// choose the format by it.
 std::string temporary_name(const std::string& path) {
   const fs::path target(path);
-  const std::string name = fmt::format(".{}.defray-{}{}", target.stem().string(), getpid(),
-                                       target.extension().string());
+  const std::string name =
+      fmt::format(".{}.defray-{}{}", target.stem().string(), getpid(), target.extension().string());
   return (folder_of(path) / name).string();
 }
 

@@ -31,8 +31,7 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   info.global_memory_bytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   info.local_memory_bytes = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
   info.max_buffer_bytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  info.has_int64_atomics =
-      extensions.find("cl_khr_int64_extended_atomics") != std::string::npos;
+  info.has_int64_atomics = extensions.find("cl_khr_int64_extended_atomics") != std::string::npos;
   const cl_device_type not_cpu = CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
   info.shares_host_memory = (device.getInfo<CL_DEVICE_TYPE>() & not_cpu) == 0;
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;

@@ -29,7 +29,8 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units) {
 std::vector<std::int32_t> coc(const Lens& lens, int display_width_px, const Plane& depth) {
   const double quantum = std::ldexp(1.0, -DEFRAY_COC_FRACTION_BITS);
   double limit = DEFRAY_COC_LIMIT_QUANTA * quantum;
-  if (lens.max_coc_px > 0) limit = std::fmin(limit, std::round(lens.max_coc_px / quantum) * quantum);
+  if (lens.max_coc_px > 0)
+    limit = std::fmin(limit, std::round(lens.max_coc_px / quantum) * quantum);
   std::vector<std::int32_t> quanta(depth.size());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double r = coc_px(lens, display_width_px, static_cast<double>(depth[i]));

@@ -118,8 +118,7 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
   std::vector<std::vector<double>> sum(channels.size(), std::vector<double>(depth.size()));
   std::vector<int> filled(depth.size());
   for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const auto winner =
-        rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
+    const auto winner = rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
     for (std::size_t i = 0; i < winner.size(); ++i) {
       if (winner[i] < 0) continue;
       ++filled[i];

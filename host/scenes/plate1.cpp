@@ -55,9 +55,12 @@ class Ball : public Primitive {
 
 /// Fine plaid with a coarse checker under it: contrast at two scales.
 Vec3 plaid(double x, double y) {
-  const auto wave = [](double at, double period) { return 0.5 + 0.5 * std::sin(6.2831853 * at / period); };
+  const auto wave = [](double at, double period) {
+    return 0.5 + 0.5 * std::sin(6.2831853 * at / period);
+  };
   const double fine = wave(x, 0.045) * wave(y, 0.045);
-  const bool dark = (static_cast<int>(std::floor(x / 0.3)) + static_cast<int>(std::floor(y / 0.3))) & 1;
+  const bool dark =
+      (static_cast<int>(std::floor(x / 0.3)) + static_cast<int>(std::floor(y / 0.3))) & 1;
   const double base = dark ? 0.12 : 0.45;
   return {base + 0.5 * fine, base + 0.35 * fine, 0.75 * base + 0.15 * fine};
 }

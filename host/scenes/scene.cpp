@@ -58,8 +58,7 @@ Vec3 lens_pixel(const Scene& scene, int x, int y, int samples, std::uint32_t see
   Random random(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
   const int side = std::max(1, static_cast<int>(std::sqrt(samples)));
   const double z0 = scene.lens.focus_distance_units;
-  const double radius =
-      scene.lens.aperture_diameter_mm / 2000 / scene.lens.metres_per_unit;
+  const double radius = scene.lens.aperture_diameter_mm / 2000 / scene.lens.metres_per_unit;
   Vec3 sum;
   for (int i = 0; i < samples; ++i) {
     const bool has_stratum = i < side * side;

@@ -21,7 +21,8 @@ struct Hit {
   Vec3 colour;
 };
 
-/// Something that a ray can hit. The camera is at the origin and looks along +z; x is right, y down.
+/// Something that a ray can hit. The camera is at the origin and looks along +z; x is right, y
+/// down.
 class Primitive {
  public:
   virtual ~Primitive() = default;
