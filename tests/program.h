@@ -30,6 +30,8 @@ void write_picture_file(const Folder& folder, const std::string& name,
 /// Hash of every channel of every part of a file.
 std::uint64_t file_hash(const std::string& path);
 
+inline void expect_ok(const Result& result) { EXPECT_EQ(result.code, 0) << result.err; }
+
 /// A complete lens for render's command line.
 inline const std::string lens = " --focus 3 --fstop 0.5 --focal-length 50 ";
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "image/channel_names.h"
 #include "image/image_file.h"
 
 namespace defray {
@@ -13,19 +14,6 @@ struct ChannelRequest {
   std::string view;
   std::string depth_channel;
 };
-
-/// A channel of a file, with its name taken apart.
-struct ChannelName {
-  int part = 0;
-  int channel = 0;
-  std::string full;   ///< As stored, "ViewLayer.Depth.Z".
-  std::string layer;  ///< "ViewLayer.Depth"; of multi-part files, the part where the name has none.
-  std::string base;   ///< "Z".
-  std::string view;   ///< "left", or empty.
-};
-
-/// Every channel of these parts.
-std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts);
 
 struct ColourChoice {
   int part = 0;
@@ -44,8 +32,5 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
 /// Throws Error(input) when there is none, or with the candidates when there are several.
 ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,
                          const ChannelRequest& request, const ColourChoice& colour);
-
-/// "Z", or "Z (part depth_left)" where the file has several parts.
-std::string describe(const ChannelName& name, const std::vector<PartInfo>& parts);
 
 }  // namespace defray

@@ -1,0 +1,72 @@
+#include "image/channel_names.h"
+
+#include <set>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray {
+namespace {
+
+std::set<std::string> view_names(const std::vector<PartInfo>& parts) {
+  std::set<std::string> views{"left", "right"};
+  for (const PartInfo& part : parts) {
+    if (!part.view.empty()) views.insert(lower_case(part.view));
+    for (const std::string& view : part.views) views.insert(lower_case(view));
+  }
+  return views;
+}
+
+/// "rgba_left" and "rgba.left" of view "left" -> "rgba".
+std::string without_view(const std::string& name, const std::string& view) {
+  const std::string tail = lower_case(view);
+  if (view.empty() || name.size() <= tail.size() || !lower_case(name).ends_with(tail)) return name;
+  const std::size_t cut = name.size() - tail.size() - 1;
+  return name[cut] == '_' || name[cut] == '.' ? name.substr(0, cut) : name;
+}
+
+ChannelName take_apart(const std::vector<PartInfo>& parts, std::size_t part, std::size_t channel,
+                       const std::set<std::string>& views) {
+  const PartInfo& info = parts[part];
+  ChannelName name;
+  name.part = static_cast<int>(part);
+  name.channel = static_cast<int>(channel);
+  name.full = info.channels[channel];
+  name.view = info.view;
+  std::vector<std::string> layer = split(name.full, '.');
+  if (!layer.empty()) {
+    name.base = layer.back();
+    layer.pop_back();
+  }
+  // A token that is a view's name is not part of the layer; without one, a stereo file's channel
+  // belongs to the default view (OpenEXR's multi-view convention).
+  std::erase_if(layer, [&](const std::string& token) {
+    if (views.count(lower_case(token)) == 0) return false;
+    name.view = token;
+    return true;
+  });
+  if (name.view.empty() && !info.views.empty()) name.view = info.views.front();
+  name.layer = join(layer, ".");
+  if (name.layer.empty() && parts.size() > 1) name.layer = without_view(info.name, name.view);
+  return name;
+}
+
+}  // namespace
+
+std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts) {
+  const std::set<std::string> views = view_names(parts);
+  std::vector<ChannelName> names;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t c = 0; c < parts[p].channels.size(); ++c) {
+      names.push_back(take_apart(parts, p, c, views));
+    }
+  }
+  return names;
+}
+
+std::string describe(const ChannelName& name, const std::vector<PartInfo>& parts) {
+  if (parts.size() < 2) return name.full;
+  return fmt::format("{} (part {})", name.full, parts[static_cast<std::size_t>(name.part)].name);
+}
+
+}  // namespace defray

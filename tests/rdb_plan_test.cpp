@@ -1,0 +1,55 @@
+// Passes within a memory budget, and the cells of the lens.
+#include "rdb_plan.h"
+
+#include "lens_cells.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
+  for (const int height : {1, 2, 97, 480}) {
+    for (const std::size_t rows : {1, 2, 5, 1000}) {
+      const std::size_t budget = rows * 100 * 32;
+      const auto passes = plan_rdb_passes(100, height, 69, 12, budget);
+      std::vector<int> seen(static_cast<std::size_t>(height));
+      for (const RdbPass& p : passes) {
+        const std::size_t pixels = 100 * static_cast<std::size_t>(p.band_rows);
+        EXPECT_LE(pixels * (8 * static_cast<std::size_t>(p.cell_count) + 24), budget);
+        EXPECT_LE(p.window_y, std::max(0, p.band_y - 12));
+        EXPECT_GE(p.window_y + p.window_rows, std::min(height, p.band_y + p.band_rows + 12));
+        for (int y = p.band_y; y < p.band_y + p.band_rows; ++y) {
+          seen[static_cast<std::size_t>(y)] += p.cell_count;
+        }
+      }
+      for (const int cells : seen) EXPECT_EQ(cells, 69);
+    }
+  }
+}
+
+TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
+  expect_error(2, {"--memory", "3200"}, [] { plan_rdb_passes(100, 10, 69, 1, 3199); });
+}
+
+TEST(LensCells, RoundApertureOfThePaper) {
+  EXPECT_EQ(make_lens_cells(9, false).centres.size(), 69u);
+  EXPECT_EQ(make_lens_cells(1, false).centres.size(), 1u);
+  EXPECT_EQ(make_lens_cells(2, false).centres.size(), 4u);
+  // pi/4 of the square, as the cells get small.
+  EXPECT_NEAR(make_lens_cells(64, false).centres.size() / 4096.0, 0.785398, 0.005);
+  for (const int n : {0, -1, 65}) {
+    expect_error(2, {"--rdb", "1 to 64"}, [n] { make_lens_cells(n, false); });
+  }
+}
+
+TEST(LensCells, AreCentredOnTheAxis) {
+  for (int n = 1; n <= 64; ++n) {
+    std::int64_t u = 0, v = 0;
+    for (const auto& cell : make_lens_cells(n, false).centres) u += cell[0], v += cell[1];
+    EXPECT_EQ(u, 0) << n;
+    EXPECT_EQ(v, 0) << n;
+  }
+}
+
+}  // namespace
+}  // namespace defray::test

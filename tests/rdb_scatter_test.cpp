@@ -1,0 +1,167 @@
+// Kernel rdb_scatter against its scalar twin, and the twin against the paper's definition.
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "rdb.h"
+#include "reference/reference.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+/// CoC radii: none, below half a pixel, small, middling, past every frame, and the format's limit.
+constexpr double radii[] = {0, 0.3, 1.7, 8, 32, 1000, 4194303};
+
+/// The definition, word for word: of all source pixels p with x - p - r u in [-1/2, 1/2)^2 the
+/// nearest, the first of equals. Integer numerators over 2^24.
+std::int64_t winner_by_definition(Size size, int x, int y, std::array<std::int32_t, 2> u,
+                                  const std::vector<std::int32_t>& coc, const Plane& depth) {
+  std::int64_t best = -1;
+  for (int py = 0; py < size.height; ++py) {
+    for (int px = 0; px < size.width; ++px) {
+      const auto p = static_cast<std::size_t>(py * size.width + px);
+      const std::int64_t one = 1 << 24, half = one / 2;
+      const std::int64_t dx = (x - px) * one - static_cast<std::int64_t>(coc[p]) * u[0];
+      const std::int64_t dy = (y - py) * one - static_cast<std::int64_t>(coc[p]) * u[1];
+      if (dx < -half || dx >= half || dy < -half || dy >= half) continue;
+      if (best < 0 || depth[p] < depth[static_cast<std::size_t>(best)]) {
+        best = static_cast<std::int64_t>(p);
+      }
+    }
+  }
+  return best;
+}
+
+/// One cell's winners over the frame as the device found them: source index, or -1.
+using CellWinners = std::vector<std::vector<std::int64_t>>;
+
+/// Every cell's winners, [cell][pixel], gathered from all passes; checks the depths beside them.
+CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings,
+                              const std::vector<std::int32_t>& coc, const Plane& depth) {
+  const std::vector<Plane> channels{depth};
+  RdbRun run(s, size.width, size.height, coc, depth, channels, settings);
+  CellWinners all(make_lens_cells(settings.cells_per_side, settings.jitter).centres.size(),
+                  std::vector<std::int64_t>(depth.size(), -2));
+  for (const RdbPass& pass : run.passes()) {
+    run.scatter(pass);
+    const std::vector<RdbWinner> winners = run.winners(pass);
+    const std::size_t band = winners.size() / static_cast<std::size_t>(pass.cell_count);
+    const std::int64_t window = std::int64_t{pass.window_y} * size.width;
+    const std::int64_t first = std::int64_t{pass.band_y} * size.width;
+    for (std::size_t i = 0; i < winners.size(); ++i) {
+      const RdbWinner& w = winners[i];
+      auto& found = all[i / band + static_cast<std::size_t>(pass.first_cell)]
+                       [i % band + static_cast<std::size_t>(first)];
+      found = w.source == DEFRAY_EMPTY ? -1 : window + w.source;
+      if (found < 0) continue;
+      std::uint32_t bits;
+      std::memcpy(&bits, &depth[static_cast<std::size_t>(found)], sizeof(bits));
+      EXPECT_EQ(w.depth_bits, bits);
+    }
+  }
+  return all;
+}
+
+/// Cells whose winner differs between kernel and twin, over a whole frame.
+std::size_t differing_winners(Session& s, Size size, const RdbSettings& settings,
+                              const std::vector<std::int32_t>& coc, const Plane& depth) {
+  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
+  const CellWinners kernel = winners_on_device(s, size, settings, coc, depth);
+  std::size_t differing = 0;
+  for (std::size_t cell = 0; cell < kernel.size(); ++cell) {
+    const auto twin =
+        reference::rdb_scatter(size.width, size.height, cells, cell, settings.seed, coc, depth);
+    for (std::size_t i = 0; i < twin.size(); ++i) differing += kernel[cell][i] != twin[i];
+  }
+  return differing;
+}
+
+int cells_a_side(Size size) {
+  const int pixels = size.width * size.height;
+  if (is_slow_device()) return pixels > 100000 ? 1 : pixels > 10000 ? 2 : 5;
+  return pixels > 100000 ? 4 : 9;
+}
+
+void expect_no_differing_winners(Session& s, bool jitter) {
+  std::uint32_t seed = 1;
+  for (const Size size : awkward_sizes()) {
+    for (const double radius : radii) {
+      if (is_slow_device() && size.width == 640 && radius != 8) continue;
+      // Jitter makes both visit every pixel in a ray's reach: large CoC in the smaller frames only.
+      if (jitter && size.width > 100 && radius > (size.width > 300 ? 8 : 32)) continue;
+      if (jitter && is_slow_device() && (size.width > 300 || radius > 8)) continue;
+      RdbSettings settings;
+      settings.cells_per_side = cells_a_side(size);
+      settings.jitter = jitter;
+      settings.seed = seed;
+      const auto coc = random_coc(size, radius, ++seed);
+      const Plane depth = random_depth(size, ++seed);
+      EXPECT_EQ(differing_winners(s, size, settings, coc, depth), 0u)
+          << size.width << "x" << size.height << ", CoC up to " << radius << " px, seed " << seed;
+    }
+  }
+}
+
+TEST(RdbScatter, TwinIsTheDefinition) {
+  std::uint32_t seed = 100;
+  for (const Size size : {Size{1, 1}, Size{1, 17}, Size{13, 7}, Size{29, 23}}) {
+    for (const double radius : radii) {
+      const LensCells cells = make_lens_cells(size.width > 20 ? 5 : 9, false);
+      const auto coc = random_coc(size, radius, ++seed);
+      const Plane depth = random_depth(size, ++seed);
+      for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
+        const auto twin =
+            reference::rdb_scatter(size.width, size.height, cells, cell, 0, coc, depth);
+        for (std::size_t i = 0; i < twin.size(); ++i) {
+          const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+          ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc, depth))
+              << "cell " << cell << " of pixel (" << x << ", " << y << "), CoC up to " << radius;
+        }
+      }
+    }
+  }
+}
+
+TEST(RdbScatter, KernelEqualsTwin) { expect_no_differing_winners(session(), false); }
+
+TEST(RdbScatter, KernelEqualsTwinWithJitter) { expect_no_differing_winners(session(), true); }
+
+TEST(RdbScatter, TwoPassFallbackEqualsTwin) {
+  expect_no_differing_winners(session_without_int64(), false);
+}
+
+TEST(RdbScatter, TwoPassFallbackEqualsTwinWithJitter) {
+  expect_no_differing_winners(session_without_int64(), true);
+}
+
+TEST(RdbScatter, EqualDepthsGoToTheSmallerIndex) {
+  const Size size{33, 9};
+  const Plane depth(33 * 9, 2.0f);
+  const auto coc = random_coc(size, 6, 7);
+  EXPECT_EQ(differing_winners(session(), size, {}, coc, depth), 0u);
+  EXPECT_EQ(differing_winners(session_without_int64(), size, {}, coc, depth), 0u);
+}
+
+TEST(RdbScatter, BandsKeepTheWinners) {
+  const Size size{61, 47};
+  const Plane depth = random_depth(size, 8);
+  const auto coc = random_coc(size, 6, 9);
+  RdbSettings settings;
+  settings.cells_per_side = 3;
+  for (const std::size_t rows : {1, 2, 5, 46}) {
+    settings.memory_bytes = rows * 61 * 32;
+    EXPECT_EQ(differing_winners(session(), size, settings, coc, depth), 0u) << rows << " rows";
+  }
+}
+
+TEST(RdbScatter, ZeroRadiusFillsEveryCellOfItsOwnPixel) {
+  const Size size{13, 7};
+  const std::vector<std::int32_t> coc(13 * 7, 0);
+  for (const auto& cell : winners_on_device(session(), size, {}, coc, random_depth(size, 3))) {
+    for (std::size_t i = 0; i < cell.size(); ++i) EXPECT_EQ(cell[i], static_cast<std::int64_t>(i));
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
