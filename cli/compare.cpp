@@ -1,6 +1,7 @@
 // defray compare: how far two pictures are apart. defray sheet: pictures side by side.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +10,8 @@
 #include "display.h"
 #include "error.h"
 #include "image/channels.h"
+#include "image/ldr.h"
+#include "image/safe_output.h"
 #include "metrics.h"
 #include "text.h"
 
@@ -30,8 +33,8 @@ Picture read_picture(const std::string& path) {
 
 void require_same_size(const std::string& a_path, const Picture& a, const std::string& b_path,
                        const Picture& b) {
-  if (a.data.width != b.data.width || a.data.height != b.data.height) {
-    fail(ExitCode::input, "{} has {}, {} has {} pixels: sizes must be the same", a_path,
+  if (a.data != b.data) {
+    fail(ExitCode::input, "{} has data window {}, {} has {}: both must be the same", a_path,
          to_string(a.data), b_path, to_string(b.data));
   }
 }
@@ -43,11 +46,13 @@ struct CompareOptions {
 };
 
 int run_compare(const CompareOptions& o) {
+  if (o.min_psnr && std::isnan(*o.min_psnr)) fail(ExitCode::usage, "--min-psnr is not a number");
   const Picture a = read_picture(o.a), b = read_picture(o.b);
   require_same_size(o.a, a, o.b, b);
   const Comparison c = compare(a.planes, b.planes, a.data.width);
   if (o.json) {
-    const nlohmann::ordered_json line = {{"psnr_srgb_db", c.psnr_srgb_db},
+    const nlohmann::ordered_json line = {{"equal", c.worst == 0},
+                                         {"psnr_srgb_db", c.psnr_srgb_db},
                                          {"psnr_linear_db", c.psnr_linear_db},
                                          {"rms", c.rms},
                                          {"worst", c.worst},
@@ -60,7 +65,8 @@ int run_compare(const CompareOptions& o) {
     fmt::print("RMS error {:.6g}, worst {:.6g} at pixel ({}, {}) (linear, not clipped)\n", c.rms,
                c.worst, c.worst_x, c.worst_y);
   }
-  const bool missed = o.min_psnr && c.psnr_srgb_db < *o.min_psnr;
+  // A NaN is never good enough.
+  const bool missed = o.min_psnr && !(c.psnr_srgb_db >= *o.min_psnr);
   return static_cast<int>(missed ? ExitCode::failed : ExitCode::ok);
 }
 
@@ -74,6 +80,14 @@ int run_sheet(const SheetOptions& o) {
     fail(ExitCode::usage, "--captions names {} pictures, there are {}", o.captions.size(),
          o.pictures.size());
   }
+  if (!is_ldr_path(o.output)) fail(ExitCode::usage, "{}: a sheet is PNG or JPEG", o.output);
+  for (const std::string& picture : o.pictures) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(picture, o.output, ignored)) {
+      fail(ExitCode::usage, "{}: is input and output at once; write to another file", o.output);
+    }
+  }
+  check_can_write(o.output);
   std::vector<Panel> panels;
   Window size;
   Picture first;

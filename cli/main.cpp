@@ -1,6 +1,8 @@
 // defray: reads the command line, runs one command, turns an Error into one line and an exit code.
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -78,7 +80,12 @@ int run(int argc, char** argv) {
     return fail_with(ExitCode::usage, error.what());
   }
   for (const auto& [app_of, command] : commands) {
-    if (app_of->parsed()) return command();
+    if (!app_of->parsed()) continue;
+    const int code = command();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+      return fail_with(ExitCode::output, "cannot write to standard output");
+    }
+    return code;
   }
   fmt::print("{}", app.help());
   return static_cast<int>(ExitCode::usage);
@@ -97,6 +104,8 @@ int main(int argc, char** argv) {
     return defray::cli::fail_with(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     return defray::cli::fail_with(defray::ExitCode::input, "not enough memory for this picture");
+  } catch (const std::system_error& error) {  // fmt's, from a broken standard output
+    return defray::cli::fail_with(defray::ExitCode::output, error.what());
   } catch (const std::exception& error) {
     return defray::cli::fail_with(defray::ExitCode::internal, error.what());
   }

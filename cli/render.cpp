@@ -19,6 +19,11 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
     if (!o.frames.empty()) {
       fail(ExitCode::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
+    for (const std::string& name : {o.output, o.coc_out}) {
+      if (!name.empty() && has_frame_pattern(name)) {
+        fail(ExitCode::usage, "{}: has a frame pattern, the input {} has none", name, o.input);
+      }
+    }
     return {std::nullopt};
   }
   const std::vector<int> numbers = o.frames.empty() ? find_frames(o.input) : parse_frames(o.frames);

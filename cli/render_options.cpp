@@ -20,13 +20,16 @@ Examples:
   defray render vray.exr -o out.exr --depth-kind normalized --invert --near 0.5 --far 40 \
       --focus 3 --fstop 4 --focal-length 50)";
 
+/// An empty value is most likely an unset shell variable.
+std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
+
 void add_files(CLI::App& c, RenderOptions& o) {
   c.add_option("input", o.input, "Colour, and depth unless --depth is given; #### or %04d: frames")
       ->required();
   c.add_option("-o,--output", o.output, "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)")
       ->required();
   const char* const files = "Files";
-  c.add_option("--depth", o.depth, "Take depth from this file")->group(files);
+  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(not_empty);
   c.add_option("--coc-out", o.coc_out, "Write the signed CoC radius in px (.exr, .tif)")
       ->group(files);
   c.add_option("--frames", o.frames, "1-8, 1-10x2, 1,5,9-12; default: every file that matches")
@@ -152,7 +155,7 @@ RenderSettings to_settings(const RenderOptions& o) {
     fail(ExitCode::usage, "--max-coc is {} px: it must be above 0", *o.max_coc);
   }
   s.max_coc_px = o.max_coc.value_or(0);
-  const CameraValues typed{o.focal_length, o.sensor_width, o.fstop, o.aperture_diameter, o.focus};
+  const CameraValues typed{o.focal_length, o.sensor_width, o.fstop, o.aperture_diameter, o.focus, ""};
   s.camera_from_metadata = o.camera == "from-metadata";
   if (!o.focus_setting.empty() && (o.camera.empty() || s.camera_from_metadata)) {
     fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");

@@ -10,6 +10,9 @@ namespace defray::cli {
 namespace {
 
 std::string depth_line(const FrameReport& r) {
+  if (r.depth.nearest_units == 0) {
+    return fmt::format("depth {}, nothing but background", r.depth_channel);
+  }
   std::string line = fmt::format("depth {}, {:.6g} to {:.6g} units", r.depth_channel,
                                  r.depth.nearest_units, r.depth.farthest_units);
   if (r.depth.background > 0) {
@@ -32,7 +35,14 @@ std::string lens_line(const FrameReport& r) {
 
 std::vector<std::string> notes_of(const FrameReport& r) {
   std::vector<std::string> notes = r.notes;
-  if (r.nonfinite > 0) notes.push_back(fmt::format("{} NaN or Inf colour values", r.nonfinite));
+  if (r.nonfinite > 0) {
+    notes.push_back(fmt::format("{} NaN or Inf colour values {}", r.nonfinite,
+                                r.nonfinite_kept ? "kept" : "set to 0"));
+  }
+  if (r.depth.outside_range > 0) {
+    notes.push_back(fmt::format("{} stored depths lie outside 0...1: is this normalized depth?",
+                                r.depth.outside_range));
+  }
   if (r.coc_limited > 0) {
     notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
   }
@@ -53,6 +63,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
           {"farthest_units", r.depth.farthest_units},
           {"background_px", r.depth.background},
           {"nan_depth_px", r.depth.not_a_number},
+          {"depth_outside_range_px", r.depth.outside_range},
           {"nearest_coc_px", r.nearest_coc_px},
           {"farthest_coc_px", r.farthest_coc_px},
           {"coc_limited_px", r.coc_limited},

@@ -31,6 +31,7 @@ build() {
   shift
   local log
   log=$(mktemp)
+  [ -x "$folder/bin/defray" ] || echo "Building in $folder; the first time takes a few minutes"
   if ! { cmake -S "$project" -B "$folder" -G Ninja "$@" && cmake --build "$folder"; } >"$log" 2>&1
   then
     cat "$log" >&2

@@ -1,5 +1,6 @@
 #include "camera.h"
 
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,9 @@ using nlohmann::json;
 
 json parse_file(const std::string& path) {
   std::ifstream stream(path);
-  if (!stream) fail(ExitCode::input, "{}: cannot open the camera file", path);
+  if (!stream || !std::filesystem::is_regular_file(path)) {
+    fail(ExitCode::input, "{}: cannot open the camera file", path);
+  }
   try {
     return json::parse(stream);
   } catch (const json::exception& error) {
@@ -29,7 +32,9 @@ std::optional<double> number(const std::string& path, const json& object, const 
 
 /// The focus setting asked for, or the only one there is.
 json choose_setting(const std::string& path, const json& root, const std::string& setting) {
-  const json settings = root.value("focus_settings", json::object());
+  // A file without settings may state focus and aperture beside the focal length.
+  if (!root.contains("focus_settings")) return root;
+  const json& settings = root["focus_settings"];
   if (!settings.is_object()) fail(ExitCode::input, "{}: 'focus_settings' is no object", path);
   std::vector<std::string> names;
   for (const auto& item : settings.items()) names.push_back(item.key());
@@ -66,6 +71,7 @@ std::optional<T> either(const std::optional<T>& first, const std::optional<T>& s
 
 CameraValues CameraValues::overridden_by(const CameraValues& over) const {
   CameraValues values;
+  values.source = source;
   values.focal_length_mm = either(over.focal_length_mm, focal_length_mm);
   values.sensor_width_mm = either(over.sensor_width_mm, sensor_width_mm);
   values.focus_distance_units = either(over.focus_distance_units, focus_distance_units);
@@ -83,6 +89,7 @@ CameraValues read_camera_json(const std::string& path, const std::string& settin
   if (!root.is_object()) fail(ExitCode::input, "{}: not a JSON object", path);
   const json focus = choose_setting(path, root, setting);
   CameraValues values;
+  values.source = path;
   values.focal_length_mm = number(path, root, "focal_length_mm");
   values.sensor_width_mm = number(path, root, "sensor_width_mm");
   values.focus_distance_units =
@@ -122,7 +129,9 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
     missing.push_back("--fstop or --aperture-diameter");
   }
   if (!missing.empty()) {
-    fail(ExitCode::usage, "the lens is not complete: give {} (or --camera)", join(missing, ", "));
+    fail(ExitCode::usage, "the lens is not complete: give {}{}", join(missing, ", "),
+         values.source.empty() ? " (or --camera)"
+                               : fmt::format("; {} has no such value", values.source));
   }
   if (values.fstop && values.aperture_diameter_mm) {
     fail(ExitCode::usage, "--fstop and --aperture-diameter say the same thing: give one of them");

@@ -16,6 +16,7 @@ struct CameraValues {
   std::optional<double> fstop;
   std::optional<double> aperture_diameter_mm;
   std::optional<double> focus_distance_units;
+  std::string source;  ///< Where they are from, for messages; empty: the command line.
 
   /// Values of `over` win over these.
   CameraValues overridden_by(const CameraValues& over) const;

@@ -74,6 +74,8 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
         depth[i] = std::numeric_limits<float>::infinity();
         continue;
       }
+      const bool is_normalized = settings.kind == DepthKind::normalized;
+      report.outside_range += is_normalized && (stored < 0 || stored > 1);
       const double share =
           settings.kind == DepthKind::distance
               ? planar_share(x + 0.5 - centre_x, y + 0.5 - centre_y, pixel_focal_length)

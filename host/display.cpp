@@ -63,9 +63,7 @@ void write_sheet(const std::string& path, const std::vector<Panel>& panels, int 
     cv::putText(sheet, panel.caption, {left + 4, caption_height - 12}, cv::FONT_HERSHEY_SIMPLEX,
                 0.6, cv::Scalar::all(0), 1, cv::LINE_AA);
   }
-  write_safely(path, [&](const std::string& name) {
-    if (!cv::imwrite(name, sheet)) fail(ExitCode::output, "{}: cannot write", name);
-  });
+  write_safely(path, [&](const std::string& name) { write_encoded(name, &sheet); });
 }
 
 bool has_display(std::string& why) {

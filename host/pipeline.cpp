@@ -69,7 +69,7 @@ std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const
 Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const Frame& frame,
                  FrameReport& report) {
   std::optional<ImageFile> other;
-  if (!paths.depth.empty()) other = ImageFile::read(paths.depth);
+  if (!paths.depth.empty()) other = ImageFile::read(paths.depth, Content::data);
   const ImageFile& file = other ? *other : frame.file;
   const ChannelName name = choose_depth(file.path(), file.parts(), settings.request, frame.choice);
   report.depth_channel = describe(name, file.parts());
@@ -93,10 +93,12 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
     frame.colour.push_back(frame.file.plane(frame.choice.part, c));
   }
   report.nonfinite = handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
+  report.nonfinite_kept = settings.nonfinite == Nonfinite::keep;
   frame.depth = read_depth(paths, settings, frame, report);
   CameraValues camera = settings.camera;
   if (settings.camera_from_metadata) {
     camera = camera_from_metadata(frame.file, settings.metres_per_unit).overridden_by(camera);
+    camera.source = paths.input + "'s metadata";
   }
   report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
   report.depth = convert_depth(frame.depth, settings.depth, part.data, part.display,

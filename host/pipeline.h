@@ -51,7 +51,8 @@ struct FrameReport {
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.
   std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
   std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
-  std::vector<std::string> notes;                  ///< Whatever else the user should know.
+  bool nonfinite_kept = false;
+  std::vector<std::string> notes;  ///< Whatever else the user should know.
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
 };
 

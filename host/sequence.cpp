@@ -3,7 +3,9 @@
 #include <OpenImageIO/filesystem.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <regex>
+#include <set>
 
 #include "error.h"
 
@@ -23,10 +25,24 @@ std::string with_plain_hashes(std::string path) {
   return path;
 }
 
-/// The pattern in printf form ("shot.%04d.exr"), or empty where there is none.
-std::string normalized(const std::string& path) {
+/// The folder of a path with its last slash, or nothing: patterns belong to file names only.
+std::string folder_of(const std::string& path) {
+  return path.substr(0, path.find_last_of('/') + 1);
+}
+
+/// The file name's pattern in printf form ("shot.%04d.exr"), or empty where there is none. A file
+/// that exists under its literal name is that file.
+std::string name_pattern(const std::string& path) {
+  const std::string name = path.substr(folder_of(path).size());
+  static const std::regex form(R"([#@]+|%[0-9]*d)");
+  const auto count = std::distance(std::sregex_iterator(name.begin(), name.end(), form), {});
+  if (count == 0 || std::filesystem::is_regular_file(path)) return "";
+  if (count > 1) {
+    fail(ExitCode::usage, "{}: has {} frame patterns; allowed is one: ####, @@ or %04d", path,
+         count);
+  }
   std::string pattern, range;
-  if (!Fs::parse_pattern(with_plain_hashes(path).c_str(), 0, pattern, range)) return "";
+  if (!Fs::parse_pattern(with_plain_hashes(name).c_str(), 0, pattern, range)) return "";
   return pattern;
 }
 
@@ -40,10 +56,7 @@ double frames_in(const std::string& part) {
 
 }  // namespace
 
-bool has_frame_pattern(const std::string& path) {
-  static const std::regex form(R"([#@]|%[0-9]*d)");
-  return std::regex_search(path, form) && !normalized(path).empty();
-}
+bool has_frame_pattern(const std::string& path) { return !name_pattern(path).empty(); }
 
 std::vector<int> parse_frames(const std::string& text) {
   static const std::regex item(R"(-?\d{1,9}(-(-?\d{1,9})([xy]-?[1-9]\d{0,8})?)?)");
@@ -68,25 +81,37 @@ std::vector<int> parse_frames(const std::string& text) {
   if (!Fs::enumerate_sequence(text, frames) || frames.empty()) {
     fail(ExitCode::usage, "--frames '{}' names no frame", text);
   }
+  std::set<int> seen;
+  std::erase_if(frames, [&](int frame) { return !seen.insert(frame).second; });
   return frames;
 }
 
 std::vector<int> find_frames(const std::string& pattern) {
+  const std::string folder = folder_of(pattern);
   std::vector<int> frames;
-  std::vector<std::string> names;
-  if (!Fs::scan_for_matching_filenames(normalized(pattern), frames, names) || frames.empty()) {
-    fail(ExitCode::input, "{}: no file matches this pattern", pattern);
+  std::error_code unreadable;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(folder.empty() ? "." : folder, unreadable)) {
+    static const std::regex digits(R"(-?\d{1,9})");
+    const std::string name = entry.path().filename().string();
+    // Any number in the name could be the frame: the one that gives back this name is.
+    for (std::sregex_iterator i(name.begin(), name.end(), digits), end; i != end; ++i) {
+      const int frame = std::stoi(i->str());
+      if (frame_path(pattern, frame) == folder + name) frames.push_back(frame);
+    }
   }
+  if (frames.empty()) fail(ExitCode::input, "{}: no file matches this pattern", pattern);
   std::sort(frames.begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }
 
 std::string frame_path(const std::string& pattern, int frame) {
-  const std::string form = normalized(pattern);
+  const std::string form = name_pattern(pattern);
   if (form.empty()) return pattern;
   std::vector<std::string> names;
   Fs::enumerate_file_sequence(form, {frame}, names);
-  return names.empty() ? pattern : names.front();
+  return folder_of(pattern) + (names.empty() ? form : names.front());
 }
 
 }  // namespace defray

@@ -136,6 +136,8 @@ TEST_F(BadInput, Frames) {
   }
   expect_render_refused("s.%04d.exr -o out.exr" + lens, 2, {"2 frames would go to one file"});
   expect_render_refused("t.%04d.exr -o o.%04d.exr" + lens, 3, {"no file matches"});
+  expect_render_refused("in.exr -o o.####.exr" + lens, 2, {"the input in.exr has none"});
+  expect_render_refused("s.%04d.exr -o o_%04d.####.exr" + lens, 2, {"2 frame patterns"});
 }
 
 TEST_F(BadInput, Outputs) {
@@ -145,6 +147,8 @@ TEST_F(BadInput, Outputs) {
   expect_render_refused("in.exr -o small.exr --depth small.exr" + lens, 2, {"at once"});
   expect_render_refused("in.exr -o out.exr --coc-out out.exr" + lens, 2, {"the same file"});
   expect_render_refused("in.exr -o out.xyz" + lens, 2, {"'.xyz'", ".exr"});
+  const Result full = defray(folder_, "devices >/dev/full");
+  EXPECT_EQ(full.code, 4) << full.err;
 }
 
 TEST_F(BadInput, Spelling) {
@@ -160,12 +164,20 @@ TEST_F(BadInput, Spelling) {
   refused("scene plate1 -o . --truth-samples 0", {"--truth-samples is 0"});
   refused("scene plate1 -o . --width 0", {"scene size"});
   refused("sheet in.exr -o s.png --captions a,b", {"--captions"});
+  refused("sheet in.exr -o s.exr", {"PNG or JPEG"});
+  EXPECT_EQ(defray(folder_, "sheet in.exr -o s.png").code, 0);
+  refused("sheet s.png -o s.png", {"input and output at once"});
+  refused("render in.exr -o out.exr --depth ''" + lens, {"--depth", "is empty"});
 }
 
 TEST_F(BadInput, Compare) {
   const std::string command = "compare in.exr small.exr";
   expect_refusal(defray(folder_, command), 3, {"48x32", "20x10"}, command);
   EXPECT_EQ(defray(folder_, "compare in.exr in.exr --min-psnr 99").code, 0);
+  EXPECT_EQ(defray(folder_, "compare in.exr in.exr --min-psnr nan").code, 2);
+  const Plane bad(1536, NAN);
+  ImageFile::from_planes({"R", "G", "B"}, {bad, bad, bad}, 48, 32).write(folder_ / "bad.exr");
+  EXPECT_EQ(defray(folder_, "compare in.exr bad.exr --min-psnr 1").code, 1);
   EXPECT_EQ(defray(folder_, "compare in.exr flat.exr --min-psnr 99").code, 0);
   write_picture_file(folder_, "other.exr", {"x.R", "R", "G", "B"});
   EXPECT_EQ(defray(folder_, "compare in.exr other.exr --min-psnr 99").code, 1);

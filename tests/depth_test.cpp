@@ -126,6 +126,11 @@ TEST(Camera, BadFiles) {
        {"", "{", "[1]", "3", R"({"focal_length_mm": "x"})", R"({"focus_settings": 3})"}) {
     expect_error(3, {"camera.json"}, [&] { read_camera_json(write_text(folder, text), "", 1); });
   }
+  expect_error(3, {"cannot open"}, [&] { read_camera_json(folder.path(), "", 1); });
+  const CameraValues half =
+      read_camera_json(write_text(folder, R"({"focal_length_mm": 50, "f_stop": 2})"), "", 1);
+  EXPECT_DOUBLE_EQ(*half.fstop, 2);
+  expect_error(2, {"--focus", "camera.json"}, [&] { make_lens(half, 1, LensModel::cg, 0); });
 }
 
 TEST(Camera, ExplicitValuesWin) {
@@ -160,6 +165,7 @@ TEST(Sequence, Ranges) {
   EXPECT_EQ(parse_frames("1-4"), (std::vector<int>{1, 2, 3, 4}));
   EXPECT_EQ(parse_frames("1-10x3"), (std::vector<int>{1, 4, 7, 10}));
   EXPECT_EQ(parse_frames("7,3,9-10"), (std::vector<int>{7, 3, 9, 10}));
+  EXPECT_EQ(parse_frames("1,1,3-1"), (std::vector<int>{1, 3, 2}));
   for (const char* bad : {"", "a", "1-", "-", "1..3", "1-3x0", "1,,2", "1-3;4", "1e3"}) {
     expect_error(2, {"--frames"}, [bad] { parse_frames(bad); });
   }
@@ -182,6 +188,22 @@ TEST(Sequence, Patterns) {
   }
   EXPECT_EQ(find_frames(folder / "s.####.exr"), (std::vector<int>{1, 3}));
   expect_error(3, {"no file matches"}, [&] { find_frames(folder / "u.####.exr"); });
+  EXPECT_EQ(find_frames(folder / "s.###.exr"), (std::vector<int>{1}));
+  expect_error(2, {"2 frame patterns"}, [] { frame_path("s_%04d.####.exr", 1); });
+}
+
+TEST(Sequence, FoldersAndLiteralNamesAreNoPatterns) {
+  const Folder folder;
+  for (const char* name : {"me@home", "job_%d#2"}) {
+    std::filesystem::create_directory(folder / name);
+    const std::string inside = folder / name + "/";
+    std::ofstream(inside + "s.0004.exr") << "x";
+    std::ofstream(inside + "a@2x.exr") << "x";
+    EXPECT_FALSE(has_frame_pattern(inside + "s.0004.exr"));
+    EXPECT_FALSE(has_frame_pattern(inside + "a@2x.exr")) << "this very file exists";
+    EXPECT_EQ(find_frames(inside + "s.####.exr"), (std::vector<int>{4}));
+    EXPECT_EQ(frame_path(inside + "s.####.exr", 7), inside + "s.0007.exr");
+  }
 }
 
 }  // namespace

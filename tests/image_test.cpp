@@ -132,6 +132,22 @@ TEST(Ldr, PngAlphaIsStraightAndOursPremultiplied) {
   EXPECT_NEAR(read.planes[3][0], 0.5, 0.002);
 }
 
+TEST(Ldr, DataIsTakenAsStored) {
+  const Folder folder;
+  const Plane half{static_cast<float>(srgb_decode(0.5))};
+  write_ldr(folder / "a.png", {1, 1, {"R", "G", "B"}, {half, half, half}});
+  EXPECT_NEAR(read_ldr(folder / "a.png", Content::data).planes[0][0], 0.5, 0.002);
+}
+
+TEST(SafeOutput, WritesThroughALink) {
+  const Folder folder;
+  std::ofstream(folder / "real.txt") << "old";
+  std::filesystem::create_symlink("real.txt", folder / "link.txt");
+  write_safely(folder / "link.txt", [](const std::string& name) { std::ofstream(name) << "new"; });
+  EXPECT_EQ(bytes_of(folder / "real.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+}
+
 TEST(Output, DisplayWindowCropsAndPads) {
   const Window display{0, 0, 4, 3};
   const Plane inside = to_display_window({{1, 2}}, {1, 1, 2, 1}, display)[0];

@@ -198,6 +198,31 @@ TEST(Render, OtherFormats) {
   EXPECT_NE(bad.err.find("'.gif'"), std::string::npos) << bad.err;
 }
 
+TEST(Render, NotesSayWhatIsLost) {
+  const Folder folder;
+  const Plane grey(64, 0.5f), bright(64, 2.0f), z(64, 5.0f);
+  const auto note = [&](const std::string& file, const std::string& options) {
+    const Result result = defray(folder, "render " + file + " -o " + options + lens);
+    expect_ok(result);
+    return result.out;
+  };
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {grey, grey, grey, z}, 8, 8).write(folder / "a.exr");
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {bright, grey, grey, z}, 8, 8)
+      .write(folder / "b.exr");
+  EXPECT_EQ(note("a.exr", "o.png").find("clipped"), std::string::npos);
+  EXPECT_NE(note("b.exr", "o.png").find("64 values outside 0...1 clipped"), std::string::npos);
+  EXPECT_NE(note("a.exr", "o.png").find("only colour is written"), std::string::npos);
+  EXPECT_EQ(note("o.png", "p.tif --depth a.exr").find("only colour"), std::string::npos);
+  EXPECT_NE(note("a.exr", "c.exr --depth-kind normalized --near 1 --far 2")
+                .find("64 stored depths lie outside 0...1"),
+            std::string::npos);
+  OIIO::ImageBuf lossy(folder / "a.exr");
+  lossy.read(0, 0, true, OIIO::TypeDesc::HALF);
+  lossy.specmod().attribute("compression", "dwaa:45");
+  lossy.write(folder / "dwa.exr");
+  EXPECT_NE(note("dwa.exr", "d.exr").find("lossy"), std::string::npos);
+}
+
 TEST(Render, LinearAndDisplayEncodedInputsAgree) {
   const Folder folder;
   expect_ok(defray(folder, "scene plate1 -o . --width 64 --height 48 --truth-samples 1"));
@@ -240,7 +265,7 @@ TEST(Render, NonfiniteColours) {
       .write(folder / "in.exr");
   const Result zero = defray(folder, "render in.exr -o out.exr" + lens);
   expect_ok(zero);
-  EXPECT_NE(zero.out.find("2 NaN or Inf colour values"), std::string::npos) << zero.out;
+  EXPECT_NE(zero.out.find("2 NaN or Inf colour values set to 0"), std::string::npos) << zero.out;
   for (const float v : ImageFile::read(folder / "out.exr").plane(0, 0))
     EXPECT_TRUE(std::isfinite(v));
   expect_ok(defray(folder, "render in.exr -o out.exr --nonfinite keep" + lens));

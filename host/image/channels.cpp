@@ -182,6 +182,7 @@ ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& p
                          const ChannelRequest& request, const ColourChoice& colour) {
   const std::vector<ChannelName> names = channel_names(parts);
   if (!request.depth_channel.empty()) return asked_depth(path, parts, names, request, colour);
+  if (names.size() == 1) return names.front();  // a file of nothing but depth
   std::vector<ChannelName> best;
   int best_rank = -1;
   for (const ChannelName& name : names) {

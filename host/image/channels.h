@@ -29,6 +29,7 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
                            const ChannelRequest& request);
 
 /// The depth channel that goes with `colour`. A Z beside X and Y is a vector, not a depth.
+/// The only channel of a file is its depth, whatever its name.
 /// Throws Error(input) when there is none, or with the candidates when there are several.
 ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,
                          const ChannelRequest& request, const ColourChoice& colour);

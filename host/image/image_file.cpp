@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "error.h"
-#include "image/ldr.h"
 #include "text.h"
 
 namespace defray {
@@ -88,15 +87,17 @@ std::string to_string(const Window& w) {
   return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y);
 }
 
-ImageFile ImageFile::read(const std::string& path) {
+ImageFile ImageFile::read(const std::string& path, Content content) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) fail(ExitCode::input, "{}: no such file", path);
   if (std::filesystem::is_directory(path, error)) {
     fail(ExitCode::input, "{}: is a folder, not an image", path);
   }
   if (!is_ldr_path(path)) return read_linear_file(path);
-  const LdrPicture picture = read_ldr(path);
-  ImageFile file = from_planes(picture.channels, picture.planes, picture.width, picture.height);
+  const LdrPicture picture = read_ldr(path, content);
+  const Sample sample = content == Content::data ? Sample::single_float : Sample::half_float;
+  ImageFile file =
+      from_planes(picture.channels, picture.planes, picture.width, picture.height, sample);
   file.path_ = path;
   return file;
 }
@@ -209,6 +210,13 @@ std::optional<double> ImageFile::metadata_number(const std::string& name) const 
     if (error == std::errc() && end != text.data()) return number;
   }
   return std::nullopt;
+}
+
+bool ImageFile::is_lossy() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
+    const std::string compression = part.spec.get_string_attribute("compression");
+    return compression.starts_with("dwa") || compression.starts_with("jpeg");
+  });
 }
 
 ImageFile ImageFile::extract(int part, const std::vector<int>& channels) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "image/ldr.h"
 #include "rdb.h"
 
 namespace defray {
@@ -32,9 +33,10 @@ enum class Sample { half_float, single_float };
 
 class ImageFile {
  public:
-  /// Reads every part of a file. PNG and JPEG are decoded from sRGB to linear.
+  /// Reads every part of a file. PNG and JPEG pictures are decoded from sRGB to linear; as data
+  /// their numbers are taken as stored, 0...1.
   /// Throws Error(input) naming the file: missing, unreadable, truncated, deep, absurd size.
-  static ImageFile read(const std::string& path);
+  static ImageFile read(const std::string& path, Content content = Content::picture);
 
   /// A single-part image with these channels, stored as half or 32-bit floats.
   static ImageFile from_planes(const std::vector<std::string>& channels,
@@ -55,6 +57,9 @@ class ImageFile {
 
   /// A number among the metadata of any part, whatever type it was stored in (text included).
   std::optional<double> metadata_number(const std::string& name) const;
+
+  /// True where writing with the file's own compression (DWA, JPEG in TIFF) changes values.
+  bool is_lossy() const;
 
   /// Writes all parts with their windows, metadata, types and compression where the format of
   /// `path` is the one that was read; throws Error(output) otherwise or when writing fails.

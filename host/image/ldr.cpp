@@ -1,8 +1,11 @@
 #include "image/ldr.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "error.h"
@@ -45,7 +48,7 @@ double srgb_decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-LdrPicture read_ldr(const std::string& path) {
+LdrPicture read_ldr(const std::string& path, Content content) {
   cv::Mat image;
   try {
     image = cv::imread(path, cv::IMREAD_UNCHANGED);
@@ -59,7 +62,9 @@ LdrPicture read_ldr(const std::string& path) {
   LdrPicture picture;
   picture.width = image.cols;
   picture.height = image.rows;
+  const bool is_data = content == Content::data;
   picture.channels = {"R", "G", "B"};
+  if (is_data && image.channels() == 1) picture.channels = {"Y"};
   const bool has_alpha = image.channels() == 4;
   if (has_alpha) picture.channels.push_back("A");
   picture.planes.assign(picture.channels.size(), Plane(image.total()));
@@ -68,10 +73,10 @@ LdrPicture read_ldr(const std::string& path) {
       const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.cols) +
                              static_cast<std::size_t>(x);
       const double alpha = has_alpha ? stored_value(image, y, x, 3) : 1;
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < std::min<std::size_t>(3, picture.planes.size()); ++c) {
         const int stored = image.channels() == 1 ? 0 : bgr_index(c);
-        picture.planes[c][at] =
-            static_cast<float>(alpha * srgb_decode(stored_value(image, y, x, stored)));
+        const double value = stored_value(image, y, x, stored);
+        picture.planes[c][at] = static_cast<float>(is_data ? value : alpha * srgb_decode(value));
       }
       if (has_alpha) picture.planes[3][at] = static_cast<float>(alpha);
     }
@@ -99,14 +104,22 @@ void write_ldr(const std::string& path, const LdrPicture& picture) {
       if (keeps_alpha) row[x * channels + 3] = to_byte(alpha);
     }
   }
-  bool ok = false;
-  std::string why;
+  write_encoded(path, &image);
+}
+
+void write_encoded(const std::string& path, const void* mat) {
+  // Encoded in memory and written by us: the codecs report a full disk on their own, or not at all.
+  std::vector<std::uint8_t> bytes;
   try {
-    ok = cv::imwrite(path, image, {cv::IMWRITE_JPEG_QUALITY, 95});
+    cv::imencode(extension(path), *static_cast<const cv::Mat*>(mat), bytes,
+                 {cv::IMWRITE_JPEG_QUALITY, 95});
   } catch (const cv::Exception& error) {
-    why = ": " + error.err;
+    fail(ExitCode::output, "{}: cannot encode: {}", path, error.err);
   }
-  if (!ok) fail(ExitCode::output, "{}: cannot write{}", path, why);
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  if (!stream.flush()) fail(ExitCode::output, "{}: cannot write: {}", path, std::strerror(errno));
 }
 
 }  // namespace defray

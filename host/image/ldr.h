@@ -20,8 +20,14 @@ struct LdrPicture {
   std::vector<Plane> planes;          ///< Linear; alpha premultiplied.
 };
 
-/// Throws Error(input) on a file that OpenCV cannot decode.
-LdrPicture read_ldr(const std::string& path);
+/// What a file's numbers are: pictures are decoded from sRGB, data (depth) is taken as stored.
+enum class Content { picture, data };
+
+/// Throws Error(input) on a file that OpenCV cannot decode. Data of one channel is called Y.
+LdrPicture read_ldr(const std::string& path, Content content = Content::picture);
+
+/// Writes an 8-bit OpenCV image (cv::Mat, hidden here to keep OpenCV out of this header).
+void write_encoded(const std::string& path, const void* mat);
 
 /// Writes RGB or RGBA planes as 8 bits a channel; values outside 0...1 are clipped, as the formats
 /// demand. JPEG leaves alpha out. Throws Error(output).

@@ -20,7 +20,14 @@ bool is_exr(const std::string& path) { return extension(path) == ".exr"; }
 
 void write_display_encoded(const std::string& path, const PartInfo& part,
                            const std::vector<Plane>& colour, std::vector<std::string>& notes) {
-  notes.push_back("values outside 0...1 are clipped by the 8-bit output");
+  std::size_t clipped = 0;
+  for (const Plane& plane : colour) {
+    clipped += static_cast<std::size_t>(
+        std::count_if(plane.begin(), plane.end(), [](float v) { return !(v >= 0 && v <= 1); }));
+  }
+  if (clipped > 0) {
+    notes.push_back(fmt::format("{} values outside 0...1 clipped by the 8-bit output", clipped));
+  }
   const LdrPicture picture{part.display.width,
                            part.display.height,
                            {},
@@ -61,17 +68,24 @@ void check_output_format(const std::string& path) {
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
+  const bool same_format = extension(path) == extension(file.path());
+  const bool keeps_all = same_format || (is_exr(path) && is_ldr_path(file.path()));
+  const bool has_more = file.parts().size() > 1 || part.channels.size() > choice.channels.size();
+  if (has_more && (is_ldr_path(path) || !keeps_all)) {
+    notes.push_back("only colour is written: other channels stay behind in a change of format");
+  }
   if (is_ldr_path(path)) return write_display_encoded(path, part, colour, notes);
+  if (file.is_lossy()) {
+    notes.push_back(
+        "the file's compression is lossy: channels not rendered may change a little too");
+  }
   for (std::size_t c = 0; c < colour.size(); ++c) {
     file.set_plane(choice.part, choice.channels[c], colour[c]);
   }
-  const bool same_format = extension(path) == extension(file.path());
-  const bool keeps_all = same_format || (is_exr(path) && is_ldr_path(file.path()));
   write_safely(path, [&](const std::string& name) {
     if (keeps_all) return file.write(name);
     std::vector<int> channels = choice.channels;
     if (extension(path) == ".hdr") channels.resize(3);
-    notes.push_back("only colour is written: other channels stay behind in a change of format");
     file.extract(choice.part, channels).write(name);
   });
 }

@@ -80,14 +80,16 @@ void check_can_write(const std::string& path) {
   unlink(probe.c_str());
 }
 
-void write_safely(const std::string& path, const std::function<void(const std::string&)>& write) {
+void write_safely(const std::string& to, const std::function<void(const std::string&)>& write) {
+  // Through a link to the file it names: renaming over the link would leave that one stale.
+  const std::string path = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;
   const std::string name = temporary_name(path);
   const Temporary temporary(name);
   try {
     write(name);
   } catch (const Error& error) {  // the user knows the output by its own name
     std::string message = error.what();
-    if (const auto at = message.find(name); at != std::string::npos) {
+    for (auto at = message.find(name); at != std::string::npos; at = message.find(name)) {
       message.replace(at, name.size(), path);
     }
     throw Error(error.code(), message);

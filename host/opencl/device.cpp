@@ -92,8 +92,8 @@ DeviceInfo select_device(const std::string& wanted) {
     if (contains_ignoring_case(info.platform + " " + info.name, wanted)) matches.push_back(info);
   }
   if (matches.empty()) {
-    fail(ExitCode::device, "no OpenCL device is called '{}'; there are {}; or use 'reference'",
-         wanted, listing(devices));
+    fail(ExitCode::device, "no OpenCL device is called '{}'; found: {}; or use 'reference'", wanted,
+         listing(devices));
   }
   if (matches.size() > 1) {
     fail(ExitCode::device, "'{}' names more than one OpenCL device: {}", wanted, listing(matches));
