@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace defray::cli {
@@ -26,8 +27,9 @@ void ProgressBar::update(std::size_t done, double share) {
   const double part = (static_cast<double>(done) + share) / static_cast<double>(total_);
   const double elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const int filled = std::clamp(static_cast<int>(part * bar_width), 0, bar_width);
-  const int left = part > 0 ? static_cast<int>(elapsed / part - elapsed + 0.5) : 0;
+  const auto filled =
+      static_cast<std::size_t>(std::clamp(static_cast<int>(part * bar_width), 0, bar_width));
+  const int left = part > 0 ? static_cast<int>(std::ceil(elapsed / part - elapsed)) : 0;
   fmt::print(stderr, "\r[{}{}] {}/{} {}, {}:{:02} left\033[K", std::string(filled, '#'),
              std::string(bar_width - filled, '.'), done, total_, what_, left / 60, left % 60);
   std::fflush(stderr);
