@@ -155,7 +155,8 @@ RenderSettings to_settings(const RenderOptions& o) {
     fail(ExitCode::usage, "--max-coc is {} px: it must be above 0", *o.max_coc);
   }
   s.max_coc_px = o.max_coc.value_or(0);
-  const CameraValues typed{o.focal_length, o.sensor_width, o.fstop, o.aperture_diameter, o.focus, ""};
+  const CameraValues typed{o.focal_length,      o.sensor_width, o.fstop,
+                           o.aperture_diameter, o.focus,        ""};
   s.camera_from_metadata = o.camera == "from-metadata";
   if (!o.focus_setting.empty() && (o.camera.empty() || s.camera_from_metadata)) {
     fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");
