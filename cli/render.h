@@ -1,6 +1,6 @@
 #pragma once
-// defray render, in three files: options (render_options.cpp), the run over frames (render.cpp),
-// what is printed (render_report.cpp).
+// defray render, in four files: options (render_options.cpp, those of the methods in
+// render_method.cpp), the run over frames (render.cpp), what is printed (render_report.cpp).
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,17 +19,27 @@ struct RenderOptions {
   bool invert = false;
   std::optional<double> focus, fstop, aperture_diameter, focal_length, sensor_width;
   std::optional<double> max_coc;
+  std::optional<double> pixel_scale, scale, perceived_distance;
+  std::optional<double> display_distance, display_resolution;
+  std::string eye;  ///< Empty: no eye.
   std::string camera, focus_setting, lens_model = "cg";
   std::string method = "rdb", nonfinite = "zero";
-  int rdb = 9;
-  bool jitter = false;
-  std::uint32_t seed = 0;
+  std::optional<int> rdb, samples, passes;
+  std::string gather;
+  bool jitter = false, rotate = false;
+  std::optional<std::uint32_t> seed;
+  std::optional<double> band_centre, band_width, max_blur;
   double memory_mib = 512;
   std::string device, work_group;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// The lens and the method (render_method.cpp).
+void add_method_options(CLI::App& command, RenderOptions& options);
+MethodSettings to_method(const RenderOptions& options);
+TiltshiftSettings to_tiltshift(const RenderOptions& options);
 
 /// Throws Error(usage) on values that are not allowed.
 RenderSettings to_settings(const RenderOptions& options);

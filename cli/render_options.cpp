@@ -71,6 +71,23 @@ void add_lens(CLI::App& c, RenderOptions& o) {
   c.add_option("--focal-length", o.focal_length, "mm")->group(group);
   c.add_option("--sensor-width", o.sensor_width, "mm across the display window; default 36")
       ->group(group);
+  c.add_option("--pixel-scale", o.pixel_scale,
+               "Pixels per metre of image plane, instead of --sensor-width")
+      ->group(group);
+  c.add_flag("--eye{retina}", o.eye,
+             "An eye's lens: 4.6 mm, 17 mm, 28000 px/m; --eye=display: 4 mm, 24 mm, by a display")
+      ->group(group);
+  c.add_option("--display-distance", o.display_distance, "m, of --eye=display; default 0.6")
+      ->group(group);
+  c.add_option("--display-resolution", o.display_resolution,
+               "px per metre, of --eye=display; default 3780 (96 dpi)")
+      ->group(group);
+  c.add_option("--scale", o.scale,
+               "Make the scene look this much of its size: divides the aperture")
+      ->group(group);
+  c.add_option("--perceived-distance", o.perceived_distance,
+               "m; the same, so that the plane of focus seems this far away")
+      ->group(group);
   c.add_option("--camera", o.camera,
                "camera.json, or from-metadata: the image's own. Options above win over it")
       ->group(group);
@@ -80,20 +97,6 @@ void add_lens(CLI::App& c, RenderOptions& o) {
                "cg: a renderer's thin lens; breathing: field of view follows focus")
       ->group(group);
   c.add_option("--max-coc", o.max_coc, "Limit of the CoC radius, px; default: none")->group(group);
-}
-
-void add_method(CLI::App& c, RenderOptions& o) {
-  const char* const group = "Method";
-  c.add_option("--method", o.method, "rdb: ray distribution buffer (Shinya 1994)")->group(group);
-  c.add_option("--rdb", o.rdb, "Lens cells a side, 1 to 64")->group(group);
-  c.add_flag("--jitter", o.jitter, "Shift each pixel's lens samples: noise instead of patterns")
-      ->group(group);
-  c.add_option("--seed", o.seed, "Seed of the jitter")->group(group);
-  c.add_option("--memory", o.memory_mib, "MiB for the ray distribution buffers")->group(group);
-  c.add_option("--device", o.device, "Index or part of the name of 'defray devices'; reference")
-      ->group(group);
-  c.add_option("--work-group", o.work_group, "Work-group, 64x1; default: each kernel's own")
-      ->group(group);
 }
 
 double parse_unit(const std::string& text) {
@@ -117,13 +120,57 @@ double parse_background(const std::string& text) {
   return number;
 }
 
+CameraValues typed_values(const RenderOptions& o) {
+  CameraValues typed;
+  typed.focal_length_mm = o.focal_length;
+  typed.sensor_width_mm = o.sensor_width;
+  typed.pixels_per_metre = o.pixel_scale;
+  typed.fstop = o.fstop;
+  typed.aperture_diameter_mm = o.aperture_diameter;
+  typed.focus_distance_units = o.focus;
+  typed.perceived_scale = o.scale;
+  typed.perceived_distance_m = o.perceived_distance;
+  return typed;
+}
+
+/// The eye asked for; no values without one.
+CameraValues eye_of(const RenderOptions& o) {
+  const auto eye =
+      o.eye.empty()
+          ? Eye::retina
+          : choice<Eye>("--eye", o.eye, {{"retina", Eye::retina}, {"display", Eye::display}});
+  if ((o.display_distance || o.display_resolution) && (o.eye.empty() || eye != Eye::display)) {
+    fail(ExitCode::usage, "--display-distance and --display-resolution go with --eye=display");
+  }
+  for (const double value : {o.display_distance.value_or(1), o.display_resolution.value_or(1)}) {
+    if (!(value > 0) || std::isinf(value)) {
+      fail(ExitCode::usage, "--display-distance and --display-resolution must be above 0, not {}",
+           value);
+    }
+  }
+  if (o.eye.empty()) return {};
+  return eye_values(eye, o.display_distance.value_or(0.6), o.display_resolution.value_or(3780));
+}
+
+/// Typed values win over the eye's, those over the camera file's or the metadata's.
+void read_lens(const RenderOptions& o, RenderSettings& s) {
+  s.camera_from_metadata = o.camera == "from-metadata";
+  const bool has_file = !o.camera.empty() && !s.camera_from_metadata;
+  if (!o.focus_setting.empty() && !has_file) {
+    fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");
+  }
+  if (has_file) s.camera = read_camera_json(o.camera, o.focus_setting, s.metres_per_unit);
+  s.camera = s.camera.overridden_by(eye_of(o)).overridden_by(typed_values(o));
+  if (!s.camera_from_metadata) make_lens(s.camera, s.metres_per_unit, s.model, s.max_coc_px);
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& c, RenderOptions& o) {
   add_files(c, o);
   add_channels(c, o);
   add_lens(c, o);
-  add_method(c, o);
+  add_method_options(c, o);
   const char* const group = "Output to the terminal";
   c.add_flag("--json", o.json, "One JSON line a frame instead of text")->group(group);
   c.add_flag("-q,--quiet", o.quiet, "No text and no progress bar, errors excepted")->group(group);
@@ -133,7 +180,8 @@ void add_render_options(CLI::App& c, RenderOptions& o) {
 
 RenderSettings to_settings(const RenderOptions& o) {
   RenderSettings s;
-  choice<int>("--method", o.method, {{"rdb", 0}});
+  s.method = to_method(o);
+  s.tiltshift = to_tiltshift(o);
   s.request = {o.layer, o.view, o.depth_channel};
   s.depth.kind = choice<DepthKind>("--depth-kind", o.depth_kind,
                                    {{"z", DepthKind::z},
@@ -155,23 +203,7 @@ RenderSettings to_settings(const RenderOptions& o) {
     fail(ExitCode::usage, "--max-coc is {} px: it must be above 0", *o.max_coc);
   }
   s.max_coc_px = o.max_coc.value_or(0);
-  const CameraValues typed{o.focal_length,      o.sensor_width, o.fstop,
-                           o.aperture_diameter, o.focus,        ""};
-  s.camera_from_metadata = o.camera == "from-metadata";
-  if (!o.focus_setting.empty() && (o.camera.empty() || s.camera_from_metadata)) {
-    fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");
-  }
-  const bool has_file = !o.camera.empty() && !s.camera_from_metadata;
-  s.camera =
-      has_file ? read_camera_json(o.camera, o.focus_setting, s.metres_per_unit).overridden_by(typed)
-               : typed;
-  if (!s.camera_from_metadata) make_lens(s.camera, s.metres_per_unit, s.model, s.max_coc_px);
-  make_lens_cells(o.rdb, o.jitter);
-  if (!(o.memory_mib > 0) || o.memory_mib > 1048576) {
-    fail(ExitCode::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
-         o.memory_mib);
-  }
-  s.rdb = {o.rdb, o.jitter, o.seed, static_cast<std::size_t>(o.memory_mib * 1048576)};
+  if (s.method.method != Method::tiltshift) read_lens(o, s);
   return s;
 }
 

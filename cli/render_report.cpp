@@ -10,6 +10,7 @@ namespace defray::cli {
 namespace {
 
 std::string depth_line(const FrameReport& r) {
+  if (r.depth_channel.empty()) return "no depth";
   if (r.depth.nearest_units == 0) {
     return fmt::format("depth {}, nothing but background", r.depth_channel);
   }
@@ -85,7 +86,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   fmt::print("{} -> {}\n", r.paths.input, r.paths.output);
   fmt::print("  colour {}, {}\n", join(r.colour_channels, " "), depth_line(r));
   fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
-  fmt::print("  lens {}\n", lens_line(r));
+  if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, render {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,

@@ -36,6 +36,7 @@ void validate(const Lens& lens) {
   require_positive("focal length", lens.focal_length_mm);
   require_positive("sensor width", lens.sensor_width_mm);
   require_positive("scene unit", lens.metres_per_unit);
+  if (lens.pixels_per_metre != 0) require_positive("--pixel-scale", lens.pixels_per_metre);
   if (!(lens.aperture_diameter_mm >= 0) || !std::isfinite(lens.aperture_diameter_mm)) {
     fail(ExitCode::usage, "aperture diameter is {} mm: it must be 0 or more",
          lens.aperture_diameter_mm);
@@ -56,6 +57,7 @@ void validate(const Lens& lens) {
 }
 
 double pixel_focal_length(const Lens& lens, int display_width_px) {
+  if (lens.pixels_per_metre > 0) return lens.focal_length_mm / 1000 * lens.pixels_per_metre;
   return display_width_px * lens.focal_length_mm / lens.sensor_width_mm;
 }
 

@@ -16,6 +16,8 @@ struct Lens {
   double focal_length_mm = 50;
   double aperture_diameter_mm = 50 / 2.8;
   double sensor_width_mm = 36;
+  /// Pixels per metre of image plane, whatever the frame's width; 0: from the sensor width.
+  double pixels_per_metre = 0;
   double focus_distance_units = 0;  ///< Planar, scene units; infinity is allowed.
   double metres_per_unit = 1;       ///< Scene unit.
   double max_coc_px = 0;            ///< Limit of the radius; 0: none.

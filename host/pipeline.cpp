@@ -94,6 +94,7 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
   }
   report.nonfinite = handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
   report.nonfinite_kept = settings.nonfinite == Nonfinite::keep;
+  if (settings.method.method == Method::tiltshift) return frame;
   frame.depth = read_depth(paths, settings, frame, report);
   CameraValues camera = settings.camera;
   if (settings.camera_from_metadata) {
@@ -112,27 +113,27 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
   return frame;
 }
 
-void describe_coc(const std::vector<std::int32_t>& coc, const Lens& lens, FrameReport& report) {
+void describe_coc(const std::vector<std::int32_t>& coc, FrameReport& report) {
   const auto [smallest, largest] = std::minmax_element(coc.begin(), coc.end());
   constexpr double quantum = 1.0 / (1 << DEFRAY_COC_FRACTION_BITS);
   report.nearest_coc_px = *smallest * quantum;
   report.farthest_coc_px = *largest * quantum;
   const auto limit =
-      static_cast<std::int32_t>(coc_params(lens, report.display.width, 0).limit_quanta);
+      static_cast<std::int32_t>(coc_params(report.lens, report.display.width, 0).limit_quanta);
   report.coc_limited = static_cast<std::size_t>(
       std::count_if(coc.begin(), coc.end(), [&](auto q) { return std::abs(q) == limit; }));
 }
 
-std::vector<Plane> apply_lens(const Frame& frame, const RenderSettings& settings, Session* session,
-                              const std::vector<std::int32_t>& coc,
-                              const std::function<void(double)>& progress) {
-  const Window& data = frame.part().data;
-  if (session) {
-    return render_rdb(*session, data.width, data.height, coc, frame.depth, frame.colour,
-                      settings.rdb, progress);
+std::vector<std::int32_t> find_coc(const Frame& frame, const RenderSettings& settings,
+                                   Session* session, FrameReport& report) {
+  const Window &data = report.data, &display = report.display;
+  if (settings.method.method == Method::tiltshift) {
+    const DefrayTiltshiftParams p = tiltshift_params(settings.tiltshift, data.width, data.height,
+                                                     data.y - display.y, display.height);
+    return session ? tiltshift_on_device(*session, p) : reference::tiltshift(p);
   }
-  return reference::render_rdb(data.width, data.height, coc, frame.depth, frame.colour,
-                               settings.rdb, progress);
+  return session ? coc_on_device(*session, report.lens, display.width, frame.depth)
+                 : reference::coc(report.lens, display.width, frame.depth);
 }
 
 }  // namespace
@@ -150,12 +151,11 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   report.read_seconds = seconds_since(start);
 
   start = Clock::now();
-  const int width = report.display.width;
-  const std::vector<std::int32_t> coc =
-      session ? coc_on_device(*session, report.lens, width, frame.depth)
-              : reference::coc(report.lens, width, frame.depth);
-  describe_coc(coc, report.lens, report);
-  std::vector<Plane> result = apply_lens(frame, settings, session, coc, progress);
+  const std::vector<std::int32_t> coc = find_coc(frame, settings, session, report);
+  describe_coc(coc, report);
+  std::vector<Plane> result =
+      apply_method({report.data.width, report.data.height, coc, frame.depth, frame.colour},
+                   settings.method, session, progress);
   report.render_seconds = seconds_since(start);
 
   start = Clock::now();

@@ -11,7 +11,8 @@
 #include "depth.h"
 #include "image/channels.h"
 #include "lens.h"
-#include "rdb.h"
+#include "method.h"
+#include "tiltshift.h"
 
 namespace defray {
 
@@ -32,7 +33,8 @@ struct RenderSettings {
   LensModel model = LensModel::cg;
   double max_coc_px = 0;
   Nonfinite nonfinite = Nonfinite::zero;
-  RdbSettings rdb;
+  MethodSettings method;
+  TiltshiftSettings tiltshift;
 };
 
 /// Which files. Empty `depth`: depth is in `input`. Empty `coc`: not written.
@@ -44,7 +46,7 @@ struct FramePaths {
 struct FrameReport {
   FramePaths paths;
   std::vector<std::string> colour_channels;
-  std::string depth_channel;
+  std::string depth_channel;  ///< Empty for a tilt-shift, which reads neither depth nor lens.
   Window data, display;
   Lens lens;
   DepthReport depth;

@@ -1,7 +1,6 @@
 #include "rdb.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "error.h"
 
@@ -19,28 +18,7 @@ cl::Buffer view_rows(Session& session, const std::vector<T>& plane, int width, i
   return session.view(plane.data() + pixels(width, first_row), pixels(width, rows) * sizeof(T));
 }
 
-std::int32_t largest_coc(const std::vector<std::int32_t>& coc_quanta) {
-  std::int32_t largest = 0;
-  for (const std::int32_t q : coc_quanta) largest = std::max(largest, std::abs(q));
-  return largest;
-}
-
 }  // namespace
-
-std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int display_width_px,
-                                        const Plane& depth) {
-  std::vector<std::int32_t> coc(depth.size());
-  constexpr std::size_t chunk = std::size_t{1} << 24;  // bounds the device's memory
-  for (std::size_t first = 0; first < depth.size(); first += chunk) {
-    const std::size_t count = std::min(chunk, depth.size() - first);
-    const DefrayCocParams p = coc_params(lens, display_width_px, static_cast<std::uint32_t>(count));
-    const cl::Buffer in = session.view(depth.data() + first, count * sizeof(float));
-    const cl::Buffer out = session.buffer(count * sizeof(std::int32_t));
-    session.launch("coc", DEFRAY_COC_GROUP, {count}, p, in, out);
-    session.read(out, coc.data() + first, count * sizeof(std::int32_t));
-  }
-  return coc;
-}
 
 RdbRun::RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
                const Plane& depth, const std::vector<Plane>& channels, const RdbSettings& settings)
@@ -56,7 +34,7 @@ RdbRun::RdbRun(Session& session, int width, int height, const std::vector<std::i
   passes_ = plan_rdb_passes(width, height, cells, rdb_reach(largest_coc(coc_quanta)), budget);
   const RdbPass& largest = passes_.front();
   const std::size_t band = pixels(width, largest.band_rows);
-  lens_ = session.view(cells_.centres.data(), cells_.centres.size() * sizeof(cells_.centres[0]));
+  lens_ = session.view(cells_.centres);
   winner_ = session.buffer(band * static_cast<std::size_t>(largest.cell_count) * sizeof(RdbWinner));
   sum_ = session.buffer(band * sizeof(cl_float4));
   filled_ = session.buffer(band * sizeof(cl_uint2));

@@ -1,19 +1,16 @@
 #pragma once
-// The ray distribution buffer on OpenCL: CoC, scatter, merge, in memory-bounded passes.
+// The ray distribution buffer on OpenCL: scatter, merge, in memory-bounded passes.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "lens.h"
+#include "coc.h"
 #include "lens_cells.h"
 #include "opencl/session.h"
 #include "rdb_plan.h"
 
 namespace defray {
-
-/// A plane of floats, row-major, width x height.
-using Plane = std::vector<float>;
 
 struct RdbSettings {
   int cells_per_side = 9;
@@ -21,11 +18,6 @@ struct RdbSettings {
   std::uint32_t seed = 0;
   std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
 };
-
-/// Signed CoC radius of every pixel, in quanta (1/256 px). `depth` is planar, > 0, +inf:
-/// background.
-std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int display_width_px,
-                                        const Plane& depth);
 
 /// A frame on its way through the ray distribution buffers. The frame's planes must stay alive and
 /// unchanged meanwhile. Passes go through scatter and merge in order.

@@ -27,6 +27,17 @@
 #define DEFRAY_RDB_CLEAR_GROUP 256
 #define DEFRAY_RDB_SCATTER_GROUP 64
 #define DEFRAY_RDB_MERGE_GROUP 64
+#define DEFRAY_LINEAR_GROUP 16
+#define DEFRAY_TILTSHIFT_GROUP 64
+#define DEFRAY_GATHER_GROUP 64
+#define DEFRAY_GATHER_REACH_GROUP 16
+
+/// Pixels of a row that one work-item of `linear` computes, as one vector.
+#define DEFRAY_LINEAR_RUN 16
+/// Side of the square tiles whose largest CoC `gather_reach` finds, in pixels.
+#define DEFRAY_GATHER_TILE 16
+/// Angles of the rotated sample set: a table, so that no device's sine matters.
+#define DEFRAY_GATHER_ROTATIONS 64
 
 /// Thin-lens constants of `coc`.
 typedef struct {
@@ -56,7 +67,52 @@ typedef struct {
   DEFRAY_UINT seed;
 } DefrayRdbParams;
 
+/// One band of target rows of `linear`. Its source planes hold the band and everything in reach,
+/// the frame's edge pixels repeated outside it.
+typedef struct {
+  DEFRAY_UINT width;          ///< Target pixels in a row.
+  DEFRAY_UINT band_rows;      ///< Target rows.
+  DEFRAY_UINT source_stride;  ///< Floats from one source row to the next.
+  DEFRAY_UINT target_stride;  ///< Floats from one target row to the next, a multiple of the run.
+  DEFRAY_INT reach;           ///< Columns and rows of source on each side of a target pixel.
+} DefrayLinearParams;
+
+/// The CoC of a tilt-shift: 0 in a horizontal band, growing linearly away from it.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT rows;
+  float first_row_px;         ///< Display-window row of the first data row.
+  float band_centre_px;       ///< From the display window's top.
+  float half_band_px;         ///< Half the height of the sharp band.
+  float slope_quanta_per_px;  ///< Growth of the radius beyond the band.
+} DefrayTiltshiftParams;
+
+/// A Poisson-disk gather over one band of target rows.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+  DEFRAY_UINT band_y;
+  DEFRAY_UINT band_rows;
+  DEFRAY_UINT sample_count;
+  DEFRAY_UINT rotates;  ///< 1: each pixel turns the sample set by an angle of its own.
+  DEFRAY_UINT seed;
+  float radius_scale;  ///< CoC radii are multiplied by this: a pass's share of the blur.
+} DefrayGatherParams;
+
+/// Tiles of a frame for `gather_tiles` and `gather_reach`.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+  DEFRAY_UINT tiles_x;
+  DEFRAY_UINT tiles_y;
+  DEFRAY_INT reach_tiles;  ///< Tiles on each side from which a CoC can reach a tile.
+} DefrayTileParams;
+
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DefrayLinearParams) == 20);
+static_assert(sizeof(DefrayTiltshiftParams) == 24);
+static_assert(sizeof(DefrayGatherParams) == 32);
+static_assert(sizeof(DefrayTileParams) == 20);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 48);
 #endif

@@ -18,6 +18,7 @@
 // is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
 // of the indices that have this depth. Global size: (width, window_rows, cell_count).
 #include "params.h"
+#include "pcg3d.h"
 
 #ifdef DEFRAY_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
@@ -30,16 +31,10 @@
 // The one d with d - offset in [-1/2, 1/2): where a ray with this offset lands, in whole pixels.
 int landing(const long offset) { return (int)((offset + HALF_PIXEL - 1) >> RAY_FRACTION_BITS); }
 
-// Jitter of a target pixel's lens samples, in [-largest, largest)^2. The hash is pcg3d
-// (Jarzynski & Olano 2020) of absolute frame coordinates: no tile or band shows.
+// Jitter of a target pixel's lens samples, in [-largest, largest)^2: a hash of absolute frame
+// coordinates, so that no tile or band shows.
 int2 jitter_offset(const uint x, const uint y, const uint seed, const int largest) {
-  uint3 v = (uint3)(x, y, seed) * 1664525u + 1013904223u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
-  v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z;
-  v.y += v.z * v.x;
+  const uint3 v = pcg3d((uint3)(x, y, seed));
   const uint range = 2u * (uint)largest;
   return (int2)((int)mul_hi(v.x, range) - largest, (int)mul_hi(v.y, range) - largest);
 }

@@ -26,6 +26,10 @@ class Session {
   /// A read-only view of host memory; no copy where the device shares it. The memory must stay
   /// alive and unchanged as long as the buffer.
   cl::Buffer view(const void* data, std::size_t bytes);
+  template <typename T>
+  cl::Buffer view(const std::vector<T>& plane) {
+    return view(plane.data(), plane.size() * sizeof(T));
+  }
 
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
 

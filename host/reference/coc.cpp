@@ -12,7 +12,9 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units) {
   // length s on that plane as s F / z0 pixels, F its focal length in pixels.
   const double unit_mm = 1000 * lens.metres_per_unit;
   const double aperture = lens.aperture_diameter_mm / unit_mm;
-  const double pixel_focal = display_width_px * (lens.focal_length_mm / lens.sensor_width_mm);
+  const double px_per_mm = lens.pixels_per_metre > 0 ? lens.pixels_per_metre / 1000
+                                                     : display_width_px / lens.sensor_width_mm;
+  const double pixel_focal = lens.focal_length_mm * px_per_mm;
   const double z0 = lens.focus_distance_units;
   const double z = depth_units;
   if (z0 > std::numeric_limits<float>::max()) {

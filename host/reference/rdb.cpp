@@ -4,23 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/pcg3d.h"
 #include "reference/reference.h"
 
 namespace defray::reference {
 namespace {
-
-/// pcg3d (Jarzynski & Olano, "Hash functions for GPU rendering", 2020), first two words.
-std::array<std::uint32_t, 2> pcg3d(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-  std::array<std::uint32_t, 3> v{x, y, z};
-  for (std::uint32_t& word : v) word = word * 1664525u + 1013904223u;
-  v[0] += v[1] * v[2];
-  v[1] += v[2] * v[0];
-  v[2] += v[0] * v[1];
-  for (std::uint32_t& word : v) word ^= word >> 16;
-  v[0] += v[1] * v[2];
-  v[1] += v[2] * v[0];
-  return {v[0], v[1]};
-}
 
 struct Offset {
   double u, v;

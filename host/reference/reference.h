@@ -1,10 +1,11 @@
 #pragma once
-// The scalar twins: every kernel once more, in double, written from the papers' formulas and not
-// from the kernels. They define what a kernel must compute; --device reference runs them.
+// The scalar twins: every kernel once more, written from the papers' formulas and not from the
+// kernels. They define what a kernel must compute; --device reference runs them.
 #include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "gather.h"
 #include "lens.h"
 #include "lens_cells.h"
 #include "rdb.h"
@@ -30,5 +31,30 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
                               const Plane& depth, const std::vector<Plane>& channels,
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress = {});
+
+/// Twin of kernel `linear_psf` with its preparation, edge pixels repeated outside the frame. Real
+/// float adds in the kernel's order: equal bits. Real double is what rounding is measured against.
+template <typename Real>
+std::vector<std::vector<Real>> render_linear(int width, int height,
+                                             const std::vector<std::int32_t>& coc_quanta,
+                                             const std::vector<Plane>& channels);
+
+/// Twin of kernel `tiltshift`.
+std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p);
+
+/// Twin of kernels `gather_tiles` and `gather_reach`, each tile against each.
+std::vector<std::int32_t> gather_reach(int width, int height,
+                                       const std::vector<std::int32_t>& coc_quanta);
+
+/// Twin of kernels `gather_literal` and `gather_aware`: one pass over a frame, in float and in the
+/// kernels' order: equal bits.
+std::vector<Plane> gather(const DefrayGatherParams& p, GatherKind kind,
+                          const GatherSamples& samples, const std::vector<std::int32_t>& coc_quanta,
+                          const std::vector<Plane>& channels);
+
+/// All passes.
+std::vector<Plane> render_gather(int width, int height, const std::vector<std::int32_t>& coc_quanta,
+                                 const std::vector<Plane>& channels,
+                                 const GatherSettings& settings);
 
 }  // namespace defray::reference

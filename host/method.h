@@ -1,0 +1,39 @@
+#pragma once
+// The methods, behind one call: a frame with its circles of confusion in, the lens picture out.
+#include <functional>
+#include <vector>
+
+#include "gather.h"
+#include "linear.h"
+#include "rdb.h"
+
+namespace defray {
+
+enum class Method {
+  rdb,        ///< Ray distribution buffer (Shinya 1994).
+  linear,     ///< Each pixel spread over its PSF (Potmesil & Chakravarty 1981).
+  gather,     ///< Poisson-disk gather (Glatzel & Wilhelm).
+  tiltshift,  ///< `linear` with a CoC from the pixel's row: no depth.
+};
+
+struct MethodSettings {
+  Method method = Method::rdb;
+  RdbSettings rdb;
+  LinearSettings linear;  ///< Of tiltshift too.
+  GatherSettings gather;
+};
+
+/// A frame before the lens.
+struct PinholeFrame {
+  int width, height;
+  const std::vector<std::int32_t>& coc_quanta;
+  const Plane& depth;                  ///< Planar, > 0; only the RDB reads it.
+  const std::vector<Plane>& channels;  ///< 1 to 4.
+};
+
+/// The lens picture, as many channels as there are. `session` null: the scalar twins.
+/// `progress` gets the share done, 0 to 1. Throws Error(usage) for settings out of range.
+std::vector<Plane> apply_method(const PinholeFrame& frame, const MethodSettings& settings,
+                                Session* session, const std::function<void(double)>& progress = {});
+
+}  // namespace defray

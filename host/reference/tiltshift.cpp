@@ -1,0 +1,21 @@
+// Twin of kernels/tiltshift.cl: the reflected linear gradient of Glatzel & Wilhelm, figure 2.
+#include <algorithm>
+#include <cmath>
+
+#include "reference/reference.h"
+
+namespace defray::reference {
+
+std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p) {
+  std::vector<std::int32_t> coc;
+  coc.reserve(std::size_t{p.width} * p.rows);
+  for (std::uint32_t row = 0; row < p.rows; ++row) {
+    const float centre = p.first_row_px + static_cast<float>(row) + 0.5f;
+    const float beyond = std::max(std::fabs(centre - p.band_centre_px) - p.half_band_px, 0.0f);
+    coc.insert(coc.end(), p.width,
+               static_cast<std::int32_t>(std::nearbyint(p.slope_quanta_per_px * beyond)));
+  }
+  return coc;
+}
+
+}  // namespace defray::reference

@@ -1,0 +1,26 @@
+// What the gather kernels share: the turn of a pixel's sample set, and a pixel's colour.
+#ifndef DEFRAY_KERNELS_GATHER_H
+#define DEFRAY_KERNELS_GATHER_H
+#include "params.h"
+#include "pcg3d.h"
+
+#pragma OPENCL FP_CONTRACT OFF
+
+// The turn (cos, sin) of a pixel's sample set, from a table: no device's sine matters.
+float2 gather_turn(const DefrayGatherParams p, __global const float2* restrict rotations,
+                   const uint x, const uint y) {
+  if (!p.rotates) return (float2)(1.0f, 0.0f);
+  return rotations[pcg3d((uint3)(x, y, p.seed)).x % DEFRAY_GATHER_ROTATIONS];
+}
+
+float2 rotated(const float2 v, const float2 turn) {
+  return (float2)(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x);
+}
+
+float4 colour_at(__global const float* restrict channel0, __global const float* restrict channel1,
+                 __global const float* restrict channel2, __global const float* restrict channel3,
+                 const size_t at) {
+  return (float4)(channel0[at], channel1[at], channel2[at], channel3[at]);
+}
+
+#endif

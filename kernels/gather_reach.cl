@@ -1,0 +1,50 @@
+// gather_tiles, gather_reach: how far a pixel must look for light that may reach it.
+//
+// A pixel's own CoC says nothing about the near, wide ones that cover it. gather_tiles finds the
+// largest |CoC| of each tile; gather_reach the largest among all tiles close enough to reach a tile
+// (McGuire et al., "A reconstruction filter for plausible motion blur", 2012, for CoC).
+//
+// coc_quanta  [height][width]     signed radius, 1/256 px
+// largest     [tiles_y][tiles_x]  quanta
+// reach       [tiles_y][tiles_x]  quanta
+// Global size of both: (tiles_x, tiles_y). Integers only: the same on every device.
+#include "params.h"
+
+__kernel void gather_tiles(const DefrayTileParams p, __global const int* restrict coc_quanta,
+                           __global int* restrict largest) {
+  const uint tile_x = get_global_id(0);
+  const uint tile_y = get_global_id(1);
+  if (tile_x >= p.tiles_x || tile_y >= p.tiles_y) return;
+  const uint x0 = tile_x * DEFRAY_GATHER_TILE, y0 = tile_y * DEFRAY_GATHER_TILE;
+  const uint x1 = min(x0 + DEFRAY_GATHER_TILE, p.width);
+  const uint y1 = min(y0 + DEFRAY_GATHER_TILE, p.height);
+  int most = 0;
+  for (uint y = y0; y < y1; ++y) {
+    for (uint x = x0; x < x1; ++x) {
+      most = max(most, (int)abs(coc_quanta[(size_t)y * p.width + x]));
+    }
+  }
+  largest[tile_y * p.tiles_x + tile_x] = most;
+}
+
+__kernel void gather_reach(const DefrayTileParams p, __global const int* restrict largest,
+                           __global int* restrict reach) {
+  const int tile_x = (int)get_global_id(0);
+  const int tile_y = (int)get_global_id(1);
+  if (tile_x >= (int)p.tiles_x || tile_y >= (int)p.tiles_y) return;
+  const int x0 = max(tile_x - p.reach_tiles, 0);
+  const int y0 = max(tile_y - p.reach_tiles, 0);
+  const int x1 = min(tile_x + p.reach_tiles, (int)p.tiles_x - 1);
+  const int y1 = min(tile_y + p.reach_tiles, (int)p.tiles_y - 1);
+  int most = 0;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      // Pixel centres of different tiles are at least this far apart, in px.
+      const int gap_x = max((int)abs(x - tile_x) - 1, 0) * DEFRAY_GATHER_TILE;
+      const int gap_y = max((int)abs(y - tile_y) - 1, 0) * DEFRAY_GATHER_TILE;
+      const int theirs = largest[y * (int)p.tiles_x + x];
+      if ((long)max(gap_x, gap_y) << DEFRAY_COC_FRACTION_BITS <= theirs) most = max(most, theirs);
+    }
+  }
+  reach[tile_y * (int)p.tiles_x + tile_x] = most;
+}

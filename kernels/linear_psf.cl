@@ -1,0 +1,54 @@
+// linear_psf: every source pixel spread over its circle of confusion, whatever stands in the way
+// (Potmesil & Chakravarty 1981; Shinya 1994, eq. 5: I = integral of h I0).
+//
+// The PSF h of radius r is the uniform disc with a border one pixel wide: a pixel whose centre lies
+// d away gets clamp(r + 1/2 - d, 0, 1) / norm(r), norm(r) the sum of these over all pixels: a
+// source's shares add up to 1. A gather over everything in reach, in one order: no atomics, the
+// same bits on every device with correctly rounded square roots.
+//
+// radius_px   [band_rows + 2 reach][source_stride]  |CoC| of the source pixels, px
+// channel0..3 the same                              colour / (2 norm(r)), so that r = 0 gives 1
+// out0..3     [band_rows][target_stride]
+// One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run, band_rows).
+#include "params.h"
+
+#pragma OPENCL FP_CONTRACT OFF
+
+// Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
+float16 lit(const float16 weight, const float16 colour) {
+  return select((float16)(-0.0f), weight * colour, weight > 0.0f);
+}
+
+__kernel void linear_psf(const DefrayLinearParams p, __global const float* restrict radius_px,
+                         __global const float* restrict channel0,
+                         __global const float* restrict channel1,
+                         __global const float* restrict channel2,
+                         __global const float* restrict channel3, __global float* restrict out0,
+                         __global float* restrict out1, __global float* restrict out2,
+                         __global float* restrict out3) {
+  const uint x = get_global_id(0) * DEFRAY_LINEAR_RUN;
+  const uint y = get_global_id(1);
+  if (x >= p.width || y >= p.band_rows) return;
+
+  float16 sum0 = -0.0f, sum1 = -0.0f, sum2 = -0.0f, sum3 = -0.0f;  // -0 + c is c, for c = -0 too
+  const float farthest = (float)p.reach + 0.5f;
+  for (int dy = -p.reach; dy <= p.reach; ++dy) {
+    const int half_chord = (int)sqrt(farthest * farthest - (float)(dy * dy));
+    const size_t row = (size_t)((int)y + p.reach + dy) * p.source_stride + x + (uint)p.reach;
+    for (int dx = -half_chord; dx <= half_chord; ++dx) {
+      const float distance = sqrt((float)(dx * dx + dy * dy));
+      const size_t at = (size_t)((long)row + dx);
+      const float16 radius = vload16(0, radius_px + at);
+      const float16 weight = 2.0f * clamp(radius + 0.5f - distance, 0.0f, 1.0f);
+      sum0 += lit(weight, vload16(0, channel0 + at));
+      sum1 += lit(weight, vload16(0, channel1 + at));
+      sum2 += lit(weight, vload16(0, channel2 + at));
+      sum3 += lit(weight, vload16(0, channel3 + at));
+    }
+  }
+  const size_t target = (size_t)y * p.target_stride + x;
+  vstore16(sum0, 0, out0 + target);
+  vstore16(sum1, 0, out1 + target);
+  vstore16(sum2, 0, out2 + target);
+  vstore16(sum3, 0, out3 + target);
+}
