@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "error.h"
@@ -16,6 +15,18 @@ constexpr int rows_per_launch = 128;
 
 std::uint32_t tiles_across(int pixels) {
   return static_cast<std::uint32_t>((pixels + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE);
+}
+
+/// A pass's radius, in CoC radii. The paper repeats the whole blur "to strengthen the effect".
+/// Where depth counts, the passes share it: each after the first fills the discs that single
+/// samples of the one before stand for, and the squares of all add up to 1, as variances do.
+double pass_radius(const GatherSettings& s, int pass) {
+  if (s.kind == GatherKind::literal) return 1;
+  const double share = 1.0 / s.samples;
+  if (pass > 0) return std::sqrt(std::pow(share, pass));
+  double rest = 1;
+  for (int later = 1; later < s.passes; ++later) rest -= std::pow(share, later);
+  return std::sqrt(std::max(rest, 0.0));
 }
 
 /// What stays on the device from pass to pass.
@@ -92,12 +103,7 @@ DefrayGatherParams gather_params(const GatherSettings& settings, int width, int 
   p.sample_count = static_cast<std::uint32_t>(settings.samples);
   p.rotates = settings.rotate ? 1 : 0;
   p.seed = settings.seed + static_cast<std::uint32_t>(pass);
-  p.radius_scale = 1;
-  if (const char* e = std::getenv("DEFRAY_SCALE")) {
-    const double rho = std::atof(e);
-    if (settings.kind == GatherKind::aware && settings.passes > 1)
-      p.radius_scale = static_cast<float>(pass == 0 ? std::sqrt(1 - rho * rho) : rho);
-  }
+  p.radius_scale = static_cast<float>(pass_radius(settings, pass));
   return p;
 }
 

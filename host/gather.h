@@ -18,7 +18,7 @@ enum class GatherKind {
 struct GatherSettings {
   GatherKind kind = GatherKind::aware;
   int samples = 32;     ///< A pass, a pixel.
-  int passes = 2;       ///< The paper's count; later passes work on the result.
+  int passes = 2;       ///< The paper's count; later passes work on the result of the one before.
   bool rotate = false;  ///< Turns each pixel's samples by an angle of its own.
   std::uint32_t seed = 0;
 };

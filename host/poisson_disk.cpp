@@ -22,16 +22,20 @@ bool keeps_distance(const std::vector<Point>& points, const Point& p, double spa
   });
 }
 
-Point dart(Random& random) {
-  const double radius = std::sqrt(random.next()), angle = 2 * std::numbers::pi * random.next();
+/// A point of the disc of this radius.
+Point dart(Random& random, double largest_radius) {
+  const double radius = largest_radius * std::sqrt(random.next());
+  const double angle = 2 * std::numbers::pi * random.next();
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-/// The first dart that keeps its distance, if one of so many does.
+/// The first dart that keeps its distance, if one of so many does. Points stand for the area around
+/// them: they stay a quarter of their spacing inside the rim, or sets would crowd there and blur
+/// wider than the disc.
 std::optional<Point> throw_darts(Random& random, const std::vector<Point>& points, double spacing,
                                  int darts) {
   for (int i = 0; i < darts; ++i) {
-    const Point p = dart(random);
+    const Point p = dart(random, 1 - spacing / 4);
     if (keeps_distance(points, p, spacing)) return p;
   }
   return std::nullopt;
@@ -58,7 +62,7 @@ PoissonDisk make_poisson_disk(int count, std::uint32_t seed) {
     disk.spacing.push_back(spacing);
   }
   while (static_cast<int>(disk.points.size()) < count) {
-    // A set packed as tightly as it can be would crowd the rim.
+    // A set packed as tightly as it can be leaves no room for chance.
     const int grown = static_cast<int>(disk.points.size()) + 2;
     spacing = std::min(spacing, tightest * hexagonal_spacing(grown));
     std::optional<Point> p = throw_darts(random, disk.points, spacing, darts);

@@ -10,8 +10,8 @@ namespace defray {
 /// set too.
 struct PoissonDisk {
   std::vector<std::array<double, 2>> points;
-  /// No two of the first n points are closer than spacing[n - 1]. Falls as n grows; never below
-  /// 0.7 times the spacing of n points on a hexagonal grid over the disc.
+  /// No two of the first n points are closer than spacing[n - 1]. Falls as n grows; from three
+  /// points on it is at least 0.6 times that of n points on a hexagonal grid over the disc.
   std::vector<double> spacing;
 };
 

@@ -27,6 +27,11 @@ float disc_area(const float radius) {
   return fmax(3.14159274f * (radius * radius + 0.0833333358f), 1.0f);
 }
 
+// Pixels that one of so many samples over a disc stands for, at least one.
+float pixels_a_sample(const float radius, const uint count) {
+  return fmax(disc_area(radius) / (float)max(count, 1u), 1.0f);
+}
+
 __kernel void gather_aware(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                            __global const int* restrict reach,
                            __global const float2* restrict samples,
@@ -48,12 +53,22 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
   const uint tile = y / DEFRAY_GATHER_TILE * tiles_x + x / DEFRAY_GATHER_TILE;
   const float search = (float)reach[tile] * quantum;
   const float2 turn = gather_turn(p, rotations, x, y);
-  const float sample_area = fmax(disc_area(search) / (float)p.sample_count, 1.0f);
+  // Where near discs come from far beyond the pixel's own, every second pair of samples stays
+  // within its own: else too few would be left for it.
+  const float own_radius = fabs(own_coc);
+  const bool splits = search * search > 2.0f * own_radius * own_radius;
+  const uint odd = p.sample_count & 1u;  // an odd set begins with its centre, pairs follow
+  const uint base_count = splits ? (p.sample_count + 1u) / 4u * 2u : p.sample_count;
+  const uint near_count = splits ? p.sample_count - base_count : p.sample_count;
+  const float near_area = pixels_a_sample(search, near_count);
+  const float base_area = pixels_a_sample(splits ? own_radius : search, base_count);
 
   float4 near_sum = 0.0f, base_sum = 0.0f;  // of differences to the pixel's own colour
-  float near_weight = 0.0f, base_weight = 1.0f / sample_area;  // the pixel itself is one pixel
+  float near_weight = 0.0f, base_weight = 1.0f / base_area;  // the pixel itself is one pixel
   for (uint i = 0; i < p.sample_count && search >= 0.5f; ++i) {
-    const float2 offset = rint(search * rotated(samples[i], turn));
+    const bool only_base = splits && ((i + odd) / 2u & 1u);
+    const bool only_near = splits && !only_base;
+    const float2 offset = rint((only_base ? own_radius : search) * rotated(samples[i], turn));
     const int2 at = clamp((int2)((int)x, (int)y) + convert_int2(offset), 0,
                           (int2)((int)p.width - 1, (int)p.height - 1));
     const size_t source = (size_t)at.y * p.width + (uint)at.x;
@@ -61,12 +76,13 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
     const float distance = sqrt(offset.x * offset.x + offset.y * offset.y);
     const float nearer = clamp(own_coc - coc - 0.5f, 0.0f, 1.0f);
     const float4 c = colour_at(channel0, channel1, channel2, channel3, source) - own;
-    const float near = nearer * covers(fabs(coc), distance) * sample_area / disc_area(fabs(coc));
-    const float base = (1.0f - nearer) * covers(fabs(own_coc), distance);
-    near_sum += near > 0.0f ? near * c : (float4)(0.0f);
-    base_sum += base > 0.0f ? base * c : (float4)(0.0f);
-    near_weight += near;
-    base_weight += base;
+    const float near = nearer * covers(fabs(coc), distance) * near_area / disc_area(fabs(coc));
+    const float base = (1.0f - nearer) * covers(own_radius, distance);
+    const float near_share = only_base ? 0.0f : near, base_share = only_near ? 0.0f : base;
+    near_sum += near_share > 0.0f ? near_share * c : (float4)(0.0f);
+    base_sum += base_share > 0.0f ? base_share * c : (float4)(0.0f);
+    near_weight += near_share;
+    base_weight += base_share;
   }
   // Together the near discs cover at most all of the pixel.
   const float4 near_mean = near_sum / fmax(near_weight, 1.0f);

@@ -31,9 +31,9 @@ __kernel void linear_psf(const DefrayLinearParams p, __global const float* restr
   if (x >= p.width || y >= p.band_rows) return;
 
   float16 sum0 = -0.0f, sum1 = -0.0f, sum2 = -0.0f, sum3 = -0.0f;  // -0 + c is c, for c = -0 too
-  const float farthest = (float)p.reach + 0.5f;
+  const int beyond = p.reach + 1;  // no disc reaches this far
   for (int dy = -p.reach; dy <= p.reach; ++dy) {
-    const int half_chord = (int)sqrt(farthest * farthest - (float)(dy * dy));
+    const int half_chord = min((int)sqrt((float)(beyond * beyond - dy * dy)), p.reach);
     const size_t row = (size_t)((int)y + p.reach + dy) * p.source_stride + x + (uint)p.reach;
     for (int dx = -half_chord; dx <= half_chord; ++dx) {
       const float distance = sqrt((float)(dx * dx + dy * dy));

@@ -1,0 +1,160 @@
+// Kernel linear_psf and its twin: bits, energy, and what must not leak.
+#include "linear.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "reference/reference.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
+                          const std::vector<Plane>& channels, const LinearSettings& s = {}) {
+  return render_linear(session(), size.width, size.height, coc, channels, s);
+}
+
+std::vector<Plane> planes_of(Size size, std::size_t count) {
+  std::vector<Plane> planes;
+  for (std::uint32_t c = 0; c < count; ++c) planes.push_back(random_plane(size, c + 5));
+  return planes;
+}
+
+double sum(const Plane& plane) { return std::accumulate(plane.begin(), plane.end(), 0.0); }
+
+TEST(Linear, KernelEqualsTwinBitForBit) {
+  for (const Size size : {Size{1, 1}, {1, 17}, {17, 1}, {13, 7}, {33, 5}, {131, 41}}) {
+    for (const double largest : {0.0, 0.3, 1.7, 6.0, 40.0}) {
+      if (largest > 6 && (size.width > 33 || is_slow_device())) continue;  // the twin's time
+      const auto coc = random_coc(size, largest, 3);
+      const auto channels = planes_of(size, 4);
+      const auto twin = reference::render_linear<float>(size.width, size.height, coc, channels);
+      EXPECT_EQ(hash_of(render(size, coc, channels)), hash_of(twin))
+          << size.width << "x" << size.height << ", CoC " << largest;
+    }
+  }
+}
+
+TEST(Linear, FloatSumsStayWithinTheirBoundOfDouble) {
+  const Size size{61, 33};
+  const auto coc = random_coc(size, 6, 9);
+  const auto channels = planes_of(size, 1);
+  const Plane kernel = render(size, coc, channels)[0];
+  const auto exact = reference::render_linear<double>(size.width, size.height, coc, channels)[0];
+  // A term carries the roundings of its root, its subtraction (both of numbers up to 14 for a
+  // weight from 0 to 1), its quotient and its product; n = 13^2 terms are then added, each
+  // addition rounded. u = 2^-24; terms and partial sums are below n L / (disc >= 1) <= n L.
+  const double n = 169;
+  double largest = 0;
+  for (const float c : channels[0]) largest = std::fmax(largest, std::fabs(c));
+  const double bound = n * largest * (2 * 14 + 3 + n) * 0x1p-24;
+  double worst = 0;
+  for (std::size_t i = 0; i < kernel.size(); ++i) {
+    worst = std::fmax(worst, std::fabs(kernel[i] - exact[i]));
+  }
+  EXPECT_LE(worst, bound);
+  EXPECT_GT(worst, 0);
+}
+
+TEST(Linear, EnergyIsConservedAwayFromTheBorder) {
+  const Size size{90, 70};
+  for (const double radius : {0.4, 0.5, 1.0, 3.3, 12.0}) {
+    Plane light(size.width * size.height), random = random_plane(size, 2);
+    for (int y = 13; y < 57; ++y) {
+      for (int x = 13; x < 77; ++x) {
+        light[y * 90 + x] = std::fabs(random[y * 90 + x]);
+      }
+    }
+    const Plane out = render(size, random_coc(size, radius, 4), {light})[0];
+    EXPECT_NEAR(sum(out) / sum(light), 1, 1e-6) << "radius " << radius;
+  }
+}
+
+TEST(Linear, ImpulsesBecomeDiscsOfTheirRadius) {
+  const Size size{101, 101};
+  for (const double radius : {0.75, 2.0, 7.3, 20.0, 40.0}) {
+    Plane impulse(101 * 101);
+    impulse[50 * 101 + 50] = 1;
+    const std::vector<std::int32_t> coc(impulse.size(), std::lround(256 * radius));
+    const Plane disc = render(size, coc, {impulse})[0];
+    double total = 0, x = 0, y = 0, squares = 0;
+    for (int j = 0; j < 101; ++j) {
+      for (int i = 0; i < 101; ++i) {
+        const double share = disc[j * 101 + i];
+        total += share, x += share * (i - 50), y += share * (j - 50);
+        squares += share * (std::pow(i - 50, 2) + std::pow(j - 50, 2));
+        if (std::hypot(i - 50, j - 50) >= radius + 0.5) {
+          EXPECT_EQ(share, 0);
+        }
+      }
+    }
+    EXPECT_NEAR(total, 1, 1e-6);
+    EXPECT_NEAR(x, 0, 1e-5);
+    EXPECT_NEAR(y, 0, 1e-5);
+    // The second moment of the soft disc's integral; the pixel grid moves small ones by up to 6 %.
+    const double r2 = radius * radius;
+    const double moment = 0.5 * (r2 * r2 + r2 / 2 + 1.0 / 80) / (r2 + 1.0 / 12);
+    EXPECT_NEAR(squares, moment, 0.06 * moment);
+  }
+}
+
+TEST(Linear, OneColourStaysThatColour) {
+  const Size size{40, 30};
+  const std::vector<std::int32_t> coc(1200, 256 * 9);
+  const Plane out = render(size, coc, {Plane(1200, 0.7f)})[0];
+  for (const float value : out) {
+    EXPECT_NEAR(value, 0.7f, 0.7 * 400 * 0x1p-24);  // 19^2 additions
+  }
+}
+
+TEST(Linear, ClosedApertureReturnsTheInputBitForBit) {
+  const Size size{37, 19};
+  auto channels = planes_of(size, 3);
+  channels[0][5] = -0.0f;
+  channels[1][7] = std::numeric_limits<float>::max();
+  channels[2][9] = std::numeric_limits<float>::denorm_min();
+  EXPECT_EQ(hash_of(render(size, std::vector<std::int32_t>(37 * 19), channels)), hash_of(channels));
+}
+
+TEST(Linear, NonfiniteLightStaysInItsDisc) {
+  const Size size{41, 41};
+  Plane plane(41 * 41, 0.5f);
+  plane[20 * 41 + 20] = std::numeric_limits<float>::infinity();
+  std::vector<std::int32_t> coc(plane.size(), 256 * 9);
+  coc[20 * 41 + 20] = 256 * 3;
+  const Plane out = render(size, coc, {plane})[0];
+  for (int y = 0; y < 41; ++y) {
+    for (int x = 0; x < 41; ++x) {
+      EXPECT_EQ(std::isfinite(out[y * 41 + x]), std::hypot(x - 20, y - 20) >= 3.5) << x << "," << y;
+    }
+  }
+}
+
+TEST(Linear, SameBitsForEveryMemoryBudgetAndWorkGroup) {
+  const Size size{67, 45};
+  const auto coc = random_coc(size, 5, 8);
+  const auto channels = planes_of(size, 2);
+  const std::uint64_t expected = hash_of(render(size, coc, channels));
+  for (const std::size_t kib : {22, 30, 64, 100}) {
+    EXPECT_EQ(hash_of(render(size, coc, channels, {kib << 10})), expected) << kib << " KiB";
+  }
+  Session s(device_under_test());
+  for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 1}}) {
+    s.set_work_group(x, y);
+    EXPECT_EQ(hash_of(render_linear(s, size.width, size.height, coc, channels, {})), expected)
+        << x << "x" << y;
+  }
+}
+
+TEST(Linear, RefusesWhatItCannotReach) {
+  const std::vector<std::int32_t> wide(4, 1025 * 256), some(4, 100 * 256);
+  expect_error(2, {"1025 px", "1024", "--max-coc", "rdb"}, [&] {
+    render({2, 2}, wide, {Plane(4)});
+  });
+  expect_error(2, {"--memory", "100 px", "MiB"}, [&] { render({2, 2}, some, {Plane(4)}, {1000}); });
+}
+
+}  // namespace
+}  // namespace defray::test

@@ -1,0 +1,56 @@
+// Kernel tiltshift and its twin: a gradient from a band to the frame's edges.
+#include "tiltshift.h"
+
+#include "reference/reference.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+TEST(Tiltshift, KernelEqualsTwinBitForBit) {
+  for (const Size size : awkward_sizes()) {
+    for (const TiltshiftSettings& s : {TiltshiftSettings{0.5, 0.2, 9.2},
+                                       {0, 0, 1024},
+                                       {1, 1, 3},
+                                       {0.3, 0.9, 0.01},
+                                       {0.5, 1, 50}}) {
+      const auto p = tiltshift_params(s, size.width, size.height, -3, size.height + 5);
+      EXPECT_EQ(tiltshift_on_device(session(), p), reference::tiltshift(p))
+          << size.width << "x" << size.height << ", centre " << s.band_centre;
+    }
+  }
+}
+
+TEST(Tiltshift, GrowsFromTheBandToTheFarthestEdge) {
+  // 100 rows, the band from row 20 to row 40: the ramp of 60 rows ends at the bottom edge.
+  const auto p = tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100);
+  const auto coc = reference::tiltshift(p);
+  EXPECT_EQ(coc[25], 0);
+  EXPECT_EQ(coc[20], 0);
+  EXPECT_EQ(coc[39], 0);
+  EXPECT_EQ(coc[99], std::lround(256 * 12 * 59.5 / 60));
+  EXPECT_EQ(coc[69], std::lround(256 * 12 * 29.5 / 60));
+  EXPECT_EQ(coc[0], std::lround(256 * 12 * 19.5 / 60));
+}
+
+TEST(Tiltshift, DataWindowsShareTheDisplayWindowsGradient) {
+  const auto whole = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100));
+  const auto part = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 30, 55, 100));
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + 55));
+}
+
+TEST(Tiltshift, BandAsHighAsTheFrameBlursNothing) {
+  for (const auto q : reference::tiltshift(tiltshift_params({0.5, 1, 50}, 3, 40, 0, 40))) {
+    EXPECT_EQ(q, 0);
+  }
+}
+
+TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
+  expect_error(2, {"--band-centre", "1.5"}, [] { validate(TiltshiftSettings{1.5, 0.1, 5}); });
+  expect_error(2, {"--band-width", "-0.1"}, [] { validate(TiltshiftSettings{0.5, -0.1, 5}); });
+  expect_error(2, {"--max-blur", "-1"}, [] { validate(TiltshiftSettings{0.5, 0.1, -1}); });
+  expect_error(2, {"--max-blur", "1024"}, [] { validate(TiltshiftSettings{0.5, 0.1, 1e6}); });
+}
+
+}  // namespace
+}  // namespace defray::test
