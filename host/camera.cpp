@@ -182,6 +182,9 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
   if (values.sensor_width_mm && values.pixels_per_metre) {
     fail(ExitCode::usage, "--sensor-width and --pixel-scale say the same thing: give one of them");
   }
+  if (values.pixels_per_metre && !(*values.pixels_per_metre > 0)) {
+    fail(ExitCode::usage, "--pixel-scale is {}: it must be above 0", *values.pixels_per_metre);
+  }
   Lens lens;
   lens.focal_length_mm = *values.focal_length_mm;
   lens.pixels_per_metre = values.pixels_per_metre.value_or(0);

@@ -36,7 +36,10 @@ void validate(const Lens& lens) {
   require_positive("focal length", lens.focal_length_mm);
   require_positive("sensor width", lens.sensor_width_mm);
   require_positive("scene unit", lens.metres_per_unit);
-  if (lens.pixels_per_metre != 0) require_positive("--pixel-scale", lens.pixels_per_metre);
+  if (!(lens.pixels_per_metre >= 0) || std::isinf(lens.pixels_per_metre)) {
+    fail(ExitCode::usage, "--pixel-scale is {}: it must be a finite number above 0",
+         lens.pixels_per_metre);
+  }
   if (!(lens.aperture_diameter_mm >= 0) || !std::isfinite(lens.aperture_diameter_mm)) {
     fail(ExitCode::usage, "aperture diameter is {} mm: it must be 0 or more",
          lens.aperture_diameter_mm);

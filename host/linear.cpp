@@ -99,8 +99,8 @@ int band_rows_for(int width, int height, int reach, std::size_t memory_bytes) {
   const std::size_t least = fixed + in_row + out_row;
   if (memory_bytes < least) {
     fail(ExitCode::usage,
-         "--memory is {} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
-         memory_bytes >> 20, width, reach, (least >> 20) + 1);
+         "--memory is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
+         std::ldexp(static_cast<double>(memory_bytes), -20), width, reach, (least >> 20) + 1);
   }
   return static_cast<int>(std::min(as_size(height), (memory_bytes - fixed) / (in_row + out_row)));
 }
