@@ -1,0 +1,187 @@
+// Charts: points, texts and colours are where they must be; what cannot be drawn is refused.
+#include "plot.h"
+
+#include <cmath>
+
+#include "image/ldr.h"
+#include "plot_axis.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+Plot plot_of(std::vector<Point> points) {
+  Plot plot{"Title", "x", "y"};
+  plot.series.push_back({"", std::move(points), false, true});
+  return plot;
+}
+
+LdrPicture drawn(const Plot& plot) {
+  const Folder folder;
+  write_plot(folder / "plot.png", plot);
+  LdrPicture picture = read_ldr(folder / "plot.png", Content::data);
+  EXPECT_EQ(picture.width, plot_width_px);
+  EXPECT_EQ(picture.height, plot_height_px);
+  return picture;
+}
+
+std::array<int, 3> colour_at(const LdrPicture& picture, double x, double y) {
+  const auto i = static_cast<std::size_t>(std::lround(y) * picture.width + std::lround(x));
+  std::array<int, 3> colour;
+  for (std::size_t c = 0; c < 3; ++c) colour[c] = std::lround(255 * picture.planes[c][i]);
+  return colour;
+}
+
+/// Pixels of a rectangle whose colours differ.
+int changed(const LdrPicture& a, const LdrPicture& b, int x0, int y0, int x1, int y1) {
+  int count = 0;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) count += colour_at(a, x, y) != colour_at(b, x, y);
+  }
+  return count;
+}
+
+constexpr std::array<int, 3> blue = {0, 114, 178}, vermilion = {213, 94, 0},
+                             white = {255, 255, 255};
+
+TEST(Plot, PointsLieWhereTheAxesSay) {
+  const Plot plot = plot_of({{0, 0}, {10, 4}, {5, 1}});
+  const auto origin = plot_position(plot, {0, 0}), end = plot_position(plot, {10, 4});
+  EXPECT_LT(origin[0], end[0]);
+  EXPECT_GT(origin[1], end[1]);  // y goes up
+  const auto middle = plot_position(plot, {5, 1});
+  EXPECT_NEAR(middle[0], (origin[0] + end[0]) / 2, 1e-9);
+  EXPECT_NEAR(middle[1], origin[1] + (end[1] - origin[1]) / 4, 1e-9);
+  const LdrPicture picture = drawn(plot);
+  for (const auto& at : {origin, end, middle}) EXPECT_EQ(colour_at(picture, at[0], at[1]), blue);
+  EXPECT_NE(colour_at(picture, middle[0] + 12, middle[1]), blue);
+}
+
+TEST(Plot, LogAxesSpaceDecadesEvenly) {
+  Plot plot = plot_of({{1, 0.01}, {10, 1}, {100, 100}});
+  plot.x_log = plot.y_log = true;
+  const auto low = plot_position(plot, {1, 0.01}), high = plot_position(plot, {100, 100});
+  const auto middle = plot_position(plot, {10, 1});
+  EXPECT_NEAR(middle[0], (low[0] + high[0]) / 2, 1e-9);
+  EXPECT_NEAR(middle[1], (low[1] + high[1]) / 2, 1e-9);
+  const LdrPicture picture = drawn(plot);
+  EXPECT_EQ(colour_at(picture, middle[0], middle[1]), blue);
+}
+
+TEST(Plot, LinesAndMarkersCanBeLeftOut) {
+  Plot plot = plot_of({{0, 0}, {8, 8}});
+  const auto middle = plot_position(plot, {4, 4}), end = plot_position(plot, {8, 8});
+  EXPECT_NE(colour_at(drawn(plot), middle[0], middle[1]), blue);
+  plot.series[0].lines = true;
+  EXPECT_EQ(colour_at(drawn(plot), middle[0], middle[1]), blue);
+  plot.series[0].markers = false;
+  EXPECT_NE(colour_at(drawn(plot), end[0] - 4, end[1] - 1), blue);
+}
+
+TEST(Plot, EverySeriesHasItsColourAndLegendLine) {
+  Plot plot = plot_of({{0, 0}, {10, 10}});
+  plot.series.push_back({"", {{5, 5}}, false, true});
+  const LdrPicture nameless = drawn(plot);
+  const auto at = plot_position(plot, {5, 5});
+  EXPECT_EQ(colour_at(nameless, at[0], at[1]), vermilion);
+  plot.series[0].name = "first";
+  const LdrPicture one = drawn(plot);
+  plot.series[1].name = "other";
+  const LdrPicture two = drawn(plot);
+  EXPECT_GT(changed(one, nameless, 900, 50, 1000, 80), 50);
+  EXPECT_GT(changed(one, two, 900, 80, 1000, 110), 50);
+  EXPECT_EQ(changed(one, two, 0, 0, 1000, 50), 0);
+}
+
+TEST(Plot, TextsChangeTheirOwnAreas) {
+  const Plot plot = plot_of({{0, 0}, {10, 10}});
+  const LdrPicture before = drawn(plot);
+  const auto expect_change_in = [&](const Plot& other, int x0, int y0, int x1, int y1) {
+    const LdrPicture after = drawn(other);
+    EXPECT_GT(changed(before, after, x0, y0, x1, y1), 20);
+    EXPECT_EQ(changed(before, after, x0, y0, x1, y1), changed(before, after, 0, 0, 1000, 640));
+  };
+  Plot titled = plot, x_labelled = plot, y_labelled = plot, labelled = plot;
+  titled.title = "Another " + std::string(200, 'W');  // wider than the picture: made to fit
+  x_labelled.x_label = "focus distance, m";
+  y_labelled.y_label = "PSNR, dB";
+  labelled.series[0].points[0].label = "9x9";
+  expect_change_in(titled, 10, 5, 990, 50);
+  expect_change_in(x_labelled, 200, 600, 900, 640);
+  expect_change_in(y_labelled, 0, 56, 36, 570);
+  expect_change_in(labelled, 90, 540, 140, 570);
+  EXPECT_EQ(colour_at(before, 5, 5), white);
+}
+
+TEST(Plot, LabelsKeepClearOfEachOtherAndOfTheBorder) {
+  Plot plot = plot_of({{0, 0}, {10, 10}});
+  plot.series[0].points[1].label = "corner";
+  const auto corner = plot_position(plot, {10, 10});
+  const LdrPicture a = drawn(plot), none = drawn(plot_of({{0, 0}, {10, 10}}));
+  // To the left of the last point and below it.
+  EXPECT_EQ(changed(a, none, int(corner[0]), 0, 1000, 640), 0);
+  EXPECT_GT(changed(a, none, 0, int(corner[1]), int(corner[0]), 640), 20);
+  plot = plot_of({{0, 0}, {5, 5, "one"}, {5, 5, "two"}, {10, 10}});
+  const auto middle = plot_position(plot, {5, 5});
+  const LdrPicture both = drawn(plot);
+  EXPECT_GT(changed(both, none, int(middle[0]) + 8, int(middle[1]) - 20, 600, int(middle[1])), 20);
+  EXPECT_GT(changed(both, none, int(middle[0]) + 8, int(middle[1]), 600, int(middle[1]) + 20), 20);
+}
+
+TEST(Plot, RefusesWhatCannotBeDrawn) {
+  const Folder folder;
+  const auto refuse = [&](Plot plot, const std::vector<std::string>& words) {
+    expect_error(2, words, [&] { write_plot(folder / "plot.png", plot); });
+    EXPECT_FALSE(std::filesystem::exists(folder / "plot.png"));
+  };
+  refuse({"Empty", "x", "y"}, {"no points"});
+  refuse(plot_of({}), {"no points"});
+  refuse(plot_of({{0, NAN}}), {"'y'", "nan", "finite"});
+  refuse(plot_of({{-INFINITY, 0}}), {"'x'", "-inf"});
+  refuse(plot_of({{1e101, 0}}), {"1e+101", "1e+100"});
+  Plot plot = plot_of({{1, 1}, {0, 1}});
+  plot.x_log = true;
+  refuse(plot, {"'x' is logarithmic", "0 cannot"});
+  plot = plot_of({{1, 1}, {1, -2}});
+  plot.y_log = true;
+  refuse(plot, {"'y' is logarithmic", "-2 cannot"});
+  expect_error(2, {"PNG or JPEG"}, [&] { write_plot(folder / "plot.exr", plot_of({{1, 1}})); });
+  expect_error(4, {"none"}, [&] { write_plot(folder / "none/plot.png", plot_of({{1, 1}})); });
+}
+
+std::vector<std::string> labels(const std::vector<double>& values, bool is_log) {
+  const Axis axis("x", values, is_log);
+  std::vector<std::string> all;
+  for (const double tick : axis.ticks()) all.push_back(axis.label(tick));
+  return all;
+}
+
+using Labels = std::vector<std::string>;
+
+TEST(Axis, TicksAreRoundNumbersAroundTheData) {
+  EXPECT_EQ(labels({0.3, 4}, false), (Labels{"0", "0.5", "1", "1.5", "2", "2.5", "3", "3.5", "4"}));
+  EXPECT_EQ(labels({-0.1, 0.3}, false),
+            (Labels{"-0.1", "-0.05", "0", "0.05", "0.1", "0.15", "0.2", "0.25", "0.3"}));
+  EXPECT_EQ(labels({3, 40}, true), (Labels{"2", "5", "10", "20", "50"}));
+  EXPECT_EQ(labels({2e-5, 1}, true), (Labels{"1e-05", "0.0001", "0.001", "0.01", "0.1", "1"}));
+  EXPECT_EQ(labels({1000000, 1000004}, false)[1], "1000000.5");
+}
+
+TEST(Axis, OneValueOrHugeRangesStillHaveAFewTicks) {
+  for (const bool is_log : {false, true}) {
+    for (const std::vector<double>& values : std::vector<std::vector<double>>{
+             {7}, {1, 1 + 1e-15}, {1e-100, 1e100}, {1e-90, 2e-90}, {0.1, 0.3}}) {
+      const Axis axis("x", values, is_log);
+      EXPECT_GE(axis.ticks().size(), 2u);
+      EXPECT_LE(axis.ticks().size(), 25u);
+      for (const double value : values) {
+        EXPECT_GE(axis.share(value), -1e-8);
+        EXPECT_LE(axis.share(value), 1 + 1e-8);
+      }
+    }
+  }
+  EXPECT_EQ(Axis("x", {0}, false).share(0), 0.5);
+}
+
+}  // namespace
+}  // namespace defray::test
