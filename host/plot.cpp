@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "error.h"
@@ -86,6 +85,7 @@ class Chart {
   void draw_texts();
   void draw_legend();
   void draw_series(std::size_t index);
+  int ink(const cv::Rect& place) const;
   void draw_label(const Point& point);
   void draw_line(cv::Point2d from, cv::Point2d to, const cv::Scalar& colour, int thickness);
   void draw_marker(std::size_t series, cv::Point2d at);
@@ -94,7 +94,6 @@ class Chart {
   Axis x_, y_;
   cv::Rect area_;
   cv::Mat image_{plot_height_px, plot_width_px, CV_8UC3, cv::Scalar::all(255)};
-  std::vector<cv::Rect> labels_;  ///< Where labels are already.
 };
 
 cv::Point fixed_point(cv::Point2d p) {
@@ -170,7 +169,15 @@ void Chart::draw_series(std::size_t index) {
   }
 }
 
-/// Right above the point, or at the next of its corners where it is free and inside the axes.
+/// How much of a rectangle is drawn on already, the grid aside; all of it outside the axes.
+int Chart::ink(const cv::Rect& place) const {
+  if ((place & area_) != place) return place.area();
+  cv::Mat free;
+  cv::inRange(image_(place), grey, cv::Scalar::all(255), free);
+  return place.area() - cv::countNonZero(free);
+}
+
+/// At that corner of the point where it covers least.
 void Chart::draw_label(const Point& point) {
   if (point.label.empty()) return;
   const double scale = 0.45;
@@ -178,16 +185,11 @@ void Chart::draw_label(const Point& point) {
   const cv::Point at = position(point);
   const int right = at.x + 8, left = at.x - 8 - size.width;
   const int above = at.y - 6 - size.height, below = at.y + 6;
-  cv::Rect place;
-  for (const cv::Point corner : {cv::Point(right, above), cv::Point(right, below),
-                                 cv::Point(left, above), cv::Point(left, below)}) {
-    place = cv::Rect(corner, size);
-    const bool is_taken = std::any_of(labels_.begin(), labels_.end(), [&](const cv::Rect& other) {
-      return !(other & place).empty();
-    });
-    if (!is_taken && (place & area_) == place) break;
-  }
-  labels_.push_back(place);
+  const std::vector<cv::Rect> places = {
+      {{right, above}, size}, {{left, above}, size}, {{right, below}, size}, {{left, below}, size}};
+  const cv::Rect place =
+      *std::min_element(places.begin(), places.end(),
+                        [this](const cv::Rect& a, const cv::Rect& b) { return ink(a) < ink(b); });
   put_text(image_, point.label, {place.x, place.y + size.height}, scale);
 }
 

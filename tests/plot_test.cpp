@@ -121,11 +121,19 @@ TEST(Plot, LabelsKeepClearOfEachOtherAndOfTheBorder) {
   // To the left of the last point and below it.
   EXPECT_EQ(changed(a, none, int(corner[0]), 0, 1000, 640), 0);
   EXPECT_GT(changed(a, none, 0, int(corner[1]), int(corner[0]), 640), 20);
+  // Both labels of one point are there, on different sides of it.
   plot = plot_of({{0, 0}, {5, 5, "one"}, {5, 5, "two"}, {10, 10}});
   const auto middle = plot_position(plot, {5, 5});
-  const LdrPicture both = drawn(plot);
-  EXPECT_GT(changed(both, none, int(middle[0]) + 8, int(middle[1]) - 20, 600, int(middle[1])), 20);
-  EXPECT_GT(changed(both, none, int(middle[0]) + 8, int(middle[1]), 600, int(middle[1]) + 20), 20);
+  const int x = int(middle[0]), y = int(middle[1]);
+  const LdrPicture both = drawn(plot), unlabelled = drawn(plot_of({{0, 0}, {5, 5}, {10, 10}}));
+  EXPECT_GT(changed(both, unlabelled, x + 8, y - 20, x + 50, y), 20);
+  EXPECT_GT(changed(both, unlabelled, x - 50, y - 20, x - 8, y), 20);
+  // A line is not written over: its point's label goes to the other side.
+  plot = plot_of({{0, 0}, {5, 5, "one"}, {10, 10}});
+  plot.series[0].lines = true;
+  const LdrPicture line = drawn(plot);
+  plot.series[0].points[1].label = "";
+  EXPECT_EQ(changed(line, drawn(plot), x + 8, y - 20, x + 50, y), 0);
 }
 
 TEST(Plot, RefusesWhatCannotBeDrawn) {
