@@ -1,132 +1,192 @@
-// defray compare: how far two pictures are apart. defray sheet: pictures side by side.
+// defray compare: how far two pictures are apart.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "camera.h"
 #include "commands.h"
+#include "depth.h"
 #include "display.h"
+#include "edge_band.h"
 #include "error.h"
 #include "image/channels.h"
-#include "image/ldr.h"
-#include "image/safe_output.h"
 #include "metrics.h"
-#include "text.h"
+#include "picture.h"
+#include "reference/reference.h"
 
 namespace defray::cli {
 namespace {
 
-struct Picture {
-  std::vector<Plane> planes;
-  Window data;
-};
+using Json = nlohmann::ordered_json;
 
-Picture read_picture(const std::string& path) {
-  const ImageFile file = ImageFile::read(path);
-  const ColourChoice choice = choose_colour(path, file.parts(), {});
-  Picture picture{{}, file.parts()[static_cast<std::size_t>(choice.part)].data};
-  for (const int c : choice.channels) picture.planes.push_back(file.plane(choice.part, c));
-  return picture;
-}
-
-void require_same_size(const std::string& a_path, const Picture& a, const std::string& b_path,
-                       const Picture& b) {
-  if (a.data != b.data) {
-    fail(ExitCode::input, "{} has data window {}, {} has {}: both must be the same", a_path,
-         to_string(a.data), b_path, to_string(b.data));
-  }
-}
-
-struct CompareOptions {
+struct Options {
   std::string a, b;
+  std::optional<double> min_psnr, min_ssim, max_error;
+  std::string depth, depth_channel, camera, focus_setting;
+  double edge_step = 0.1;
+  std::string sheet;
+  double amplify = 4;
   bool json = false;
-  std::optional<double> min_psnr;
 };
 
-int run_compare(const CompareOptions& o) {
-  if (o.min_psnr && std::isnan(*o.min_psnr)) fail(ExitCode::usage, "--min-psnr is not a number");
-  const Picture a = read_picture(o.a), b = read_picture(o.b);
-  require_same_size(o.a, a, o.b, b);
-  const Comparison c = compare(a.planes, b.planes, a.data.width);
-  if (o.json) {
-    const nlohmann::ordered_json line = {{"equal", c.worst == 0},
-                                         {"psnr_srgb_db", c.psnr_srgb_db},
-                                         {"psnr_linear_db", c.psnr_linear_db},
-                                         {"rms", c.rms},
-                                         {"worst", c.worst},
-                                         {"worst_x", c.worst_x},
-                                         {"worst_y", c.worst_y}};
-    fmt::print("{}\n", line.dump());
-  } else {
-    fmt::print("PSNR {:.2f} dB (sRGB-encoded), {:.2f} dB (linear), both clipped to 0...1\n",
-               c.psnr_srgb_db, c.psnr_linear_db);
-    fmt::print("RMS error {:.6g}, worst {:.6g} at pixel ({}, {}) (linear, not clipped)\n", c.rms,
-               c.worst, c.worst_x, c.worst_y);
+/// Errors inside the edge band and outside it.
+struct BandErrors {
+  Errors inside, outside;
+};
+
+void validate(const Options& o) {
+  const auto refuse_nan = [](const char* name, const std::optional<double>& value) {
+    if (value && std::isnan(*value)) fail(ExitCode::usage, "{} is not a number", name);
+  };
+  refuse_nan("--min-psnr", o.min_psnr);
+  refuse_nan("--min-ssim", o.min_ssim);
+  refuse_nan("--max-error", o.max_error);
+  if (o.min_ssim && std::fabs(*o.min_ssim) > 1) {
+    fail(ExitCode::usage, "--min-ssim is {}: SSIM lies between -1 and 1", *o.min_ssim);
   }
-  // A NaN is never good enough.
-  const bool missed = o.min_psnr && !(c.psnr_srgb_db >= *o.min_psnr);
-  return static_cast<int>(missed ? ExitCode::failed : ExitCode::ok);
+  if (o.max_error && *o.max_error < 0) {
+    fail(ExitCode::usage, "--max-error is {}: it must be 0 or more", *o.max_error);
+  }
+  if (!(o.amplify > 0) || !std::isfinite(o.amplify)) {
+    fail(ExitCode::usage, "--amplify is {}: it must be a finite number above 0", o.amplify);
+  }
+  if (!o.sheet.empty()) check_sheet(o.sheet, {o.a, o.b, o.depth, o.camera});
 }
 
-struct SheetOptions {
-  std::vector<std::string> pictures, captions;
-  std::string output;
-};
+/// The edge band of the pinhole frame that `picture` was rendered from.
+std::vector<std::uint8_t> read_band(const Options& o, const Picture& picture) {
+  const ImageFile file = ImageFile::read(o.depth, Content::data);
+  const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
+  require_same_size({o.depth, {}, part.data}, picture);
+  const Lens lens = make_lens(read_camera_json(o.camera, o.focus_setting, 1), 1, LensModel::cg, 0);
+  Plane depth = file.plane(name.part, name.channel);
+  const int width = part.display.width;
+  convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);
+  return edge_band(depth, part.data.width, reference::coc(lens, width, depth), o.edge_step);
+}
 
-int run_sheet(const SheetOptions& o) {
-  if (!o.captions.empty() && o.captions.size() != o.pictures.size()) {
-    fail(ExitCode::usage, "--captions names {} pictures, there are {}", o.captions.size(),
-         o.pictures.size());
+Json errors_json(const Errors& e) {
+  return {{"pixels", e.pixels},
+          {"psnr_srgb_db", e.psnr_srgb_db},
+          {"psnr_linear_db", e.psnr_linear_db},
+          {"rms", e.rms}};
+}
+
+void print_json(const Comparison& c, const std::optional<BandErrors>& band) {
+  Json line = {{"equal", c.worst == 0},
+               {"psnr_srgb_db", c.psnr_srgb_db},
+               {"psnr_linear_db", c.psnr_linear_db},
+               {"rms", c.rms},
+               {"worst", c.worst},
+               {"worst_x", c.worst_x},
+               {"worst_y", c.worst_y},
+               {"worst_a", c.worst_a},
+               {"worst_b", c.worst_b},
+               {"ssim", c.ssim},
+               {"energy_ratio", c.energy_ratio}};
+  if (band) {
+    line["edge_band"] = errors_json(band->inside);
+    line["outside_edge_band"] = errors_json(band->outside);
   }
-  if (!is_ldr_path(o.output)) fail(ExitCode::usage, "{}: a sheet is PNG or JPEG", o.output);
-  for (const std::string& picture : o.pictures) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(picture, o.output, ignored)) {
-      fail(ExitCode::usage, "{}: is input and output at once; write to another file", o.output);
-    }
+  fmt::print("{}\n", line.dump());
+}
+
+void print_errors(const char* where, const Errors& e) {
+  if (e.pixels == 0) {
+    fmt::print("{} 0 px\n", where);
+    return;
   }
-  check_can_write(o.output);
-  std::vector<Panel> panels;
-  Window size;
-  Picture first;
-  for (std::size_t i = 0; i < o.pictures.size(); ++i) {
-    Picture picture = read_picture(o.pictures[i]);
-    if (i == 0) first.data = size = picture.data;
-    require_same_size(o.pictures[0], first, o.pictures[i], picture);
-    panels.push_back(
-        {o.captions.empty() ? o.pictures[i] : o.captions[i], std::move(picture.planes)});
+  fmt::print("{} {} px: PSNR {:.2f} dB (sRGB-encoded), {:.2f} dB (linear), RMS error {:.6g}\n",
+             where, e.pixels, e.psnr_srgb_db, e.psnr_linear_db, e.rms);
+}
+
+void print_text(const Comparison& c, const std::optional<BandErrors>& band) {
+  fmt::print("PSNR {:.2f} dB (sRGB-encoded), {:.2f} dB (linear), both clipped to 0...1\n",
+             c.psnr_srgb_db, c.psnr_linear_db);
+  fmt::print("RMS error {:.6g}, worst {:.6g} at pixel ({}, {}) (linear, not clipped)\n", c.rms,
+             c.worst, c.worst_x, c.worst_y);
+  fmt::print("  there {:.6g} against {:.6g} (R G B)\n", fmt::join(c.worst_a, " "),
+             fmt::join(c.worst_b, " "));
+  fmt::print("SSIM {:.4f} (sRGB-encoded, mean of R G B), energy ratio {:.6g}\n", c.ssim,
+             c.energy_ratio);
+  if (!band) return;
+  print_errors("edge band", band->inside);
+  print_errors("outside it", band->outside);
+}
+
+/// A NaN is never good enough.
+bool misses_a_bound(const Options& o, const Comparison& c) {
+  return (o.min_psnr && !(c.psnr_srgb_db >= *o.min_psnr)) ||
+         (o.min_ssim && !(c.ssim >= *o.min_ssim)) || (o.max_error && !(c.worst <= *o.max_error));
+}
+
+int run(const Options& o) {
+  validate(o);
+  Picture a = read_picture(o.a), b = read_picture(o.b);
+  require_same_size(a, b);
+  std::optional<BandErrors> band;
+  if (!o.depth.empty()) {
+    const std::vector<std::uint8_t> mask = read_band(o, a);
+    band = {errors_where(a.planes, b.planes, mask, 1), errors_where(a.planes, b.planes, mask, 0)};
   }
-  write_sheet(o.output, panels, size.width, size.height);
-  fmt::print("{}\n", o.output);
-  return 0;
+  const Comparison comparison = compare(a.planes, b.planes, a.data.width);
+  if (o.json) {
+    print_json(comparison, band);
+  } else {
+    print_text(comparison, band);
+  }
+  if (!o.sheet.empty()) {
+    std::vector<Plane> difference = difference_picture(a.planes, b.planes, o.amplify);
+    write_sheet(o.sheet,
+                {{"A: " + o.a, std::move(a.planes)},
+                 {"B: " + o.b, std::move(b.planes)},
+                 {fmt::format("|A - B| x {:g}", o.amplify), std::move(difference)}},
+                a.data.width, a.data.height);
+  }
+  return static_cast<int>(misses_a_bound(o, comparison) ? ExitCode::failed : ExitCode::ok);
 }
 
 }  // namespace
 
 Run add_compare(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("compare", "Compare two pictures: PSNR and worst pixel");
-  auto o = std::make_shared<CompareOptions>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "Compare two pictures: PSNR, SSIM, worst pixel, errors near depth edges");
+  auto o = std::make_shared<Options>();
   command->add_option("a", o->a, "Picture")->required();
   command->add_option("b", o->b, "Picture of the same size, for instance the truth")->required();
   command->add_option("--min-psnr", o->min_psnr, "Exit with 1 below this PSNR, dB, sRGB-encoded");
+  command->add_option("--min-ssim", o->min_ssim, "Exit with 1 below this SSIM, -1 to 1");
+  command->add_option("--max-error", o->max_error,
+                      "Exit with 1 if a linear value differs by more than this");
+  auto* depth = command->add_option(
+      "--depth", o->depth, "Planar depth in metres: also give the errors in the edge band");
+  auto* camera = command->add_option("--camera", o->camera, "camera.json: the lens, for --depth");
+  depth->needs(camera);
+  camera->needs(depth);
+  command->add_option("--depth-channel", o->depth_channel, "Which channel of the depth file")
+      ->needs(depth);
+  command->add_option("--focus-setting", o->focus_setting, "Which of the camera's focus settings")
+      ->needs(camera);
+  command
+      ->add_option("--edge-step", o->edge_step,
+                   "An edge is where neighbours' depths differ by more than this share")
+      ->needs(depth);
+  auto* sheet = command->add_option("--sheet", o->sheet,
+                                    "Write A, B and their difference side by side, PNG or JPEG");
+  command->add_option("--amplify", o->amplify, "The sheet's difference is this many times as dark")
+      ->needs(sheet);
   command->add_flag("--json", o->json, "Print one JSON object");
-  command->footer("Example: defray compare out.exr truth.exr --min-psnr 35");
-  return [o] { return run_compare(*o); };
-}
-
-Run add_sheet(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("sheet", "Put pictures of one size side by side");
-  auto o = std::make_shared<SheetOptions>();
-  command->add_option("pictures", o->pictures, "Pictures, left to right")->required();
-  command->add_option("-o,--output", o->output, "PNG or JPEG")->required();
-  command->add_option("--captions", o->captions, "A caption for each picture, comma-separated")
-      ->delimiter(',');
   command->footer(
-      "Example: defray sheet in.exr out.exr truth.exr -o sheet.png --captions "
-      "pinhole,result,truth");
-  return [o] { return run_sheet(*o); };
+      "The edge band: pixels within the CoC radius (of the more blurred surface) plus 1 px of a "
+      "depth edge.\n"
+      "Depth is planar, in metres: 'defray render' reads other kinds, this command does not.\n"
+      "Examples:\n"
+      "  defray compare out.exr truth.exr --min-psnr 35 --sheet difference.png\n"
+      "  defray compare out.exr truth.exr --depth pinhole.exr --camera camera.json");
+  return [o] { return run(*o); };
 }
 
 }  // namespace defray::cli
