@@ -13,5 +13,6 @@ Run add_devices(CLI::App& app);
 Run add_scene(CLI::App& app);
 Run add_compare(CLI::App& app);
 Run add_sheet(CLI::App& app);
+Run add_psf(CLI::App& app);
 
 }  // namespace defray::cli

@@ -64,7 +64,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "defray " DEFRAY_VERSION);
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
-  for (const auto add : {add_render, add_devices, add_scene, add_compare, add_sheet}) {
+  for (const auto add : {add_render, add_devices, add_scene, add_compare, add_sheet, add_psf}) {
     const Run command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), command);
   }

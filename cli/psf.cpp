@@ -1,0 +1,133 @@
+// defray psf: the geometric PSF that defray renders with, against the diffraction PSF.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "camera.h"
+#include "commands.h"
+#include "error.h"
+#include "image/ldr.h"
+#include "image/safe_output.h"
+#include "progress.h"
+#include "psf_report.h"
+
+namespace defray::cli {
+namespace {
+
+struct Options {
+  double depth = 0;
+  CameraValues camera;
+  std::string camera_file, focus_setting;
+  int width = 1920;
+  std::vector<double> wavelengths_nm{450, 550, 650};
+  std::string output, csv;
+  bool log = false, json = false;
+};
+
+void check_outputs(const Options& o) {
+  if (!o.output.empty()) {
+    if (!is_ldr_path(o.output)) fail(ExitCode::usage, "{}: a chart is PNG or JPEG", o.output);
+    check_can_write(o.output);
+  }
+  if (!o.csv.empty()) check_can_write(o.csv);
+  if (!o.csv.empty() && o.csv == o.output) {
+    fail(ExitCode::usage, "{}: -o and --csv are the same file", o.csv);
+  }
+}
+
+Lens lens_of(const Options& o) {
+  CameraValues values = o.camera;
+  if (!o.camera_file.empty()) {
+    values = read_camera_json(o.camera_file, o.focus_setting, 1).overridden_by(values);
+  }
+  return make_lens(values, 1, LensModel::breathing, 0);
+}
+
+void print_json(const PsfReport& r) {
+  nlohmann::ordered_json wavelengths = nlohmann::ordered_json::array();
+  for (const PsfCurve& c : r.monochrome) {
+    wavelengths.push_back({{"wavelength_nm", c.wavelength_nm},
+                           {"airy_diameter_um", c.airy_diameter_um},
+                           {"airy_diameter_px", c.airy_diameter_px},
+                           {"energy_outside", c.energy_outside}});
+  }
+  const nlohmann::ordered_json line = {{"coc_diameter_px", r.coc_diameter_px},
+                                       {"pixel_um", r.pixel_um},
+                                       {"fresnel_zones", r.fresnel_zones},
+                                       {"diffraction_matters", r.diffraction_matters},
+                                       {"wavelengths", wavelengths}};
+  fmt::print("{}\n", line.dump());
+}
+
+void print_text(const PsfReport& r) {
+  fmt::print("geometric CoC diameter {:.4g} px, pixel {:.4g} um, {:.4g} Fresnel zones\n",
+             r.coc_diameter_px, r.pixel_um, r.fresnel_zones);
+  for (const PsfCurve& c : r.monochrome) {
+    fmt::print("{:g} nm: Airy diameter {:.4g} um = {:.4g} px, {:.2f} % of the energy outside\n",
+               c.wavelength_nm, c.airy_diameter_um, c.airy_diameter_px, 100 * c.energy_outside);
+  }
+  fmt::print(
+      "diffraction {} here: the Airy diameter {} both a pixel and the CoC, or more than 5 % "
+      "of the energy {} outside the geometric disc widened by a pixel\n",
+      r.diffraction_matters ? "matters" : "does not matter",
+      r.diffraction_matters ? "exceeds" : "would have to exceed",
+      r.diffraction_matters ? "lies" : "to lie");
+}
+
+int run(const Options& o) {
+  const Lens lens = lens_of(o);
+  check_outputs(o);
+  const PsfReport report = [&] {
+    ProgressBar bar(1, "PSF", true);
+    return measure_psf(lens, o.depth, o.width, o.wavelengths_nm,
+                       [&](double share) { bar.update(0, share); });
+  }();
+  if (!o.output.empty()) write_plot(o.output, psf_plot(report, o.log));
+  if (!o.csv.empty()) write_psf_csv(o.csv, report);
+  if (o.json) {
+    print_json(report);
+  } else {
+    print_text(report);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Run add_psf(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "psf", "Compare the geometric PSF, which render uses, with the diffraction PSF");
+  auto o = std::make_shared<Options>();
+  command->add_option("--depth", o->depth, "Planar depth of the point, m; inf is allowed")
+      ->required();
+  command->add_option("--focus", o->camera.focus_distance_units,
+                      "Focus distance, m; inf is allowed");
+  command->add_option("--fstop", o->camera.fstop, "f-number");
+  command->add_option("--aperture-diameter", o->camera.aperture_diameter_mm,
+                      "Aperture diameter, mm, instead of --fstop");
+  command->add_option("--focal-length", o->camera.focal_length_mm, "Focal length, mm");
+  command->add_option("--sensor-width", o->camera.sensor_width_mm, "Sensor width, mm (36)");
+  auto* camera =
+      command->add_option("--camera", o->camera_file, "camera.json: the lens; options win over it");
+  command->add_option("--focus-setting", o->focus_setting, "Which of the camera's focus settings")
+      ->needs(camera);
+  command->add_option("--width", o->width, "Pixels across the sensor");
+  command
+      ->add_option("--wavelength", o->wavelengths_nm,
+                   "Wavelengths in nm, 100 to 20000, comma-separated")
+      ->delimiter(',');
+  auto* output = command->add_option("-o,--output", o->output, "Chart of both PSFs, PNG or JPEG");
+  command->add_flag("--log", o->log, "The chart's densities on a logarithmic axis")->needs(output);
+  command->add_option("--csv", o->csv, "Table of both PSFs, energy per square pixel");
+  command->add_flag("--json", o->json, "Print one JSON object");
+  command->footer(
+      "Diffraction: Fresnel integral over the circular aperture (Shinya 1994, eq. 4), each\n"
+      "wavelength alone and the mean over the band they span. It matters where the Airy diameter\n"
+      "exceeds both a pixel and the CoC diameter, or more than 5 % of the energy lies more than a\n"
+      "pixel outside the geometric disc. The lens is the breathing one of 'defray render'.\n"
+      "Example: defray psf --depth 4 --focus 3 --fstop 2.8 --focal-length 50 -o psf.png");
+  return [o] { return run(*o); };
+}
+
+}  // namespace defray::cli

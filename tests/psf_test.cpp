@@ -1,0 +1,239 @@
+// The diffraction PSF against closed forms, the geometric one against the CoC.
+#include "psf.h"
+
+#include <cmath>
+
+#include "psf_report.h"
+#include "reference/reference.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double green = 550e-9;
+
+Lens lens_of(double focus, double fstop) {
+  Lens lens;
+  lens.aperture_diameter_mm = lens.focal_length_mm / fstop;
+  lens.focus_distance_units = focus;
+  lens.model = LensModel::breathing;
+  return lens;
+}
+
+PointImage image_of(double depth, double focus = 3, double fstop = 2.8) {
+  return image_of_point(lens_of(focus, fstop), depth, 1920);
+}
+
+/// From a radius to the argument of the Airy pattern.
+double v_of(const PointImage& image, double radius) {
+  return 2 * pi * image.aperture_radius_m * radius / (green * image.sensor_distance_m);
+}
+
+TEST(Psf, GeometricRadiusIsTheCoc) {
+  for (const double focus : {0.06, 3.0, 1000.0, double(INFINITY)}) {
+    for (const double depth : {0.04, 1.0, 3.0, 17.0, double(INFINITY)}) {
+      const Lens lens = lens_of(focus, 4);
+      const PointImage image = image_of_point(lens, depth, 1920);
+      const double coc = std::fabs(reference::coc_px(lens, 1920, depth));
+      EXPECT_NEAR(geometric_radius_m(image) / image.pixel_m, coc, 1e-9 * (1 + coc))
+          << focus << " " << depth;
+    }
+  }
+}
+
+TEST(Psf, InFocusItIsTheAiryPattern) {
+  for (const double focus : {0.1, 3.0, double(INFINITY)}) {
+    const PointImage image = image_of(focus, focus);
+    const double airy = airy_radius_m(image, green);
+    const DiffractionPsf psf(image, green, 20 * airy);
+    EXPECT_NEAR(psf.intensity(0), 1, 1e-12);
+    for (double r = airy / 7; r < 20 * airy; r += airy / 7) {
+      const double v = v_of(image, r), expected = std::pow(2 * std::cyl_bessel_j(1, v) / v, 2);
+      EXPECT_NEAR(psf.intensity(r), expected, 1e-10) << v;
+      const double j0 = std::cyl_bessel_j(0, v), j1 = std::cyl_bessel_j(1, v);
+      EXPECT_NEAR(psf.encircled_energy(r), 1 - j0 * j0 - j1 * j1, 1e-8) << v;  // Rayleigh
+    }
+  }
+}
+
+TEST(Psf, FirstDarkRingIsAt122LambdaN) {
+  const PointImage image = image_of(3);
+  // The sensor is behind the focal plane: N = 2.8 * 3 / (3 - 0.05).
+  const double expected = 1.22 * green * 2.8 * 3 / 2.95;
+  const DiffractionPsf psf(image, green, 2 * expected);
+  double darkest = 0.5 * expected;
+  for (double r = darkest; r < 1.5 * expected; r += expected / 1000) {
+    if (psf.intensity(r) < psf.intensity(darkest)) darkest = r;
+  }
+  EXPECT_NEAR(darkest, expected, 0.01 * expected);
+  EXPECT_NEAR(airy_radius_m(image, green), darkest, 0.002 * expected);
+}
+
+TEST(Psf, OnAxisItIsSincSquared) {
+  // U(0) = int_0^1 exp(2 i a t) dt with a = pi alpha R^2 / (2 lambda): (sin a / a)^2.
+  for (const double depth : {2.9, 3.001, 3.5, 4.0, 20.0, double(INFINITY)}) {
+    const PointImage image = image_of(depth);
+    const double a = pi / 2 * fresnel_zones(image, green);
+    const DiffractionPsf psf(image, green, 2 * image.pixel_m);
+    EXPECT_NEAR(psf.intensity(0), std::pow(std::sin(a) / a, 2), 1e-12) << depth;
+  }
+}
+
+TEST(Psf, AtTheGeometricEdgeItIsBornAndWolfs) {
+  // Principles of Optics, 8.8.3: where v = u (= 4 a), I = (1 - 2 J0(u) cos u + J0(u)^2) / u^2.
+  for (const double depth : {2.8, 3.3, 6.0}) {
+    const PointImage image = image_of(depth);
+    const double edge = geometric_radius_m(image), u = 2 * pi * fresnel_zones(image, green);
+    const DiffractionPsf psf(image, green, edge);
+    const double j = std::cyl_bessel_j(0, u);
+    EXPECT_NEAR(v_of(image, edge), u, 1e-9 * u);
+    EXPECT_NEAR(psf.intensity(edge) * u * u, 1 - 2 * j * std::cos(u) + j * j, 1e-6) << depth;
+  }
+}
+
+TEST(Psf, EnergyTendsToOneAndDensityIsItsDerivative) {
+  const PointImage image = image_of(3.2);
+  const double far = geometric_radius_m(image) + 60 * airy_radius_m(image, green);
+  const DiffractionPsf psf(image, green, far);
+  EXPECT_GT(psf.encircled_energy(far), 0.99);
+  EXPECT_LT(psf.encircled_energy(far), 1);
+  for (const double r : {far / 20, far / 7}) {
+    const double h = r * 1e-4;
+    const double derivative =
+        (psf.encircled_energy(r + h) - psf.encircled_energy(r - h)) / (2 * h) / (2 * pi * r);
+    EXPECT_NEAR(psf.density_per_m2(r), derivative, 1e-3 * derivative);
+  }
+}
+
+TEST(Psf, FarFromFocusItIsTheGeometricDisc) {
+  const PointImage image = image_of(1.5);
+  const double disc = geometric_radius_m(image);
+  ASSERT_GT(disc, 30 * airy_radius_m(image, green));
+  const DiffractionPsf psf(image, green, 1.1 * disc);
+  // The fringes at its edge, sqrt(1 / (2 zones)) = 10 % of the radius wide here, ring by a few
+  // per cent.
+  for (const double share : {0.3, 0.5, 0.7, 0.9}) {
+    EXPECT_NEAR(psf.encircled_energy(share * disc), share * share, 0.04);
+  }
+  EXPECT_GT(psf.encircled_energy(1.1 * disc), 0.98);
+  EXPECT_LT(psf.intensity(1.1 * disc), 0.05 * psf.intensity(0.5 * disc));
+}
+
+TEST(Psf, DefocusOfEitherSignLooksTheSame) {
+  PointImage near = image_of(2.7), far = near;
+  far.defocus_per_m = -near.defocus_per_m;
+  const DiffractionPsf a(near, green, 1e-4), b(far, green, 1e-4);
+  EXPECT_NEAR(a.intensity(3e-5), b.intensity(3e-5), 1e-15);
+}
+
+PsfReport report_of(double depth, std::vector<double> wavelengths_nm, double fstop = 2.8,
+                    int width = 1920) {
+  return measure_psf(lens_of(3, fstop), depth, width, wavelengths_nm);
+}
+
+/// The mean of a radial density over the disc that the radii span.
+double energy_of(const std::vector<double>& radii, const std::vector<double>& density) {
+  double energy = 0;
+  for (std::size_t i = 1; i < radii.size(); ++i) {
+    const double here = radii[i] * density[i], before = radii[i - 1] * density[i - 1];
+    energy += pi * (here + before) * (radii[i] - radii[i - 1]);
+  }
+  return energy;
+}
+
+TEST(PsfReport, EveryCurveHoldsTheWholeEnergy) {
+  const PsfReport report = report_of(4, {450, 550, 650});
+  ASSERT_EQ(report.monochrome.size(), 3u);
+  for (const PsfCurve& curve : report.monochrome) {
+    EXPECT_NEAR(energy_of(report.radii_px, curve.density_per_px2), 1, 0.05) << curve.wavelength_nm;
+  }
+  EXPECT_NEAR(energy_of(report.radii_px, report.broadband_per_px2), 1, 0.05);
+  EXPECT_NEAR(energy_of(report.radii_px, report.geometric_per_px2), 1, 0.02);
+}
+
+/// How much a curve goes up and down inside the disc, its edge left out.
+double ripple(const PsfReport& report, const std::vector<double>& density) {
+  double sum = 0;
+  for (std::size_t i = 1; report.radii_px[i] < 0.4 * report.coc_diameter_px; ++i) {
+    sum += std::fabs(density[i] - density[i - 1]);
+  }
+  return sum;
+}
+
+TEST(PsfReport, BroadbandLightWashesTheFringesOut) {
+  // Shinya's reason for the geometric model.
+  const PsfReport report = report_of(5, {400, 550, 700});
+  for (const PsfCurve& curve : report.monochrome) {
+    EXPECT_LT(ripple(report, report.broadband_per_px2),
+              0.7 * ripple(report, curve.density_per_px2));
+  }
+}
+
+TEST(PsfReport, OneWavelengthIsItsOwnBand) {
+  const PsfReport report = report_of(4, {550});
+  EXPECT_EQ(report.broadband_per_px2, report.monochrome[0].density_per_px2);
+}
+
+TEST(PsfReport, SaysWhenDiffractionMatters) {
+  EXPECT_FALSE(report_of(4, {550}).diffraction_matters);
+  EXPECT_FALSE(report_of(3, {550}).diffraction_matters);  // Airy disc well inside a pixel
+  const PsfReport stopped_down = report_of(3, {550}, 22);
+  EXPECT_TRUE(stopped_down.diffraction_matters);
+  // 2.44 lambda N (1 + f / (z0 - f)) against pixels of 18.75 um.
+  EXPECT_NEAR(stopped_down.monochrome[0].airy_diameter_um, 2.44 * 0.55 * 22 * 3 / 2.95, 0.02);
+  EXPECT_NEAR(stopped_down.monochrome[0].airy_diameter_px,
+              stopped_down.monochrome[0].airy_diameter_um / 18.75, 1e-9);
+  EXPECT_FALSE(report_of(0.6, {550}, 22).diffraction_matters);  // the CoC is far larger
+  EXPECT_TRUE(report_of(3, {10000}).diffraction_matters);       // thermal infrared
+  EXPECT_TRUE(report_of(3, {550}, 2.8, 20000).diffraction_matters);
+}
+
+TEST(PsfReport, EnergyOutsideIsRayleighsInFocus) {
+  const PsfReport report = report_of(3, {550}, 16);
+  const double v = v_of(image_of(3, 3, 16), 36e-3 / 1920);
+  const double j0 = std::cyl_bessel_j(0, v), j1 = std::cyl_bessel_j(1, v);
+  EXPECT_NEAR(report.monochrome[0].energy_outside, j0 * j0 + j1 * j1, 1e-8);
+  EXPECT_EQ(report.coc_diameter_px, 0);
+}
+
+TEST(PsfReport, ChartMarksThePixelAndLeavesOutAGeometricPoint) {
+  const auto names = [](const Plot& plot) {
+    std::vector<std::string> all;
+    for (const Series& series : plot.series) all.push_back(series.name);
+    return all;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(psf_plot(report_of(4, {450, 650}), false)),
+            (Names{"geometric", "450 to 650 nm", "450 nm", "650 nm", "half a pixel"}));
+  EXPECT_EQ(names(psf_plot(report_of(3, {550}), false)), (Names{"550 nm", "half a pixel"}));
+  const Plot plot = psf_plot(report_of(4, {550}), true);
+  EXPECT_TRUE(plot.y_log);
+  EXPECT_EQ(plot.series.back().points.back().x, 0.5);
+  for (const Series& series : plot.series) {
+    for (const Point& point : series.points) EXPECT_GT(point.y, 0);
+  }
+}
+
+TEST(PsfReport, RefusesImpossibleWavelengths) {
+  expect_error(2, {"--wavelength is 99 nm", "100 to 20000"}, [] { report_of(4, {550, 99}); });
+  expect_error(2, {"--wavelength is 20001 nm"}, [] { report_of(4, {20001}); });
+  expect_error(2, {"--wavelength is nan"}, [] { report_of(4, {NAN}); });
+  expect_error(2, {"no wavelength"}, [] { report_of(4, {}); });
+}
+
+TEST(Psf, RefusesWhatHasNoPsf) {
+  Lens closed = lens_of(3, 2.8);
+  closed.aperture_diameter_mm = 0;
+  expect_error(2, {"aperture diameter is 0", "no PSF"}, [&] { image_of_point(closed, 4, 1920); });
+  expect_error(2, {"--depth is 0"}, [] { image_of(0); });
+  expect_error(2, {"--depth is nan"}, [] { image_of(NAN); });
+  expect_error(2, {"focal length"}, [] { image_of(3, 0.04); });
+  expect_error(2, {"--width is 0"}, [] { image_of_point(lens_of(3, 2.8), 4, 0); });
+  expect_error(2, {"does not converge with 8192 nodes", "Fresnel zones"},
+               [] { DiffractionPsf(image_of(0.1, 3, 0.5), green, 1e-3); });
+  expect_error(2, {"does not converge"}, [] { DiffractionPsf(image_of(3), green, 1); });
+}
+
+}  // namespace
+}  // namespace defray::test
