@@ -1,6 +1,7 @@
 // defray psf: the geometric PSF that defray renders with, against the diffraction PSF.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -31,6 +32,10 @@ void check_outputs(const Options& o) {
     check_can_write(o.output);
   }
   if (!o.csv.empty()) check_can_write(o.csv);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(o.csv, o.camera_file, ignored)) {
+    fail(ExitCode::usage, "{}: is input and output at once; write to another file", o.csv);
+  }
   if (!o.csv.empty() && o.csv == o.output) {
     fail(ExitCode::usage, "{}: -o and --csv are the same file", o.csv);
   }
@@ -68,11 +73,9 @@ void print_text(const PsfReport& r) {
                c.wavelength_nm, c.airy_diameter_um, c.airy_diameter_px, 100 * c.energy_outside);
   }
   fmt::print(
-      "diffraction {} here: the Airy diameter {} both a pixel and the CoC, or more than 5 % "
-      "of the energy {} outside the geometric disc widened by a pixel\n",
-      r.diffraction_matters ? "matters" : "does not matter",
-      r.diffraction_matters ? "exceeds" : "would have to exceed",
-      r.diffraction_matters ? "lies" : "to lie");
+      "diffraction {} here (it does where the Airy diameter exceeds both a pixel and the CoC "
+      "diameter, or over 10 % of the energy is outside: beyond the CoC radius + 1 px)\n",
+      r.diffraction_matters ? "matters" : "does not matter");
 }
 
 int run(const Options& o) {
@@ -124,7 +127,8 @@ Run add_psf(CLI::App& app) {
   command->footer(
       "Diffraction: Fresnel integral over the circular aperture (Shinya 1994, eq. 4), each\n"
       "wavelength alone and the mean over the band they span. It matters where the Airy diameter\n"
-      "exceeds both a pixel and the CoC diameter, or more than 5 % of the energy lies more than a\n"
+      "exceeds both a pixel and the CoC diameter, or more than 10 % of the energy lies more than "
+      "a\n"
       "pixel outside the geometric disc. The lens is the breathing one of 'defray render'.\n"
       "Example: defray psf --depth 4 --focus 3 --fstop 2.8 --focal-length 50 -o psf.png");
   return [o] { return run(*o); };

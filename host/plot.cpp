@@ -47,6 +47,13 @@ std::vector<double> values(const Plot& plot, double Point::*coordinate) {
   return all;
 }
 
+/// Left of the axes: the y axis's text and its tick labels.
+int left_margin(const Axis& y) {
+  int width = 0;
+  for (const double tick : y.ticks()) width = std::max(width, text_size(y.label(tick)).width);
+  return 46 + width;
+}
+
 int legend_width(const Plot& plot) {
   int width = 0;
   for (const Series& s : plot.series) {
@@ -62,7 +69,8 @@ class Chart {
       : plot_(plot),
         x_(plot.x_label, values(plot, &Point::x), plot.x_log),
         y_(plot.y_label, values(plot, &Point::y), plot.y_log),
-        area_(90, 56, plot_width_px - 90 - 30 - legend_width(plot), plot_height_px - 56 - 70) {}
+        area_(cv::Point(left_margin(y_), 56),
+              cv::Point(plot_width_px - 30 - legend_width(plot), plot_height_px - 70)) {}
 
   cv::Point2d position(const Point& point) const {
     return {area_.x + x_.share(point.x) * area_.width,

@@ -37,7 +37,7 @@ class DiffractionPsf {
  public:
   /// For radii up to `largest_radius_m`: doubles the nodes of the integral (Gauss-Legendre panels)
   /// until U on axis and at that radius, where the integrand turns fastest, changes by less than
-  /// 1e-10. Throws Error(usage) where 8192 nodes are not enough.
+  /// 1e-10. Throws Error(usage) where 32768 nodes are not enough.
   DiffractionPsf(const PointImage& image, double wavelength_m, double largest_radius_m);
 
   /// |U|^2: 1 on axis in focus.

@@ -23,12 +23,12 @@ struct PsfReport {
   double coc_diameter_px = 0;  ///< Geometric; 0 in focus.
   double pixel_um = 0;
   double fresnel_zones = 0;  ///< At the shortest wavelength.
-  /// From 0, equally spaced. At most 1000: of many fringes a chart shows samples only.
+  /// From 0, equally spaced. At most 500: of many fringes a chart shows samples only.
   std::vector<double> radii_px;
   std::vector<double> geometric_per_px2;  ///< The uniform disc; all 0 where it is a point.
   std::vector<double> broadband_per_px2;  ///< Mean over the band that the wavelengths span.
   std::vector<PsfCurve> monochrome;       ///< Of each wavelength, as given.
-  /// The Airy diameter exceeds both a pixel and the CoC diameter, or more than 5 % of the energy
+  /// The Airy diameter exceeds both a pixel and the CoC diameter, or more than 10 % of the energy
   /// is outside (`energy_outside`), at any of the wavelengths.
   bool diffraction_matters = false;
 };

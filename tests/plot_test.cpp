@@ -109,7 +109,7 @@ TEST(Plot, TextsChangeTheirOwnAreas) {
   expect_change_in(titled, 10, 5, 990, 50);
   expect_change_in(x_labelled, 200, 600, 900, 640);
   expect_change_in(y_labelled, 0, 56, 36, 570);
-  expect_change_in(labelled, 90, 540, 140, 570);
+  expect_change_in(labelled, 60, 540, 140, 570);
   EXPECT_EQ(colour_at(before, 5, 5), white);
 }
 

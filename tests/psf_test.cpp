@@ -205,7 +205,7 @@ TEST(PsfReport, ChartMarksThePixelAndLeavesOutAGeometricPoint) {
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(names(psf_plot(report_of(4, {450, 650}), false)),
-            (Names{"geometric", "450 to 650 nm", "450 nm", "650 nm", "half a pixel"}));
+            (Names{"geometric", "450 nm", "650 nm", "450 to 650 nm", "half a pixel"}));
   EXPECT_EQ(names(psf_plot(report_of(3, {550}), false)), (Names{"550 nm", "half a pixel"}));
   const Plot plot = psf_plot(report_of(4, {550}), true);
   EXPECT_TRUE(plot.y_log);
@@ -230,7 +230,7 @@ TEST(Psf, RefusesWhatHasNoPsf) {
   expect_error(2, {"--depth is nan"}, [] { image_of(NAN); });
   expect_error(2, {"focal length"}, [] { image_of(3, 0.04); });
   expect_error(2, {"--width is 0"}, [] { image_of_point(lens_of(3, 2.8), 4, 0); });
-  expect_error(2, {"does not converge with 8192 nodes", "Fresnel zones"},
+  expect_error(2, {"does not converge with 32768 nodes", "Fresnel zones"},
                [] { DiffractionPsf(image_of(0.1, 3, 0.5), green, 1e-3); });
   expect_error(2, {"does not converge"}, [] { DiffractionPsf(image_of(3), green, 1); });
 }
