@@ -19,4 +19,7 @@ T choice(const std::string& option, const std::string& word, const std::map<std:
        did_you_mean(word, words), join(words, " "));
 }
 
+/// A check for options that name files: an empty value is most likely an unset shell variable.
+inline std::string no_empty_path(const std::string& path) { return path.empty() ? "is empty" : ""; }
+
 }  // namespace defray::cli

@@ -41,7 +41,7 @@ PsfReport measure_psf(Lens lens, double depth_units, int width_px,
                       const std::function<void(double)>& progress = {});
 
 /// The curves over the radius in pixels, with half a pixel marked. `is_log`: log10 densities, of
-/// which those below 1e-6 of the largest are drawn there.
+/// which those below 1e-6 of the diffraction PSFs' largest are drawn there.
 Plot psf_plot(const PsfReport& report, bool is_log);
 
 /// A row a radius: radius_px, radius_um, geometric, broadband, and each wavelength.

@@ -171,6 +171,8 @@ TEST_F(Compare, RefusesHalfAnEdgeBand) {
   refuse("a.exr b.exr --depth z.exr", 2, {"--depth requires --camera"});
   refuse("a.exr b.exr --camera camera.json", 2, {"--camera requires --depth"});
   refuse("a.exr b.exr --focus-setting near", 2, {"--focus-setting requires --camera"});
+  refuse("a.exr b.exr --depth '' --camera camera.json", 2, {"--depth", "is empty"});
+  refuse("a.exr b.exr --depth z.exr --camera ''", 2, {"--camera", "is empty"});
   refuse("a.exr b.exr --edge-step 1", 2, {"--edge-step requires --depth"});
   refuse("a.exr b.exr --depth-channel Z", 2, {"--depth-channel requires --depth"});
   const std::string lens = " --camera camera.json";
@@ -192,6 +194,7 @@ TEST_F(Compare, RefusesBoundsThatMakeNoSense) {
 }
 
 TEST_F(Compare, RefusesSheetsItCannotWrite) {
+  refuse("a.exr b.exr --sheet ''", 2, {"--sheet", "is empty"});
   refuse("a.exr b.exr --sheet s.exr", 2, {"s.exr", "PNG or JPEG"});
   refuse("a.exr b.exr --sheet none/s.png", 4, {"none/s.png", "cannot write in folder"});
   refuse("a.exr b.exr --amplify 3", 2, {"--amplify requires --sheet"});
