@@ -7,7 +7,6 @@
 #include "image/output.h"
 #include "image/safe_output.h"
 #include "metrics.h"
-#include "scenes/scene.h"
 #include "support.h"
 #include "text.h"
 
@@ -192,21 +191,6 @@ TEST(Metrics, KnownDifferences) {
   EXPECT_EQ(worst.worst_y, 3);
   EXPECT_NEAR(worst.worst, 2.5, 1e-6);
   EXPECT_TRUE(std::isinf(compare({a, a, a}, {a, a, a}, 10).psnr_srgb_db));
-}
-
-TEST(Scene, TruthIsSharpInFocusAndDeterministic) {
-  const Scene scene = make_scene("plate1", 64, 48);
-  const ScenePicture pinhole = render_pinhole(scene);
-  const ScenePicture truth = render_truth(scene, 64, 1), again = render_truth(scene, 64, 1);
-  EXPECT_EQ(hash_of(truth.colour), hash_of(again.colour));
-  EXPECT_NE(hash_of(truth.colour), hash_of(render_truth(scene, 64, 2).colour));
-  // The middle of the bar in focus stays as dark as it was: nothing shines through.
-  const std::size_t bar = 23 * 64 + 20;
-  ASSERT_NEAR(pinhole.depth[bar], 3, 1e-6);
-  EXPECT_NEAR(truth.colour[0][bar], pinhole.colour[0][bar], 1e-6);
-  expect_error(2, {"unknown scene 'plat1'", "plate1"}, [] { make_scene("plat1", 64, 48); });
-  expect_error(2, {"scene size"}, [] { make_scene("plate1", 0, 48); });
-  expect_error(2, {"--truth-samples"}, [&] { render_truth(scene, 0, 1); });
 }
 
 TEST(Text, NearestSpelling) {

@@ -1,12 +1,7 @@
 #include "scenes/scene.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <thread>
 
 #include "error.h"
 #include "scenes/builtin.h"
@@ -15,155 +10,111 @@
 namespace defray {
 namespace {
 
-constexpr double nothing_there = 1e10;  // as Cycles writes it
-
-/// A small counter-based generator: independent of the order in which pixels are rendered.
-class Random {
- public:
-  Random(std::uint32_t x, std::uint32_t y, std::uint32_t seed)
-      : state_((std::uint64_t{seed} << 40) ^ (std::uint64_t{y} << 20) ^ x) {}
-  /// Uniform in [0, 1): splitmix64 (Steele et al. 2014).
-  double next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
+struct Builtin {
+  SceneInfo info;
+  Scene (*make)(int width, int height);
 };
 
-Hit trace(const Scene& scene, const Vec3& origin, const Vec3& direction) {
-  Hit hit{nothing_there, {}};
-  for (const auto& primitive : scene.primitives) primitive->intersect(origin, direction, hit);
-  return hit;
-}
-
-/// Direction (z = 1) of the pinhole ray through a point of the picture, in pixels.
-Vec3 pixel_direction(const Scene& scene, double x, double y) {
-  const double focal = pixel_focal_length(scene.lens, scene.width);
-  return {(x - scene.width / 2.0) / focal, (y - scene.height / 2.0) / focal, 1};
-}
-
-/// A point of the unit disc, area-preserving (Shirley & Chiu 1997 in polar form).
-std::array<double, 2> disc_point(double s, double t) {
-  const double r = std::sqrt(s), phi = 2 * std::numbers::pi * t;
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
-
-/// The mean over a pixel's square and the aperture: the aperture in side x side strata, what is
-/// left of the samples and the pixel's square at random.
-Vec3 lens_pixel(const Scene& scene, int x, int y, int samples, std::uint32_t seed) {
-  Random random(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
-  const int side = std::max(1, static_cast<int>(std::sqrt(samples)));
-  const double z0 = scene.lens.focus_distance_units;
-  const double radius = scene.lens.aperture_diameter_mm / 2000 / scene.lens.metres_per_unit;
-  Vec3 sum;
-  for (int i = 0; i < samples; ++i) {
-    const bool has_stratum = i < side * side;
-    const double s = has_stratum ? (i % side + random.next()) / side : random.next();
-    const double t = has_stratum ? (i / side + random.next()) / side : random.next();
-    const auto [u, v] = disc_point(s, t);
-    const double px = x + random.next(), py = y + random.next();
-    const Vec3 d = pixel_direction(scene, px, py);
-    const Vec3 origin{radius * u, radius * v, 0};
-    // Every lens ray of a picture point meets at its point on the plane of focus.
-    const Vec3 direction{d.x - origin.x / z0, d.y - origin.y / z0, 1};
-    const Vec3 c = trace(scene, origin, direction).colour;
-    sum = {sum.x + c.x, sum.y + c.y, sum.z + c.z};
-  }
-  return {sum.x / samples, sum.y / samples, sum.z / samples};
-}
-
-void store(ScenePicture& picture, std::size_t at, const Vec3& colour) {
-  picture.colour[0][at] = static_cast<float>(colour.x);
-  picture.colour[1][at] = static_cast<float>(colour.y);
-  picture.colour[2][at] = static_cast<float>(colour.z);
-}
-
-/// Calls row(y) for every row, on every core.
-template <typename Row>
-void parallel_rows(int height, const std::function<void(double)>& progress, const Row& row) {
-  std::atomic<int> next = 0;
-  const auto work = [&](bool reports) {
-    for (int y = next++; y < height; y = next++) {
-      row(y);
-      if (reports && progress) progress(static_cast<double>(y + 1) / height);
-    }
+const std::vector<Builtin>& builtins() {
+  static const std::vector<Builtin> all = {
+      {{"plate1", "Shinya's Plate 1: a thin dark rectangle in focus before a plaid, a near ball"},
+       make_plate1},
+      {{"plate2", "Shinya's Plate 2: objects 3, 5 and 17 m away on a floor, f/R = 1"},
+       [](int width, int height) { return make_plate2(width, height, 1); }},
+      {{"blocks-lake", "Glatzel & Wilhelm's block world: the lake, as the eye sees it and tiny"},
+       make_blocks_lake},
+      {{"blocks-forest", "the same world: the forest"}, make_blocks_forest},
+      {{"fence", "near bars before a brick wall: what hides behind an out-of-focus edge"},
+       make_fence},
+      {{"spheres", "balls at many depths on a checkered floor, with small bright lamps"},
+       make_spheres},
+      {{"points", "bright points (HDR) by night, near to far"}, make_points},
+      {{"impulses", "one bright pixel each at 63 depths: every circle of confusion, one by one"},
+       make_impulses},
+      {{"slanted", "a textured plane slanting through the plane of focus"}, make_slanted},
+      {{"lines", "lines 1 to 3 pixels wide before, in and behind the plane of focus"}, make_lines},
   };
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
-    helpers.emplace_back(work, false);
+  return all;
+}
+
+nlohmann::ordered_json setting_json(const Scene& scene, const FocusSetting& setting,
+                                    const std::map<std::string, Comparison>& noise) {
+  nlohmann::ordered_json json = {{"focus_distance_m", setting.focus_distance_units},
+                                 {"aperture_diameter_m", setting.aperture_diameter_mm / 1000},
+                                 {"f_stop", scene.focal_length_mm / setting.aperture_diameter_mm}};
+  if (const auto found = noise.find(setting.name); found != noise.end()) {
+    json["truth_noise_psnr_srgb_db"] = found->second.psnr_srgb_db;
+    json["truth_noise_psnr_linear_db"] = found->second.psnr_linear_db;
   }
-  work(true);
-}
-
-ScenePicture empty_picture(const Scene& scene) {
-  const auto pixels =
-      static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
-  return {std::vector<Plane>(3, Plane(pixels)), {}};
-}
-
-std::size_t index_of(const Scene& scene, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
-         static_cast<std::size_t>(x);
+  return json;
 }
 
 }  // namespace
 
-std::vector<std::string> scene_names() { return {"plate1"}; }
+const std::vector<SceneInfo>& scene_list() {
+  static const std::vector<SceneInfo> list = [] {
+    std::vector<SceneInfo> infos;
+    for (const Builtin& builtin : builtins()) infos.push_back(builtin.info);
+    return infos;
+  }();
+  return list;
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const SceneInfo& info : scene_list()) names.push_back(info.name);
+  return names;
+}
 
 Scene make_scene(const std::string& name, int width, int height) {
   if (width < 1 || height < 1 || width > 16384 || height > 16384) {
     fail(ExitCode::usage, "scene size {}x{}: allowed are 1 to 16384 a side", width, height);
   }
-  if (name == "plate1") return make_plate1(width, height);
-  fail(ExitCode::usage, "unknown scene '{}'.{} There is: {}", name,
+  for (const Builtin& builtin : builtins()) {
+    if (builtin.info.name != name) continue;
+    Scene scene = builtin.make(width, height);
+    scene.name = name;
+    return scene;
+  }
+  fail(ExitCode::usage, "unknown scene '{}'.{} There are: {}", name,
        did_you_mean(name, scene_names()), join(scene_names(), " "));
 }
 
-ScenePicture render_pinhole(const Scene& scene) {
-  ScenePicture picture = empty_picture(scene);
-  picture.depth.resize(picture.colour[0].size());
-  parallel_rows(scene.height, {}, [&](int y) {
-    for (int x = 0; x < scene.width; ++x) {
-      const Hit hit = trace(scene, {}, pixel_direction(scene, x + 0.5, y + 0.5));
-      store(picture, index_of(scene, x, y), hit.colour);
-      picture.depth[index_of(scene, x, y)] = static_cast<float>(hit.depth);
-    }
-  });
-  return picture;
-}
-
-ScenePicture render_truth(const Scene& scene, int samples, std::uint32_t seed,
-                          const std::function<void(double)>& progress) {
-  if (samples < 1 || samples > 65536) {
-    fail(ExitCode::usage, "--truth-samples is {}: allowed are 1 to 65536", samples);
+const FocusSetting& find_setting(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const FocusSetting& setting : scene.settings) {
+    if (setting.name == name) return setting;
+    names.push_back(setting.name);
   }
-  ScenePicture picture = empty_picture(scene);
-  parallel_rows(scene.height, progress, [&](int y) {
-    for (int x = 0; x < scene.width; ++x) {
-      store(picture, index_of(scene, x, y), lens_pixel(scene, x, y, samples, seed));
-    }
-  });
-  return picture;
+  fail(ExitCode::usage, "scene '{}' has no focus setting '{}'.{} It has: {}", scene.name, name,
+       did_you_mean(name, names), join(names, " "));
 }
 
-std::string camera_json(const Scene& scene) {
-  const Lens& lens = scene.lens;
-  const nlohmann::ordered_json root = {
-      {"scene", scene.name},
-      {"width", scene.width},
-      {"height", scene.height},
-      {"focal_length_mm", lens.focal_length_mm},
-      {"sensor_width_mm", lens.sensor_width_mm},
-      {"pixel_focal_px", pixel_focal_length(lens, scene.width)},
-      {"focus_settings",
-       {{"default",
-         {{"focus_distance_m", lens.focus_distance_units},
-          {"aperture_diameter_m", lens.aperture_diameter_mm / 1000},
-          {"f_stop", lens.focal_length_mm / lens.aperture_diameter_mm}}}}}};
+Lens lens_of(const Scene& scene, const FocusSetting& setting) {
+  Lens lens;
+  lens.focal_length_mm = scene.focal_length_mm;
+  lens.sensor_width_mm = scene.sensor_width_mm;
+  lens.aperture_diameter_mm = setting.aperture_diameter_mm;
+  lens.focus_distance_units = setting.focus_distance_units;
+  return lens;
+}
+
+double pixel_focal_length(const Scene& scene) {
+  return scene.width * scene.focal_length_mm / scene.sensor_width_mm;
+}
+
+std::string camera_json(const Scene& scene, const std::map<std::string, Comparison>& noise) {
+  nlohmann::ordered_json settings;
+  for (const FocusSetting& setting : scene.settings) {
+    settings[setting.name] = setting_json(scene, setting, noise);
+  }
+  const nlohmann::ordered_json root = {{"scene", scene.name},
+                                       {"width", scene.width},
+                                       {"height", scene.height},
+                                       {"focal_length_mm", scene.focal_length_mm},
+                                       {"sensor_width_mm", scene.sensor_width_mm},
+                                       {"pixel_focal_px", pixel_focal_length(scene)},
+                                       {"focus_settings", settings}};
   return root.dump(2) + "\n";
 }
 

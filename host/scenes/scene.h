@@ -1,62 +1,65 @@
 #pragma once
-// Built-in analytic scenes: a pinhole picture with depth, and the truth through a real lens.
-#include <cstdint>
+// The built-in analytic scenes: what is in them, and how the camera looks at them.
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "lens.h"
-#include "rdb.h"
+#include "metrics.h"
+#include "scenes/primitive.h"
 
 namespace defray {
 
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
+/// One way to focus a scene's camera.
+struct FocusSetting {
+  std::string name;
+  double focus_distance_units = 0;  ///< Planar.
+  double aperture_diameter_mm = 0;
 };
 
-/// A point hit by a ray: its planar depth (scene units) and its linear colour.
-struct Hit {
-  double depth = 0;
-  Vec3 colour;
-};
-
-/// Something that a ray can hit. The camera is at the origin and looks along +z; x is right, y
-/// down.
-class Primitive {
- public:
-  virtual ~Primitive() = default;
-  /// The hit of origin + t direction (direction.z = 1) nearer than `hit.depth`, if there is one.
-  virtual bool intersect(const Vec3& origin, const Vec3& direction, Hit& hit) const = 0;
+/// A sun with sharp shadows, and light from all around.
+struct Light {
+  Vec3 to_sun{0, 0, 0};  ///< Unit length; all zero: no light, colours are shown as they are.
+  Vec3 sun;              ///< What a surface that faces the sun gets.
+  Vec3 sky, ground;      ///< What a surface that faces up or down gets.
+  Vec3 up{0, -1, 0};     ///< Unit length.
 };
 
 struct Scene {
   std::string name;
   int width = 0, height = 0;
-  Lens lens;
+  double focal_length_mm = 50, sensor_width_mm = 36;
+  std::vector<FocusSetting> settings;
   std::vector<std::unique_ptr<Primitive>> primitives;
+  Light light;
+  /// Colour where a ray of this direction hits nothing; empty: black.
+  std::function<Vec3(const Vec3& direction)> background;
 };
 
-/// Names that make_scene knows.
+/// A name that make_scene knows, and a line about it.
+struct SceneInfo {
+  std::string name, about;
+};
+const std::vector<SceneInfo>& scene_list();
 std::vector<std::string> scene_names();
 
 /// Throws Error(usage) on an unknown name or a size outside 1...16384.
 Scene make_scene(const std::string& name, int width, int height);
 
-struct ScenePicture {
-  std::vector<Plane> colour;  ///< R G B.
-  Plane depth;                ///< Planar; 1e10 where nothing is hit. Empty for truth.
-};
+/// The setting of this name. Throws Error(usage) with the scene's settings where there is none.
+const FocusSetting& find_setting(const Scene& scene, const std::string& name);
 
-/// What a renderer's pinhole camera gives: one ray through each pixel's centre.
-ScenePicture render_pinhole(const Scene& scene);
+/// The scene's camera focused like this. Scene units are metres.
+Lens lens_of(const Scene& scene, const FocusSetting& setting);
 
-/// What the lens gives: the scene traced through `samples` stratified points of the aperture and
-/// of the pixel's square, for each pixel. Throws Error(usage) unless 1 <= samples <= 65536.
-ScenePicture render_truth(const Scene& scene, int samples, std::uint32_t seed,
-                          const std::function<void(double)>& progress = {});
+/// Focal length in pixels.
+double pixel_focal_length(const Scene& scene);
 
-/// The scene's lens as a camera.json.
-std::string camera_json(const Scene& scene);
+/// The camera with all focus settings as a camera.json. `noise` has, for the settings whose truth
+/// was rendered, how far its halves are apart (see Truth); it is stored with the setting.
+std::string camera_json(const Scene& scene, const std::map<std::string, Comparison>& noise = {});
 
 }  // namespace defray
