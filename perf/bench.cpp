@@ -1,0 +1,167 @@
+#include "bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "display.h"
+#include "error.h"
+#include "reference/reference.h"
+
+namespace defray::perf {
+namespace {
+
+std::vector<Plane> crop(const std::vector<Plane>& planes, int width, int x0, int y0, int w, int h) {
+  std::vector<Plane> out(planes.size());
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    for (int y = y0; y < y0 + h; ++y) {
+      const auto row = planes[c].begin() + std::int64_t{y} * width + x0;
+      out[c].insert(out[c].end(), row, row + w);
+    }
+  }
+  return out;
+}
+
+double largest_difference(const std::vector<Plane>& a, const std::vector<Plane>& b) {
+  double largest = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    for (std::size_t i = 0; i < a[c].size(); ++i) {
+      largest = std::fmax(largest, std::fabs(double(a[c][i]) - double(b[c][i])));
+    }
+  }
+  return largest;
+}
+
+double brightest(const std::vector<Plane>& planes) {
+  double most = 0;
+  for (const Plane& plane : planes) {
+    for (const float value : plane) most = std::fmax(most, std::fabs(double(value)));
+  }
+  return most;
+}
+
+/// Kernel against twin on the middle of the frame.
+void check_against_twin(Session& session, const Subject& s, const MethodSettings& settings) {
+  const int w = std::min(96, s.scene.width), h = std::min(64, s.scene.height);
+  const int x0 = (s.scene.width - w) / 2, y0 = (s.scene.height - h) / 2;
+  const auto colour = crop(s.pinhole.colour, s.scene.width, x0, y0, w, h);
+  const Plane depth = crop({s.pinhole.depth}, s.scene.width, x0, y0, w, h)[0];
+  const auto coc = reference::coc(s.lens, s.scene.width, depth);
+  const PinholeFrame frame{w, h, coc, depth, colour};
+  const auto kernel = apply_method(frame, settings, &session);
+  const double error = largest_difference(kernel, apply_method(frame, settings, nullptr));
+  // The RDB's twin sums in double; the bound of tests/rdb_test.cpp, (2 n + 7) L 2^-24.
+  const double cells = std::pow(settings.rdb.cells_per_side, 2);
+  const double bound =
+      settings.method == Method::rdb ? (2 * cells + 7) * brightest(colour) * 0x1p-24 : 0;
+  if (!(error <= bound)) {
+    fail(ExitCode::internal, "a timed picture differs from its twin by {}, {} is allowed", error,
+         bound);
+  }
+}
+
+}  // namespace
+
+Timing time_of(int repetitions, const std::function<void()>& run) {
+  using Clock = std::chrono::steady_clock;
+  run();
+  std::vector<double> seconds;
+  for (int i = 0; i < repetitions; ++i) {
+    const auto start = Clock::now();
+    run();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const std::size_t middle = seconds.size() / 2;
+  const double median =
+      seconds.size() % 2 == 1 ? seconds[middle] : (seconds[middle - 1] + seconds[middle]) / 2;
+  return {median, (seconds.back() - seconds.front()) / median};
+}
+
+std::string to_text(const Timing& t) {
+  return fmt::format("{:.3g} s ± {:.0f} %", t.median_s, 100 * t.spread);
+}
+
+std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
+
+Subject make_subject(Session& session, Scene scene, const std::string& setting) {
+  Subject s{std::move(scene), {}, {}, {}};
+  s.lens = lens_of(s.scene, find_setting(s.scene, setting));
+  s.pinhole = render_pinhole(s.scene);
+  for (float& z : s.pinhole.depth) {
+    if (z >= static_cast<float>(nothing_there)) z = HUGE_VALF;
+  }
+  s.coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
+  return s;
+}
+
+std::vector<Plane> render(Session& session, const Subject& s, const MethodSettings& settings) {
+  const auto coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
+  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
+                      settings, &session);
+}
+
+Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings) {
+  check_against_twin(bench.session, subject, settings);
+  std::vector<Plane> first;
+  bool repeats = true;
+  const Timing timing = time_of(bench.repetitions(), [&] {
+    std::vector<Plane> picture = render(bench.session, subject, settings);
+    if (first.empty())
+      first = std::move(picture);
+    else
+      repeats = repeats && picture == first;
+  });
+  if (!repeats) fail(ExitCode::internal, "a timed picture differs from run to run");
+  return timing;
+}
+
+MethodSettings rdb_of(int cells_per_side) {
+  MethodSettings s;
+  s.rdb.cells_per_side = cells_per_side;
+  return s;
+}
+
+MethodSettings linear_of() {
+  MethodSettings s;
+  s.method = Method::linear;
+  return s;
+}
+
+MethodSettings gather_of(GatherKind kind, int samples, int passes) {
+  MethodSettings s;
+  s.method = Method::gather;
+  s.gather.kind = kind;
+  s.gather.samples = samples;
+  s.gather.passes = passes;
+  return s;
+}
+
+Figure sheet(const Bench& bench, const std::string& name, const std::string& caption,
+             const std::vector<std::pair<std::string, const std::vector<Plane>*>>& pictures,
+             int width, int height) {
+  std::vector<Panel> panels;
+  for (const auto& [title, planes] : pictures) panels.push_back({title, *planes});
+  write_sheet(bench.folder + "/" + name + ".png", panels, width, height);
+  return {name + ".png", caption};
+}
+
+std::vector<std::array<double, 2>> lens_grid(int n) {
+  std::vector<std::array<double, 2>> points;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const double u = (2.0 * i + 1) / n - 1, v = (2.0 * j + 1) / n - 1;
+      const bool is_steep = std::fabs(v) > std::fabs(u);
+      const double radius = is_steep ? v : u;
+      const double quarter = std::numbers::pi / 4;
+      const double angle = radius == 0 ? 0
+                           : is_steep  ? 2 * quarter - quarter * u / v
+                                       : quarter * v / u;
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+  }
+  return points;
+}
+
+}  // namespace defray::perf

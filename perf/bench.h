@@ -1,0 +1,77 @@
+#pragma once
+// What the experiments share: a scene before its lens, methods applied to it, and their times.
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "method.h"
+#include "report.h"
+#include "scenes/render.h"
+#include "scenes/scene.h"
+
+namespace defray::perf {
+
+/// How an experiment runs.
+struct Bench {
+  std::string folder;  ///< Pictures and plots go here.
+  Session& session;
+  bool is_quick = false;  ///< Small pictures and few repetitions: to see that it works.
+  std::function<void(const std::string& step)> step;  ///< Told before each long step.
+
+  int repetitions() const { return is_quick ? 2 : 5; }
+  /// A picture size, a quarter of it when quick.
+  int size(int pixels) const { return is_quick ? pixels / 4 : pixels; }
+};
+
+/// Seconds of repeated runs.
+struct Timing {
+  double median_s = 0;
+  double spread = 0;  ///< (largest - smallest) / median.
+};
+
+/// Runs once to warm up, then `repetitions` times.
+Timing time_of(int repetitions, const std::function<void()>& run);
+
+/// "0.123 s ± 4 %".
+std::string to_text(const Timing& timing);
+
+/// A number with so many digits behind the point.
+std::string fixed(double value, int digits = 2);
+
+/// A scene in focus, ready for every method.
+struct Subject {
+  Scene scene;
+  Lens lens;
+  ScenePicture pinhole;  ///< Depth as methods take it: +inf where nothing is hit.
+  std::vector<std::int32_t> coc;
+
+  PinholeFrame frame() const {
+    return {scene.width, scene.height, coc, pinhole.depth, pinhole.colour};
+  }
+};
+Subject make_subject(Session& session, Scene scene, const std::string& setting);
+
+/// The CoC kernel and the method, as `defray render` runs them.
+std::vector<Plane> render(Session& session, const Subject& subject, const MethodSettings& settings);
+
+/// Times `render` after a check that the picture's middle (96 x 64 pixels) equals the scalar twin's
+/// within the RDB's bound, bit for bit elsewhere, and that every run gives the same picture.
+/// Throws Error(internal) where it does not.
+Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings);
+
+MethodSettings rdb_of(int cells_per_side);
+MethodSettings linear_of();
+MethodSettings gather_of(GatherKind kind, int samples, int passes);
+
+/// Writes pictures side by side as `name`.png and returns the figure.
+Figure sheet(const Bench& bench, const std::string& name, const std::string& caption,
+             const std::vector<std::pair<std::string, const std::vector<Plane>*>>& pictures,
+             int width, int height);
+
+/// Lens points of an n x n accumulation buffer: the cells' centres squeezed into the disc, so that
+/// all n^2 views count (Shirley & Chiu's concentric map).
+std::vector<std::array<double, 2>> lens_grid(int n);
+
+}  // namespace defray::perf

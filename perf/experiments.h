@@ -1,0 +1,24 @@
+#pragma once
+// The published experiments, one file each.
+#include <map>
+#include <string>
+
+#include "bench.h"
+
+namespace defray::perf {
+
+Section plate1(const Bench& bench);    ///< Shinya 1994, plate 1: partial occlusion.
+Section plate2(const Bench& bench);    ///< Shinya 1994, plate 2 and table 1: cost.
+Section figure7(const Bench& bench);   ///< Shinya 1994, figure 7: cost against cells.
+Section eye(const Bench& bench);       ///< Glatzel & Wilhelm, figures 8 and 9.
+Section tradeoff(const Bench& bench);  ///< Error against time, all methods.
+
+struct Experiment {
+  std::string about;
+  Section (*run)(const Bench&);
+};
+
+/// Every experiment by its name.
+const std::map<std::string, Experiment>& experiments();
+
+}  // namespace defray::perf

@@ -1,0 +1,120 @@
+// defray-perf: the published experiments, one command each.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+#include "error.h"
+#include "experiments.h"
+#include "image/safe_output.h"
+#include "text.h"
+
+namespace defray::perf {
+namespace {
+
+struct Options {
+  std::vector<std::string> names;
+  std::string folder, device;
+  bool is_quick = false;
+};
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, experiment] : experiments()) names.push_back(name);
+  return names;
+}
+
+/// The experiments to run, "all" spelt out. Throws Error(usage) on an unknown name.
+std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
+  std::vector<std::string> known = known_names();
+  known.push_back("all");
+  std::vector<std::string> names;
+  for (const std::string& word : words) {
+    if (std::find(known.begin(), known.end(), word) == known.end()) {
+      fail(ExitCode::usage, "unknown experiment '{}'.{} There are: {}", word,
+           did_you_mean(word, known), join(known, " "));
+    }
+    if (word == "all") return known_names();
+    names.push_back(word);
+  }
+  return names;
+}
+
+int run(const Options& o) {
+  const std::vector<std::string> names = chosen_names(o.names);
+  std::error_code error;
+  std::filesystem::create_directories(o.folder, error);
+  check_can_write(o.folder + "/index.html");
+  Session session(select_device(o.device));
+  const bool is_terminal = isatty(STDERR_FILENO) == 1;
+  std::vector<Section> sections;
+  for (const std::string& name : names) {
+    const auto step = [&](const std::string& what) {
+      if (is_terminal) fmt::print(stderr, "\r\033[K{}: {}", name, what);
+    };
+    sections.push_back(experiments().at(name).run({o.folder, session, o.is_quick, step}));
+    if (is_terminal) fmt::print(stderr, "\r\033[K");
+    for (const std::string& finding : sections.back().findings) {
+      fmt::print("{}: {}\n", name, finding);
+    }
+    std::fflush(stdout);
+  }
+  write_report(o.folder, session.info().name + ", " + session.info().version, sections);
+  fmt::print("{}/index.html\n", o.folder);
+  return 0;
+}
+
+std::string about() {
+  std::string text = "Experiments:\n";
+  for (const auto& [name, e] : experiments()) text += fmt::format("  {:9} {}\n", name, e.about);
+  return text +
+         "  all       every one; some ten minutes on two cores\n\n"
+         "Example: defray-perf experiment plate1 -o report";
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"defray-perf: the papers' experiments, measured on this machine.", "defray-perf"};
+  app.require_subcommand(1);
+  Options o;
+  CLI::App* command = app.add_subcommand("experiment", "Run experiments, write one report");
+  command->add_option("names", o.names, "Which, or all")->required();
+  command->add_option("-o,--output", o.folder, "Folder for index.html, pictures, plots, CSV")
+      ->required();
+  command->add_option("--device", o.device, "Index or part of the name of 'defray devices'");
+  command->add_flag("--quick", o.is_quick, "A quarter of the size, two repetitions: a rehearsal");
+  command->footer(about());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& parse_error) {
+    fail(ExitCode::usage, "{}", parse_error.what());
+  }
+  return run(o);
+}
+
+}  // namespace
+
+const std::map<std::string, Experiment>& experiments() {
+  static const std::map<std::string, Experiment> all{
+      {"plate1", {"Shinya's plate 1: what shines through an opaque bar", plate1}},
+      {"plate2", {"Shinya's plate 2 and table 1: time against an accumulation buffer", plate2}},
+      {"figure7", {"Shinya's figure 7: time against cells a side", figure7}},
+      {"eye", {"Glatzel & Wilhelm: miniatures, artefacts, the effect's cost", eye}},
+      {"tradeoff", {"Error against time for every method on three scenes", tradeoff}}};
+  return all;
+}
+
+}  // namespace defray::perf
+
+int main(int argc, char** argv) {
+  setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
+  try {
+    return defray::perf::parse_and_run(argc, argv);
+  } catch (const defray::Error& error) {
+    fmt::print(stderr, "defray-perf: error: {}\n", error.what());
+    return static_cast<int>(error.code());
+  }
+}
