@@ -55,6 +55,12 @@ TEST(Plot, PointsLieWhereTheAxesSay) {
   const LdrPicture picture = drawn(plot);
   for (const auto& at : {origin, end, middle}) EXPECT_EQ(colour_at(picture, at[0], at[1]), blue);
   EXPECT_NE(colour_at(picture, middle[0] + 12, middle[1]), blue);
+  // The first and the last value of each axis are on its frame, which is black.
+  constexpr std::array<int, 3> black = {0, 0, 0};
+  for (const auto& corner : {origin, end}) {
+    EXPECT_EQ(colour_at(picture, corner[0], middle[1] - 20), black);
+    EXPECT_EQ(colour_at(picture, middle[0] + 20, corner[1]), black);
+  }
 }
 
 TEST(Plot, LogAxesSpaceDecadesEvenly) {
