@@ -20,7 +20,7 @@ int run(const Options& o) {
          o.pictures.size());
   }
   check_sheet(o.output, o.pictures);
-  std::vector<Panel> panels;
+  std::vector<SheetPanel> panels;
   Picture first;
   for (std::size_t i = 0; i < o.pictures.size(); ++i) {
     Picture picture = read_picture(o.pictures[i]);

@@ -51,12 +51,13 @@ bool x_server_answers(const std::string& socket_path) {
 
 }  // namespace
 
-void write_sheet(const std::string& path, const std::vector<Panel>& panels, int width, int height) {
+void write_sheet(const std::string& path, const std::vector<SheetPanel>& panels, int width,
+                 int height) {
   const int count = static_cast<int>(panels.size());
   cv::Mat sheet(height + caption_height, count * (width + gap) - gap, CV_8UC3,
                 cv::Scalar::all(255));
   for (int i = 0; i < count; ++i) {
-    const Panel& panel = panels[static_cast<std::size_t>(i)];
+    const SheetPanel& panel = panels[static_cast<std::size_t>(i)];
     const int left = i * (width + gap);
     to_mat(panel.planes, width, height)
         .copyTo(sheet(cv::Rect(left, caption_height, width, height)));

@@ -141,7 +141,7 @@ MethodSettings gather_of(GatherKind kind, int samples, int passes) {
 Figure sheet(const Bench& bench, const std::string& name, const std::string& caption,
              const std::vector<std::pair<std::string, const std::vector<Plane>*>>& pictures,
              int width, int height) {
-  std::vector<Panel> panels;
+  std::vector<SheetPanel> panels;
   for (const auto& [title, planes] : pictures) panels.push_back({title, *planes});
   write_sheet(bench.folder + "/" + name + ".png", panels, width, height);
   return {name + ".png", caption};
