@@ -72,7 +72,7 @@ Vec3 block_colour(Block block, bool is_side, double u, double v, double variant)
   const int i = static_cast<int>(u * texels), j = static_cast<int>(v * texels);
   // Grass and snow hang over the upper edge of their side; the rest of it is earth.
   const bool is_turf = block == Block::grass || block == Block::snow;
-  if (is_turf && is_side && j > 3 + static_cast<int>(3 * hash01(i, 77))) block = Block::dirt;
+  if (is_turf && is_side && j > 7 + static_cast<int>(4 * hash01(i, 77))) block = Block::dirt;
   return tiles()[static_cast<std::size_t>(block)][static_cast<std::size_t>(j * texels + i)] *
          (0.9 + 0.2 * variant);
 }

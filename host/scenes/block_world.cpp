@@ -112,7 +112,15 @@ BlockWorld::BlockWorld(int size, int height)
     : size_(size),
       height_(height),
       blocks_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
-              static_cast<std::size_t>(height)) {}
+              static_cast<std::size_t>(height)),
+      tile_tops_(static_cast<std::size_t>(size / tile_size) *
+                 static_cast<std::size_t>(size / tile_size)) {}
+
+void BlockWorld::set(int x, int y, int z, Block block) {
+  blocks_[index(x, y, z)] = block;
+  std::uint8_t& top = tile_tops_[tile(x, z)];
+  top = std::max(top, static_cast<std::uint8_t>(y + 1));
+}
 
 bool BlockWorld::contains(int x, int y, int z) const {
   return x >= 0 && y >= 0 && z >= 0 && x < size_ && y < height_ && z < size_;

@@ -21,7 +21,7 @@ double lens_aperture_mm(const Scene& scene, double eye_aperture_m) {
 }
 
 const BlockWorld& world() {
-  static const BlockWorld only = make_block_world(9, 3);
+  static const BlockWorld only = make_block_world(9, 4);
   return only;
 }
 
@@ -29,6 +29,7 @@ Scene make_blocks(int width, int height, const Viewpoint& view) {
   Scene scene;
   scene.width = width;
   scene.height = height;
+  scene.focal_length_mm = 35;
   scene.settings = {{"normal", focus_m, lens_aperture_mm(scene, 0.0046)},
                     {"miniature", focus_m, lens_aperture_mm(scene, 5.75)}};
   scene.light = {view.to_camera(normalized({-0.55, 0.7, -0.25})),
@@ -48,11 +49,11 @@ Scene make_blocks(int width, int height, const Viewpoint& view) {
 }  // namespace
 
 Scene make_blocks_lake(int width, int height) {
-  return make_blocks(width, height, Viewpoint::looking({128, 54, 30}, 0, 0.65));
+  return make_blocks(width, height, Viewpoint::looking({70, 51, 60}, 0.55, 0.63));
 }
 
 Scene make_blocks_forest(int width, int height) {
-  return make_blocks(width, height, Viewpoint::looking({60, 58, 60}, 0.8, 0.6));
+  return make_blocks(width, height, Viewpoint::looking({104, 62, 84}, 0.85, 0.6));
 }
 
 }  // namespace defray

@@ -58,9 +58,9 @@ void Bvh::build(std::vector<Item>& items, std::size_t begin, std::size_t end) {
   const std::size_t at = nodes_.size();
   Bounds bounds = items[begin].bounds;
   for (std::size_t i = begin; i < end; ++i) bounds = merged(bounds, items[i].bounds);
-  nodes_.push_back({bounds, begin, end - begin});
+  nodes_.push_back({bounds, begin, end - begin, longest(bounds)});
   if (end - begin <= leaf_size) return;
-  const Axis axis = longest(bounds);
+  const Axis axis = nodes_[at].split;
   const std::size_t half = begin + (end - begin) / 2;
   const auto item = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(item(begin), item(half), item(end), [&](const Item& a, const Item& b) {
@@ -86,8 +86,10 @@ bool Bvh::intersect(const Ray& ray, Hit& hit) const {
       if (order_[node.first + i]->intersect(ray, hit)) found = true;
     }
     if (node.count > 0) continue;
-    stack[waiting++] = node.first;
-    stack[waiting++] = at + 1;
+    // The nearer child goes last, to be looked at first.
+    const bool goes_up = ray.direction.*node.split > 0;
+    stack[waiting++] = goes_up ? node.first : at + 1;
+    stack[waiting++] = goes_up ? at + 1 : node.first;
   }
   return found;
 }

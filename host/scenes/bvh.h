@@ -17,11 +17,12 @@ class Bvh {
   bool intersect(const Ray& ray, Hit& hit) const;
 
  private:
-  /// A leaf has `count` primitives from `first` on; an inner node has its first child behind it
-  /// and its second at `first`.
+  /// A leaf has `count` primitives from `first` on; an inner node has its lower child, along
+  /// `split`, behind it and its upper one at `first`.
   struct Node {
     Bounds bounds;
     std::size_t first = 0, count = 0;
+    double Vec3::*split = nullptr;
   };
   struct Item {
     const Primitive* primitive;

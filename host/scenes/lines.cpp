@@ -17,9 +17,9 @@ std::unique_ptr<Primitive> line(const Scene& scene, double x, double y, double a
   const double half_length = 2 * per_share;
   const double line_width = width_px * depth / pixel_focal_length(scene);
   const Vec3 middle{x * per_share, y * per_share, depth};
-  return std::make_unique<Panel>(middle - along * half_length - across * (line_width / 2),
-                                 along * (2 * half_length), across * line_width, plain(colour),
-                                 Panel::Kind::unlit);
+  return std::make_unique<Quad>(middle - along * half_length - across * (line_width / 2),
+                                along * (2 * half_length), across * line_width, plain(colour),
+                                Quad::Kind::unlit);
 }
 
 }  // namespace

@@ -48,13 +48,13 @@ void add_town(Scene& scene, const Vec3& centre, double side, int count) {
 }
 
 void add_room(Scene& scene) {
-  scene.primitives.push_back(std::make_unique<Panel>(
+  scene.primitives.push_back(std::make_unique<Quad>(
       Vec3{-20, floor_y, 0.5}, Vec3{40, 0, 0}, Vec3{0, 0, 22.5}, [](const Vec3& p) {
         return checker(p.x, p.y, 0.5, {0.6, 0.56, 0.5}, {0.2, 0.24, 0.28});
       }));
   scene.primitives.push_back(
-      std::make_unique<Panel>(Vec3{-20, -20, 23}, Vec3{40, 0, 0}, Vec3{0, 21, 0},
-                              [](const Vec3& p) { return bricks(p.x, p.y, 1.2, 0.5); }));
+      std::make_unique<Quad>(Vec3{-20, -20, 23}, Vec3{40, 0, 0}, Vec3{0, 21, 0},
+                             [](const Vec3& p) { return bricks(p.x, p.y, 1.2, 0.5); }));
 }
 
 }  // namespace

@@ -40,13 +40,13 @@ Scene make_points(int width, int height) {
   scene.background = [](const Vec3& d) {
     return mix({0.03, 0.035, 0.06}, {0.004, 0.006, 0.014}, std::fmin(1, std::fmax(0, -5 * d.y)));
   };
-  scene.primitives.push_back(std::make_unique<Panel>(
+  scene.primitives.push_back(std::make_unique<Quad>(
       Vec3{-60, 0.9, 1}, Vec3{120, 0, 0}, Vec3{0, 0, 100},
       [](const Vec3& p) {
         const double wet = value_noise(3 * p.x, 3 * p.y, 1) * value_noise(0.7 * p.x, p.y, 2);
         return Vec3{0.02, 0.022, 0.03} * (0.3 + 2 * wet);
       },
-      Panel::Kind::unlit));
+      Quad::Kind::unlit));
   add_skyline(scene);
   constexpr int count = 70;
   for (int i = 0; i < count; ++i) {

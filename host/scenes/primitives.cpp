@@ -38,7 +38,7 @@ bool Rectangle::intersect(const Ray& ray, Hit& hit) const {
 
 Bounds Rectangle::bounds() const { return {{x0_, y0_, depth_}, {x1_, y1_, depth_}}; }
 
-Panel::Panel(const Vec3& corner, const Vec3& edge_a, const Vec3& edge_b, Texture texture, Kind kind)
+Quad::Quad(const Vec3& corner, const Vec3& edge_a, const Vec3& edge_b, Texture texture, Kind kind)
     : corner_(corner),
       a_(normalized(edge_a)),
       b_(normalized(edge_b)),
@@ -48,10 +48,10 @@ Panel::Panel(const Vec3& corner, const Vec3& edge_a, const Vec3& edge_b, Texture
       texture_(std::move(texture)),
       kind_(kind) {}
 
-bool Panel::intersect(const Ray& ray, Hit& hit) const {
+bool Quad::intersect(const Ray& ray, Hit& hit) const {
   const double slope = dot(normal_, ray.direction);
   const double t = dot(normal_, corner_ - ray.origin) / slope;
-  if (!(t > ray.from && t < hit.t)) return false;  // a NaN, from a ray along the panel, misses
+  if (!(t > ray.from && t < hit.t)) return false;  // a NaN, from a ray along it, misses
   const Vec3 p = ray.origin + ray.direction * t - corner_;
   const double a = dot(p, a_), b = dot(p, b_);
   if (a < 0 || a >= length_a_ || b < 0 || b >= length_b_) return false;
@@ -60,7 +60,7 @@ bool Panel::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
-Bounds Panel::bounds() const {
+Bounds Quad::bounds() const {
   const Vec3 a = a_ * length_a_, b = b_ * length_b_;
   return bounds_of({corner_, corner_ + a, corner_ + b, corner_ + a + b});
 }

@@ -26,11 +26,11 @@ class Rectangle : public Primitive {
 
 /// A rectangle in any position: a corner and two edges at right angles. Its texture gets the
 /// distances along both edges: (along a, along b, 0). Both faces look alike.
-class Panel : public Primitive {
+class Quad : public Primitive {
  public:
   enum class Kind { lit, unlit };
-  Panel(const Vec3& corner, const Vec3& edge_a, const Vec3& edge_b, Texture texture,
-        Kind kind = Kind::lit);
+  Quad(const Vec3& corner, const Vec3& edge_a, const Vec3& edge_b, Texture texture,
+       Kind kind = Kind::lit);
   bool intersect(const Ray& ray, Hit& hit) const override;
   Bounds bounds() const override;
 

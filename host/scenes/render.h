@@ -45,6 +45,7 @@ Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint3
 
 /// The accumulation buffer of Haeberli & Akeley 1990: the mean of one view through the pixels'
 /// centres from each point of the lens (unit disc), the same points for all pixels. R G B.
+/// Throws Error(usage) without points.
 std::vector<Plane> render_accumulation(const Scene& scene, const Lens& lens,
                                        const std::vector<std::array<double, 2>>& lens_points,
                                        const Progress& progress = {});

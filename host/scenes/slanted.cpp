@@ -30,7 +30,7 @@ Scene make_slanted(int width, int height) {
   const Vec3 along{std::sin(0.35), 0, std::cos(0.35)};
   const Vec3 corner = Vec3{0, -40, 3} - along * 1.9;
   scene.primitives.push_back(
-      std::make_unique<Panel>(corner, along * 400, Vec3{0, 80, 0}, chart, Panel::Kind::unlit));
+      std::make_unique<Quad>(corner, along * 400, Vec3{0, 80, 0}, chart, Quad::Kind::unlit));
   return scene;
 }
 

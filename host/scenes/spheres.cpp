@@ -44,7 +44,7 @@ Scene make_spheres(int width, int height) {
   scene.background = [](const Vec3& d) {
     return mix({0.55, 0.62, 0.7}, {0.12, 0.25, 0.5}, std::fmin(1, std::fmax(0, -3 * d.y)));
   };
-  scene.primitives.push_back(std::make_unique<Panel>(
+  scene.primitives.push_back(std::make_unique<Quad>(
       Vec3{-30, floor_y, 0.5}, Vec3{60, 0, 0}, Vec3{0, 0, 60}, [](const Vec3& p) {
         return checker(p.x + 0.17, p.y, 0.4, {0.62, 0.58, 0.52}, {0.16, 0.17, 0.2});
       }));
