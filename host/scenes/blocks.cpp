@@ -53,7 +53,7 @@ Scene make_blocks_lake(int width, int height) {
 }
 
 Scene make_blocks_forest(int width, int height) {
-  return make_blocks(width, height, Viewpoint::looking({104, 62, 84}, 0.85, 0.6));
+  return make_blocks(width, height, Viewpoint::looking({104, 54, 84}, 0.85, 0.63));
 }
 
 }  // namespace defray

@@ -54,8 +54,9 @@ Scene make_points(int width, int height) {
     const double z = 1 / (1 / 1.2 + (1 / 40.0 - 1 / 1.2) * (i + 0.5) / count);
     const Vec3 centre{z * 0.66 * (hash01(i, 5) - 0.5), z * (0.2 - 0.42 * hash01(i, 6)), z};
     const double radiance = 30 * std::pow(40, hash01(i, 7));
-    // As wide as the picture shows two or three pixels of 640, at any distance.
-    const double radius = z * (0.0012 + 0.0006 * hash01(i, 8));
+    // Two to three pixels in radius of a picture 640 wide, at any distance: smaller ones would need
+    // very many samples for a clean truth.
+    const double radius = z * (0.002 + 0.001 * hash01(i, 8));
     scene.primitives.push_back(
         std::make_unique<Lamp>(centre, radius, hue_of(hash01(i, 9)) * radiance));
   }

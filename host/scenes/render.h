@@ -24,7 +24,8 @@ struct ScenePicture {
 /// What a lens makes of a scene, and how sure that is.
 struct Truth {
   std::vector<Plane> colour;  ///< R G B: the mean of two halves with samples of their own.
-  /// One half against the other. The mean's own error is about 6 dB less. Empty for 1 sample.
+  /// One half against the other; the mean's own error is about 6 dB less (where few pixels are
+  /// clipped: highlights hide theirs). Empty for 1 sample.
   std::optional<Comparison> noise;
 };
 

@@ -26,11 +26,11 @@ Scene make_slanted(int width, int height) {
   scene.width = width;
   scene.height = height;
   scene.settings = {{"default", 3, 50 / 0.95}};
-  // Through (0, 0, 3); the far end lies beyond the picture's right edge, whatever its shape.
-  const Vec3 along{std::sin(0.35), 0, std::cos(0.35)};
+  // Through (0, 0, 3), from 1.8 at the picture's left edge to 10 at its right one.
+  const Vec3 along{std::sin(0.48), 0, std::cos(0.48)};
   const Vec3 corner = Vec3{0, -40, 3} - along * 1.9;
   scene.primitives.push_back(
-      std::make_unique<Quad>(corner, along * 400, Vec3{0, 80, 0}, chart, Quad::Kind::unlit));
+      std::make_unique<Quad>(corner, along * 12, Vec3{0, 80, 0}, chart, Quad::Kind::unlit));
   return scene;
 }
 

@@ -38,7 +38,7 @@ Scene make_spheres(int width, int height) {
   Scene scene;
   scene.width = width;
   scene.height = height;
-  scene.settings = {{"f2", 2, 50 / 1.4}, {"f5", 5, 50 / 1.4}};
+  scene.settings = {{"f2", 2, 50 / 0.95}, {"f5", 5, 50 / 0.95}};
   scene.light = {
       normalized({-0.5, -0.8, -0.45}), {0.85, 0.8, 0.7}, {0.22, 0.26, 0.34}, {0.1, 0.09, 0.08}};
   scene.background = [](const Vec3& d) {
