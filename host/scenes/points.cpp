@@ -53,7 +53,7 @@ Scene make_points(int width, int height) {
     // Evenly in 1/z from 1.2 to 40 units, so that circles of every size occur.
     const double z = 1 / (1 / 1.2 + (1 / 40.0 - 1 / 1.2) * (i + 0.5) / count);
     const Vec3 centre{z * 0.66 * (hash01(i, 5) - 0.5), z * (0.2 - 0.42 * hash01(i, 6)), z};
-    const double radiance = 30 * std::pow(40, hash01(i, 7));
+    const double radiance = 5 * std::pow(40, hash01(i, 7));
     // Two to three pixels in radius of a picture 640 wide, at any distance: smaller ones would need
     // very many samples for a clean truth.
     const double radius = z * (0.002 + 0.001 * hash01(i, 8));
