@@ -1,6 +1,5 @@
 #include "scenes/scene.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "error.h"

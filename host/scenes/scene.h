@@ -1,6 +1,5 @@
 #pragma once
 // The built-in analytic scenes: what is in them, and how the camera looks at them.
-#include <array>
 #include <functional>
 #include <map>
 #include <memory>
