@@ -20,16 +20,13 @@ Examples:
   defray render vray.exr -o out.exr --depth-kind normalized --invert --near 0.5 --far 40 \
       --focus 3 --fstop 4 --focal-length 50)";
 
-/// An empty value is most likely an unset shell variable.
-std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
-
 void add_files(CLI::App& c, RenderOptions& o) {
   c.add_option("input", o.input, "Colour, and depth unless --depth is given; #### or %04d: frames")
       ->required();
   c.add_option("-o,--output", o.output, "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)")
       ->required();
   const char* const files = "Files";
-  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(not_empty);
+  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(no_empty_path);
   c.add_option("--coc-out", o.coc_out, "Write the signed CoC radius in px (.exr, .tif)")
       ->group(files);
   c.add_option("--frames", o.frames, "1-8, 1-10x2, 1,5,9-12; default: every file that matches")

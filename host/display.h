@@ -14,7 +14,8 @@ struct SheetPanel {
 };
 
 /// Writes panels of one size side by side, sRGB-encoded, each under its caption, to a PNG or JPEG.
-void write_sheet(const std::string& path, const std::vector<SheetPanel>& panels, int width, int height);
+void write_sheet(const std::string& path, const std::vector<SheetPanel>& panels, int width,
+                 int height);
 
 /// Whether a window can be opened; if not, `why` says what is missing.
 bool has_display(std::string& why);

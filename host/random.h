@@ -7,8 +7,9 @@ namespace defray {
 /// A small counter-based generator (splitmix64, Steele et al. 2014).
 class Random {
  public:
-  Random(std::uint32_t x, std::uint32_t y, std::uint32_t seed)
-      : state_((std::uint64_t{seed} << 40) ^ (std::uint64_t{y} << 20) ^ x) {}
+  Random(int x, int y, std::uint64_t seed)
+      : state_((seed * 0xd1342543de82ef95u) ^ (static_cast<std::uint64_t>(y) << 20) ^
+               static_cast<std::uint64_t>(x)) {}
   /// Uniform in [0, 1).
   double next() {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);

@@ -31,7 +31,7 @@ __kernel void linear_psf(const DefrayLinearParams p, __global const float* restr
   if (x >= p.width || y >= p.band_rows) return;
 
   float16 sum0 = -0.0f, sum1 = -0.0f, sum2 = -0.0f, sum3 = -0.0f;  // -0 + c is c, for c = -0 too
-  const int beyond = p.reach + 1;  // no disc reaches this far
+  const int beyond = p.reach + 1;                                  // no disc reaches this far
   for (int dy = -p.reach; dy <= p.reach; ++dy) {
     const int half_chord = min((int)sqrt((float)(beyond * beyond - dy * dy)), p.reach);
     const size_t row = (size_t)((int)y + p.reach + dy) * p.source_stride + x + (uint)p.reach;

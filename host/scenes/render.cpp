@@ -7,28 +7,11 @@
 #include <thread>
 
 #include "error.h"
+#include "random.h"
 #include "scenes/bvh.h"
 
 namespace defray {
 namespace {
-
-/// A small counter-based generator: independent of the order in which pixels are rendered.
-class Random {
- public:
-  Random(int x, int y, std::uint64_t seed)
-      : state_((seed * 0xd1342543de82ef95u) ^ (static_cast<std::uint64_t>(y) << 20) ^
-               static_cast<std::uint64_t>(x)) {}
-  /// Uniform in [0, 1): splitmix64 (Steele et al. 2014).
-  double next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// A scene made ready for rays.
 class Tracer {
