@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "scenes/primitives.h"
+#include "scenes/render.h"
 #include "support.h"
 
 namespace defray::test {
@@ -61,6 +63,55 @@ TEST(Method, ImpulsesKeepTheirCentroid) {
       EXPECT_NEAR(x / sum, 0, 0.01) << name << ", radius " << radius;
       EXPECT_NEAR(y / sum, 0, 0.01) << name << ", radius " << radius;
     }
+  }
+}
+
+/// A waving plane 4 m away, focused at 2 m: one CoC, no occlusion.
+Scene waves() {
+  Scene scene;
+  scene.width = 80, scene.height = 60;
+  scene.focal_length_mm = 50, scene.sensor_width_mm = 36;
+  scene.settings = {{"default", 2, 540}};
+  const auto colour = [](const Vec3& p) {
+    const double wave = 0.5 + 0.25 * std::sin(9 * p.x) + 0.2 * std::cos(11 * p.y + 3 * p.x);
+    return Vec3{wave, 0.5 * wave, 1 - wave};
+  };
+  scene.primitives.push_back(std::make_unique<Rectangle>(-9, -9, 9, 9, 4, colour));
+  return scene;
+}
+
+TEST(Method, ConstantDepthGivesOnePictureFromAllOfThem) {
+  if (is_slow_device()) GTEST_SKIP() << "855 cells";
+  const Scene scene = waves();
+  const Lens lens = lens_of(scene, scene.settings[0]);
+  const ScenePicture pinhole = render_pinhole(scene);
+  const auto coc = coc_on_device(session(), lens, scene.width, pinhole.depth);
+  // Vogel's spiral fills the disc evenly: the integral over the lens to about 1/count.
+  std::vector<std::array<double, 2>> points;
+  for (int i = 0; i < 4000; ++i) {
+    const double r = std::sqrt((i + 0.5) / 4000), angle = 2.399963229728653 * i;
+    points.push_back({r * std::cos(angle), r * std::sin(angle)});
+  }
+  const std::vector<Plane> truth = render_accumulation(scene, lens, points);
+  MethodSettings linear, rdb, aware;
+  linear.method = Method::linear;
+  rdb.rdb.cells_per_side = 33;
+  aware.method = Method::gather;
+  aware.gather.samples = 1024;
+  aware.gather.passes = 1;
+  for (const auto& [settings, tolerance] :
+       {std::pair{linear, 0.004}, {rdb, 0.004}, {aware, 0.008}}) {
+    const auto out =
+        apply_method({80, 60, coc, pinhole.depth, pinhole.colour}, settings, &session());
+    double worst = 0, blur = 0;
+    for (int y = 10; y < 50; ++y) {  // borders: each method's own policy
+      for (int x = 10; x < 70; ++x) {
+        worst = std::fmax(worst, std::fabs(out[0][y * 80 + x] - truth[0][y * 80 + x]));
+        blur = std::fmax(blur, std::fabs(pinhole.colour[0][y * 80 + x] - truth[0][y * 80 + x]));
+      }
+    }
+    EXPECT_LE(worst, tolerance) << "method " << static_cast<int>(settings.method);
+    EXPECT_GT(blur, 20 * tolerance);  // the picture is far from sharp
   }
 }
 

@@ -55,6 +55,10 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
                        [i % band + static_cast<std::size_t>(first)];
       found = w.source == DEFRAY_EMPTY ? -1 : window + w.source;
       if (found < 0) continue;
+      if (found >= static_cast<std::int64_t>(depth.size())) {
+        ADD_FAILURE() << "winner " << found << " lies outside the frame";
+        continue;
+      }
       std::uint32_t bits;
       std::memcpy(&bits, &depth[static_cast<std::size_t>(found)], sizeof(bits));
       EXPECT_EQ(w.depth_bits, bits);

@@ -1,0 +1,75 @@
+// defray-perf: every experiment runs and leaves a report whose parts are all there.
+#include <fstream>
+#include <regex>
+
+#include "program.h"
+
+#ifndef DEFRAY_PERF_PROGRAM
+#define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks
+#endif
+
+namespace defray::test {
+namespace {
+
+class PerfCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(DEFRAY_PERF_PROGRAM).empty()) GTEST_SKIP() << "built without the benchmarks";
+  }
+  Result perf(const std::string& arguments) {
+    return shell(folder, "'" DEFRAY_PERF_PROGRAM "' " + arguments);
+  }
+  void expect_refused(const std::string& arguments, int code,
+                      const std::vector<std::string>& words) {
+    const Result result = perf(arguments);
+    EXPECT_EQ(result.code, code) << arguments << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    for (const std::string& word : words) {
+      EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in " << result.err;
+    }
+  }
+  std::string text_of(const std::string& name) {
+    std::ifstream stream(folder / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  Folder folder;
+};
+
+TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
+  const Result result = perf("experiment all -o report --quick");
+  expect_ok(result);
+  EXPECT_EQ(result.err, "");  // no progress without a terminal
+  const std::string html = text_of("report/index.html");
+  for (const std::string part : {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time",
+                                 "defray render spheres/pinhole.exr", "</html>"}) {
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  }
+  std::size_t links = 0;
+  const std::regex link("(?:src|href)=\"([^\"]+)\"");
+  for (std::sregex_iterator i(html.begin(), html.end(), link), end; i != end; ++i, ++links) {
+    const std::filesystem::path file = folder / ("report/" + (*i)[1].str());
+    ASSERT_TRUE(std::filesystem::exists(file)) << file;
+    EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
+  }
+  EXPECT_GT(links, 20u);
+  EXPECT_EQ(text_of("report/plate1.csv").substr(0, 7), "method,");
+}
+
+TEST_F(PerfCommand, RefusesWhatItCannotDo) {
+  expect_refused("experiment plat1 -o report", 2, {"plat1", "Did you mean 'plate1'", "tradeoff"});
+  expect_refused("experiment plate1 -o /proc/none", 4, {"/proc/none"});
+  expect_refused("experiment plate1", 2, {"--output"});
+  expect_refused("experiment plate1 -o report --device nothing", 5, {"nothing"});
+  expect_refused("experimnt plate1 -o report", 2, {"ubcommand"});
+}
+
+TEST_F(PerfCommand, HelpListsTheExperiments) {
+  const Result help = perf("experiment --help");
+  expect_ok(help);
+  for (const std::string name : {"plate1", "plate2", "figure7", "eye", "tradeoff", "Example"}) {
+    EXPECT_NE(help.out.find(name), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
