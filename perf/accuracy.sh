@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The README's accuracy table: PSNR against the truth, for the built-in scene and, where the folder
-# exists, the ray-traced scenes of SCENES (scene/pinhole.exr, truth_SETTING.exr, camera.json).
+# The README's accuracy table: PSNR (sRGB-encoded, dB) of every method against the truth, and the
+# time of CoC and method, for the built-in plate 1 and, where the folder exists, the ray-traced
+# scenes of SCENES (scene/pinhole.exr, truth_SETTING.exr, camera.json).
 # accuracy.sh DEFRAY [SCENES]
 set -euo pipefail
 defray=$1
@@ -8,30 +9,51 @@ scenes=${2:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-psnr() { # picture truth -> "encoded linear"
-  "$defray" compare "$1" "$2" --json |
-    sed 's/.*"psnr_srgb_db":\([^,]*\),"psnr_linear_db":\([^,]*\),.*/\1 \2/' |
-    awk '{printf "%.2f / %.2f", $1, $2}'
+# Pictures to be rendered: name, pinhole, truth, camera options.
+subjects=()
+"$defray" scene plate1 -o "$folder" --truth-samples 1024 >/dev/null
+subjects+=("plate1|$folder/pinhole.exr|$folder/truth.exr|--camera $folder/camera.json")
+if [ -d "$scenes" ]; then
+  for pair in fence:bg fence:mid spheres:f3 spheres:f8; do
+    scene=$scenes/${pair%:*} setting=${pair#*:}
+    subjects+=("${pair/:/ }|$scene/pinhole.exr|$scene/truth_$setting.exr|--camera \
+$scene/camera.json --focus-setting $setting")
+  done
+fi
+
+field() { sed "s/.*\"$1\":\([^,}]*\).*/\1/"; }
+
+psnr() { # picture truth
+  printf ' %.2f' "$("$defray" compare "$1" "$2" --json | field psnr_srgb_db)"
 }
 
-row() { # name pinhole truth camera-options...
-  local name=$1 pinhole=$2 truth=$3
-  shift 3
-  printf '| %s | %s |' "$name" "$(psnr "$pinhole" "$truth")"
-  for cells in 9 33; do
-    "$defray" render "$pinhole" -o "$folder/out.exr" --quiet --rdb $cells "$@"
-    printf ' %s |' "$(psnr "$folder/out.exr" "$truth")"
+row() { # name options...
+  local name=$1 subject pinhole truth camera seconds
+  shift
+  printf '| %s |' "$name"
+  for subject in "${subjects[@]}"; do
+    IFS='|' read -r _ pinhole truth camera <<<"$subject"
+    # shellcheck disable=SC2086  # the camera is several words
+    seconds=$("$defray" render "$pinhole" -o "$folder/out.exr" --json $camera "$@" | field render_s)
+    psnr "$folder/out.exr" "$truth"
+    printf ' (%.2f s) |' "$seconds"
   done
   echo
 }
 
-echo '| scene | pinhole | RDB 9×9 | RDB 33×33 |'
-echo '|---|---|---|---|'
-"$defray" scene plate1 -o "$folder" --truth-samples 1024 >/dev/null
-row 'plate1 (built in)' "$folder/pinhole.exr" "$folder/truth.exr" --camera "$folder/camera.json"
-[ -d "$scenes" ] || exit 0
-for pair in fence:bg fence:mid spheres:f3 spheres:f8; do
-  scene=$scenes/${pair%:*} setting=${pair#*:}
-  row "${pair/:/ }" "$scene/pinhole.exr" "$scene/truth_$setting.exr" \
-    --camera "$scene/camera.json" --focus-setting "$setting"
+printf '| method |'
+for subject in "${subjects[@]}"; do printf ' %s |' "${subject%%|*}"; done
+printf '\n|---|%s\n' "$(printf -- '---|%.0s' "${subjects[@]}")"
+printf '| pinhole |'
+for subject in "${subjects[@]}"; do
+  IFS='|' read -r _ pinhole truth _ <<<"$subject"
+  psnr "$pinhole" "$truth"
+  printf ' |'
 done
+echo
+row 'rdb, 9×9' --method rdb
+row 'rdb, 33×33' --method rdb --rdb 33
+row 'linear' --method linear
+row 'gather literal, 32 samples × 2' --method gather --gather literal
+row 'gather aware, 32 samples × 2' --method gather
+row 'gather aware, 128 samples × 2' --method gather --samples 128

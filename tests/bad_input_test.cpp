@@ -7,18 +7,6 @@
 namespace defray::test {
 namespace {
 
-/// One line that begins with "defray: error:", holds the words, and the exit code.
-void expect_refusal(const Result& result, int code, const std::vector<std::string>& words,
-                    const std::string& command) {
-  EXPECT_EQ(result.code, code) << command << "\n" << result.err;
-  EXPECT_EQ(result.err.find("defray: error: "), 0u) << command << "\n" << result.err;
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << command << result.err;
-  for (const std::string& word : words) {
-    EXPECT_NE(result.err.find(word), std::string::npos)
-        << "'" << word << "' is not in: " << result.err << command;
-  }
-}
-
 class BadInput : public testing::Test {
  protected:
   BadInput() {

@@ -14,12 +14,7 @@ struct Picture : testing::Test {
   Folder folder;
   void SetUp() override { write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}); }
   void expect_refused(const std::string& options, const std::vector<std::string>& words) {
-    const Result result = defray(folder, "render in.exr -o none.exr " + options);
-    EXPECT_EQ(result.code, 2) << options;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    for (const std::string& word : words) {
-      EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in " << result.err;
-    }
+    expect_refusal(defray(folder, "render in.exr -o none.exr " + options), 2, words, options);
     EXPECT_FALSE(std::filesystem::exists(folder / "none.exr"));
   }
 };

@@ -21,12 +21,7 @@ class PerfCommand : public testing::Test {
   }
   void expect_refused(const std::string& arguments, int code,
                       const std::vector<std::string>& words) {
-    const Result result = perf(arguments);
-    EXPECT_EQ(result.code, code) << arguments << ": " << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    for (const std::string& word : words) {
-      EXPECT_NE(result.err.find(word), std::string::npos) << word << " is not in " << result.err;
-    }
+    expect_refusal(perf(arguments), code, words, arguments);
   }
   std::string text_of(const std::string& name) {
     std::ifstream stream(folder / name);

@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -43,6 +44,20 @@ void write_picture_file(const Folder& folder, const std::string& name,
   }
   ImageFile::from_planes(channels, planes, size.width, size.height, Sample::single_float)
       .write(folder / name);
+}
+
+void expect_refusal(const Result& result, int code, const std::vector<std::string>& words,
+                    const std::string& command) {
+  EXPECT_EQ(result.code, code) << command << "\n" << result.err;
+  EXPECT_TRUE(result.err.rfind("defray", 0) == 0 && result.err.find(": error: ") <= 11)
+      << command << "\n"
+      << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << command << result.err;
+  EXPECT_EQ(result.out, "") << command;
+  for (const std::string& word : words) {
+    EXPECT_NE(result.err.find(word), std::string::npos)
+        << "'" << word << "' is not in: " << result.err << command;
+  }
 }
 
 std::uint64_t file_hash(const std::string& path) {

@@ -32,6 +32,11 @@ std::uint64_t file_hash(const std::string& path);
 
 inline void expect_ok(const Result& result) { EXPECT_EQ(result.code, 0) << result.err; }
 
+/// One line "PROGRAM: error: …" that holds the words, this exit code, and nothing on standard
+/// output.
+void expect_refusal(const Result& result, int code, const std::vector<std::string>& words,
+                    const std::string& command);
+
 /// A complete lens for render's command line.
 inline const std::string lens = " --focus 3 --fstop 0.5 --focal-length 50 ";
 

@@ -22,15 +22,8 @@ class PsfCommand : public testing::Test {
     return json::parse(result.out);
   }
 
-  /// One line that names the trouble, and no output.
   void refuse(const std::string& arguments, int code, const std::vector<std::string>& words) {
-    const Result result = defray(folder_, arguments);
-    EXPECT_EQ(result.code, code) << arguments << "\n" << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "") << arguments;
-    for (const std::string& word : words) {
-      EXPECT_NE(result.err.find(word), std::string::npos) << word << " not in " << result.err;
-    }
+    expect_refusal(defray(folder_, arguments), code, words, arguments);
   }
 
   Folder folder_;
