@@ -78,7 +78,7 @@ TEST(Gather, OneColourAndClosedApertureStayBitForBit) {
 }
 
 TEST(Gather, EverySettingChangesThePicture) {
-  const Size size{64, 48};
+  const Size size{24, 16};
   const auto coc = random_coc(size, 9, 2);
   const auto channels = planes_of(size);
   for (const GatherKind kind : kinds) {
@@ -94,7 +94,7 @@ TEST(Gather, EverySettingChangesThePicture) {
 }
 
 TEST(Gather, SameBitsForEveryWorkGroupAndRun) {
-  const Size size{150, 140};  // more rows than one launch
+  const Size size{is_slow_device() ? 11 : 150, 140};  // more rows than one launch
   const auto coc = random_coc(size, 9, 2);
   const auto channels = planes_of(size);
   Session s(device_under_test());
@@ -117,7 +117,7 @@ struct Halves {
 };
 Halves halves(double left, double right) {
   Halves h;
-  for (int i = 0; i < 64 * 64; ++i) {
+  for (int i = 0; i < 64 * 32; ++i) {
     const bool is_left = i % 64 < 32;
     h.coc.push_back(static_cast<std::int32_t>(256 * (is_left ? left : right)));
     h.colour.push_back(is_left ? 0 : 1);
@@ -126,10 +126,10 @@ Halves halves(double left, double right) {
 }
 
 float left_of_edge(const Halves& h, GatherKind kind) {
-  return render({64, 64}, h.coc, {h.colour}, settings_of(kind, 128, 1, false))[0][32 * 64 + 28];
+  return render({64, 32}, h.coc, {h.colour}, settings_of(kind, 128, 1, false))[0][16 * 64 + 28];
 }
 float right_of_edge(const Halves& h, GatherKind kind) {
-  return render({64, 64}, h.coc, {h.colour}, settings_of(kind, 128, 1, false))[0][32 * 64 + 35];
+  return render({64, 32}, h.coc, {h.colour}, settings_of(kind, 128, 1, false))[0][16 * 64 + 35];
 }
 
 TEST(Gather, OnlyAwareKeepsSharpSurfacesCleanAndLetsNearOnesSpread) {

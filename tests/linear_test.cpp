@@ -75,6 +75,7 @@ TEST(Linear, EnergyIsConservedAwayFromTheBorder) {
 TEST(Linear, ImpulsesBecomeDiscsOfTheirRadius) {
   const Size size{101, 101};
   for (const double radius : {0.75, 2.0, 7.3, 20.0, 40.0}) {
+    if (radius > 3 && is_slow_device()) continue;
     Plane impulse(101 * 101);
     impulse[50 * 101 + 50] = 1;
     const std::vector<std::int32_t> coc(impulse.size(), std::lround(256 * radius));
