@@ -105,20 +105,47 @@ int band_rows_for(int width, int height, int reach, std::size_t memory_bytes) {
   return static_cast<int>(std::min(as_size(height), (memory_bytes - fixed) / (in_row + out_row)));
 }
 
-void blur_band(Session& session, const DefrayLinearParams& p, const Plane& radius,
-               const std::vector<Plane>& scaled, std::vector<Plane>& out) {
-  const std::size_t bytes = std::size_t{p.target_stride} * p.band_rows * sizeof(float);
-  const cl::Buffer r = session.view(radius);
+/// Whole pixels that a disc of this radius reaches; it ends half a pixel beyond its radius.
+int reach_of(std::int32_t coc_quanta) {
+  constexpr std::int32_t half = 1 << (DEFRAY_COC_FRACTION_BITS - 1);
+  return (std::abs(coc_quanta) + half) >> DEFRAY_COC_FRACTION_BITS;
+}
+
+/// Reach of each row of a padded band.
+std::vector<std::int32_t> row_reaches(const Plane& radius, const PaddedBand& band) {
+  std::vector<std::int32_t> reaches;
+  for (std::size_t row = 0; row < band.rows; ++row) {
+    const auto begin = radius.begin() + static_cast<std::int64_t>(row * band.stride);
+    const float largest = *std::max_element(begin, begin + static_cast<std::int64_t>(band.stride));
+    reaches.push_back(static_cast<std::int32_t>(largest + 0.5f));
+  }
+  return reaches;
+}
+
+/// Rows of a launch: few enough that a progress bar moves.
+constexpr std::uint32_t rows_per_launch = 16;
+
+void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, int band_rows,
+               const Plane& radius, const std::vector<Plane>& scaled, std::vector<Plane>& out,
+               const std::function<void(int rows)>& progress) {
+  const auto rows = static_cast<std::uint32_t>(band_rows);
+  const std::size_t bytes = std::size_t{p.target_stride} * rows * sizeof(float);
+  const std::vector<std::int32_t> reaches = row_reaches(radius, band);
+  const cl::Buffer reach = session.view(reaches), r = session.view(radius);
   cl::Buffer in[4], result[4];
   // The kernel always sums four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
-    const bool is_there = c < scaled.size();
-    in[c] = is_there ? session.view(scaled[c]) : in[c - 1];
+    in[c] = c < scaled.size() ? session.view(scaled[c]) : in[c - 1];
     result[c] = session.buffer(bytes);
   }
-  session.launch("linear_psf", DEFRAY_LINEAR_GROUP,
-                 {p.target_stride / DEFRAY_LINEAR_RUN, p.band_rows}, p, r, in[0], in[1], in[2],
-                 in[3], result[0], result[1], result[2], result[3]);
+  for (p.first_row = 0; p.first_row < rows; p.first_row += rows_per_launch) {
+    p.launch_rows = std::min(rows_per_launch, rows - p.first_row);
+    session.launch("linear_psf", DEFRAY_LINEAR_GROUP,
+                   {p.target_stride / DEFRAY_LINEAR_RUN, p.launch_rows}, p, reach, r, in[0], in[1],
+                   in[2], in[3], result[0], result[1], result[2], result[3]);
+    session.finish();
+    progress(static_cast<int>(p.first_row + p.launch_rows));
+  }
   for (std::size_t c = 0; c < out.size(); ++c) {
     out[c].resize(bytes / sizeof(float));
     session.read(result[c], out[c].data(), bytes);
@@ -135,8 +162,7 @@ int linear_reach(const std::vector<std::int32_t>& coc_quanta) {
          "--max-coc, or use --method rdb",
          static_cast<double>(radius_px(largest)), linear_max_radius_px);
   }
-  // The disc ends half a pixel beyond its radius.
-  return (largest + (1 << (DEFRAY_COC_FRACTION_BITS - 1))) >> DEFRAY_COC_FRACTION_BITS;
+  return reach_of(largest);
 }
 
 std::vector<Plane> render_linear(Session& session, int width, int height,
@@ -159,18 +185,20 @@ std::vector<Plane> render_linear(Session& session, int width, int height,
         return channel[i] / static_cast<float>(twice);
       }));
     }
-    const DefrayLinearParams p{
-        static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(band_rows),
-        static_cast<std::uint32_t>(band.stride),
-        static_cast<std::uint32_t>(PaddedBand::target_stride_for(width)), reach};
-    blur_band(session, p, radius, scaled, band_out);
+    DefrayLinearParams p{};
+    p.width = static_cast<std::uint32_t>(width);
+    p.source_stride = static_cast<std::uint32_t>(band.stride);
+    p.target_stride = static_cast<std::uint32_t>(PaddedBand::target_stride_for(width));
+    p.reach = reach;
+    blur_band(session, p, band, band_rows, radius, scaled, band_out, [&](int done) {
+      if (progress) progress(static_cast<double>(y + done) / height);
+    });
     for (std::size_t c = 0; c < out.size(); ++c) {
       for (int row = 0; row < band_rows; ++row) {
         std::copy_n(band_out[c].begin() + std::int64_t{row} * p.target_stride, width,
                     out[c].begin() + std::int64_t{y + row} * width);
       }
     }
-    if (progress) progress(static_cast<double>(y + band_rows) / height);
   }
   return out;
 }

@@ -6,10 +6,12 @@
 // source's shares add up to 1. A gather over everything in reach, in one order: no atomics, the
 // same bits on every device with correctly rounded square roots.
 //
+// row_reach   [band_rows + 2 reach]                 how far a source row's largest disc reaches, px
 // radius_px   [band_rows + 2 reach][source_stride]  |CoC| of the source pixels, px
 // channel0..3 the same                              colour / (2 norm(r)), so that r = 0 gives 1
 // out0..3     [band_rows][target_stride]
-// One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run, band_rows).
+// One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run,
+// launch_rows).
 #include "params.h"
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -19,7 +21,8 @@ float16 lit(const float16 weight, const float16 colour) {
   return select((float16)(-0.0f), weight * colour, weight > 0.0f);
 }
 
-__kernel void linear_psf(const DefrayLinearParams p, __global const float* restrict radius_px,
+__kernel void linear_psf(const DefrayLinearParams p, __global const int* restrict row_reach,
+                         __global const float* restrict radius_px,
                          __global const float* restrict channel0,
                          __global const float* restrict channel1,
                          __global const float* restrict channel2,
@@ -27,14 +30,16 @@ __kernel void linear_psf(const DefrayLinearParams p, __global const float* restr
                          __global float* restrict out1, __global float* restrict out2,
                          __global float* restrict out3) {
   const uint x = get_global_id(0) * DEFRAY_LINEAR_RUN;
-  const uint y = get_global_id(1);
-  if (x >= p.width || y >= p.band_rows) return;
+  const uint y = p.first_row + get_global_id(1);
+  if (x >= p.width || get_global_id(1) >= p.launch_rows) return;
 
   float16 sum0 = -0.0f, sum1 = -0.0f, sum2 = -0.0f, sum3 = -0.0f;  // -0 + c is c, for c = -0 too
-  const int beyond = p.reach + 1;                                  // no disc reaches this far
   for (int dy = -p.reach; dy <= p.reach; ++dy) {
-    const int half_chord = min((int)sqrt((float)(beyond * beyond - dy * dy)), p.reach);
-    const size_t row = (size_t)((int)y + p.reach + dy) * p.source_stride + x + (uint)p.reach;
+    const int source_row = (int)y + p.reach + dy;
+    const int beyond = row_reach[source_row] + 1;  // no disc of this row reaches so far
+    if (abs(dy) >= (uint)beyond) continue;
+    const int half_chord = min((int)sqrt((float)(beyond * beyond - dy * dy)), beyond - 1);
+    const size_t row = (size_t)source_row * p.source_stride + x + (uint)p.reach;
     for (int dx = -half_chord; dx <= half_chord; ++dx) {
       const float distance = sqrt((float)(dx * dx + dy * dy));
       const size_t at = (size_t)((long)row + dx);

@@ -71,7 +71,8 @@ typedef struct {
 /// the frame's edge pixels repeated outside it.
 typedef struct {
   DEFRAY_UINT width;          ///< Target pixels in a row.
-  DEFRAY_UINT band_rows;      ///< Target rows.
+  DEFRAY_UINT first_row;      ///< First target row of this launch, in the band.
+  DEFRAY_UINT launch_rows;    ///< Target rows of this launch.
   DEFRAY_UINT source_stride;  ///< Floats from one source row to the next.
   DEFRAY_UINT target_stride;  ///< Floats from one target row to the next, a multiple of the run.
   DEFRAY_INT reach;           ///< Columns and rows of source on each side of a target pixel.
@@ -109,7 +110,7 @@ typedef struct {
 } DefrayTileParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefrayLinearParams) == 20);
+static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 24);
 static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 20);

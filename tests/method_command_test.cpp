@@ -61,6 +61,17 @@ TEST_F(MethodCommand, TiltshiftNeedsNeitherDepthNorLens) {
   EXPECT_NEAR(coc[0], 9.2 * (1 - 0.5 / (0.4 * 32)), 1.0 / 256);
 }
 
+TEST_F(MethodCommand, NoBlurReturnsTheInputBitForBit) {
+  const std::uint64_t input = file_hash(folder / "in.exr");
+  EXPECT_EQ(rendered(folder, "--method tiltshift --max-blur 0"), input);
+  for (const std::string method : {"rdb", "linear", "gather", "gather --gather literal"}) {
+    EXPECT_EQ(
+        rendered(folder, "--focus 3 --aperture-diameter 0 --focal-length 50 --method " + method),
+        input)
+        << method;
+  }
+}
+
 TEST_F(MethodCommand, EyeAndPerceivedScale) {
   const std::string eye = "--eye --focus 5 ";
   const std::uint64_t plain = rendered(folder, eye + "--scale 0.002");

@@ -46,11 +46,14 @@ std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p);
 std::vector<std::int32_t> gather_reach(int width, int height,
                                        const std::vector<std::int32_t>& coc_quanta);
 
-/// Twin of kernels `gather_literal` and `gather_aware`: one pass over a frame, in float and in the
+/// Twins of kernels `gather_literal` and `gather_aware`: one pass over a frame, in float and in the
 /// kernels' order: equal bits.
-std::vector<Plane> gather(const DefrayGatherParams& p, GatherKind kind,
-                          const GatherSamples& samples, const std::vector<std::int32_t>& coc_quanta,
-                          const std::vector<Plane>& channels);
+std::vector<Plane> gather_literal(const DefrayGatherParams& p, const GatherSamples& samples,
+                                  const std::vector<std::int32_t>& coc_quanta,
+                                  const std::vector<Plane>& channels);
+std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples& samples,
+                                const std::vector<std::int32_t>& coc_quanta,
+                                const std::vector<Plane>& channels);
 
 /// All passes.
 std::vector<Plane> render_gather(int width, int height, const std::vector<std::int32_t>& coc_quanta,

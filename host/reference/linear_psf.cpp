@@ -1,9 +1,8 @@
 // Twin of kernels/linear_psf.cl: Shinya 1994, eq. 5, with the disc of one pixel's soft border.
-#include "linear.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "linear.h"
 #include "reference/reference.h"
 
 namespace defray::reference {
