@@ -22,7 +22,7 @@ void print_text(const std::vector<DeviceInfo>& devices) {
     fmt::print("   64-bit atomics {}, double {}\n",
                d.has_int64_atomics ? "yes" : "no (two-pass scatter)", d.has_double ? "yes" : "no");
   }
-  fmt::print("reference: the scalar twin, double precision, one thread, no OpenCL\n");
+  fmt::print("reference: the scalar twins, one thread, no OpenCL\n");
 }
 
 void print_json(const std::vector<DeviceInfo>& devices) {

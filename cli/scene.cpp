@@ -10,6 +10,7 @@
 #include "error.h"
 #include "image/image_file.h"
 #include "image/safe_output.h"
+#include "options.h"
 #include "progress.h"
 #include "scenes/render.h"
 
@@ -75,6 +76,7 @@ void write_camera(const std::string& path, const std::string& json) {
 }
 
 int run(const Options& o) {
+  check_truth_samples(o.truth_samples);  // before anything is written
   const Scene scene = make_scene(o.name, o.width, o.height);
   std::vector<FocusSetting> settings = scene.settings;
   if (!o.setting.empty()) settings = {find_setting(scene, o.setting)};
@@ -106,7 +108,7 @@ Run add_scene(CLI::App& app) {
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
   auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "One of the scenes below")->required();
-  command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
+  command->add_option("-o,--output", o->folder, "Folder, made if missing")->required()->check(no_empty_path);
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");
   command->add_option("--setting", o->setting, "The truth of this focus setting only");

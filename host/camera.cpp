@@ -192,10 +192,11 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
   lens.focus_distance_units = *values.focus_distance_units;
   lens.aperture_diameter_mm =
       values.fstop ? lens.focal_length_mm / *values.fstop : *values.aperture_diameter_mm;
-  lens.aperture_diameter_mm /= perceived_scale(values, metres_per_unit);
   lens.metres_per_unit = metres_per_unit;
   lens.model = model;
   lens.max_coc_px = max_coc_px;
+  validate(lens);  // first: the perceived distance divides by the focus
+  lens.aperture_diameter_mm /= perceived_scale(values, metres_per_unit);
   validate(lens);
   return lens;
 }

@@ -121,13 +121,17 @@ DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_qua
 
 std::vector<std::int32_t> gather_reach_on_device(Session& session, int width, int height,
                                                  const std::vector<std::int32_t>& coc_quanta) {
-  const DefrayTileParams p = tile_params(width, height, largest_coc(coc_quanta));
+  DefrayTileParams p = tile_params(width, height, largest_coc(coc_quanta));
   std::vector<std::int32_t> reach(std::size_t{p.tiles_x} * p.tiles_y);
   const cl::Buffer largest = session.buffer(reach.size() * sizeof(std::int32_t));
+  const cl::Buffer along_x = session.buffer(reach.size() * sizeof(std::int32_t));
   const cl::Buffer out = session.buffer(reach.size() * sizeof(std::int32_t));
   session.launch("gather_tiles", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p,
                  session.view(coc_quanta), largest);
   session.launch("gather_reach", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p, largest,
+                 along_x);
+  p.along_y = 1;
+  session.launch("gather_reach", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p, along_x,
                  out);
   session.read(out, reach.data(), reach.size() * sizeof(std::int32_t));
   return reach;

@@ -1,9 +1,23 @@
 #include "method.h"
 
+#include "error.h"
 #include "reference/reference.h"
 
 namespace defray {
 namespace {
+
+/// Linear filtering divided by the light that each pixel got from a white frame: a lens blur as
+/// photo editors have it. Where the radius changes, the plain sum would show as bright and dark
+/// bands.
+template <typename Linear>
+std::vector<Plane> apply_tiltshift(const std::vector<Plane>& channels, const Linear& linear) {
+  std::vector<Plane> out = linear(channels);
+  const Plane white = linear({Plane(channels[0].size(), 1.0f)})[0];
+  for (Plane& plane : out) {
+    for (std::size_t i = 0; i < plane.size(); ++i) plane[i] /= white[i];
+  }
+  return out;
+}
 
 std::vector<Plane> apply_twin(const PinholeFrame& f, const MethodSettings& s,
                               const std::function<void(double)>& progress) {
@@ -13,9 +27,14 @@ std::vector<Plane> apply_twin(const PinholeFrame& f, const MethodSettings& s,
                                    progress);
     case Method::gather:
       return reference::render_gather(f.width, f.height, f.coc_quanta, f.channels, s.gather);
-    default:
+    case Method::linear:
       return reference::render_linear<float>(f.width, f.height, f.coc_quanta, f.channels);
+    case Method::tiltshift:
+      return apply_tiltshift(f.channels, [&](const std::vector<Plane>& planes) {
+        return reference::render_linear<float>(f.width, f.height, f.coc_quanta, planes);
+      });
   }
+  fail(ExitCode::internal, "a method without a twin");
 }
 
 }  // namespace
@@ -30,10 +49,15 @@ std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, 
     case Method::gather:
       return render_gather(*session, f.width, f.height, f.coc_quanta, f.channels, s.gather,
                            progress);
-    default:
+    case Method::linear:
       return render_linear(*session, f.width, f.height, f.coc_quanta, f.channels, s.linear,
                            progress);
+    case Method::tiltshift:
+      return apply_tiltshift(f.channels, [&](const std::vector<Plane>& planes) {
+        return render_linear(*session, f.width, f.height, f.coc_quanta, planes, s.linear, progress);
+      });
   }
+  fail(ExitCode::internal, "a method without a kernel");
 }
 
 }  // namespace defray

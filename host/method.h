@@ -13,7 +13,7 @@ enum class Method {
   rdb,        ///< Ray distribution buffer (Shinya 1994).
   linear,     ///< Each pixel spread over its PSF (Potmesil & Chakravarty 1981).
   gather,     ///< Poisson-disk gather (Glatzel & Wilhelm).
-  tiltshift,  ///< `linear` with a CoC from the pixel's row: no depth.
+  tiltshift,  ///< A mean with `linear`'s weights, its CoC from the pixel's row: no depth.
 };
 
 struct MethodSettings {

@@ -33,6 +33,7 @@ DefrayTiltshiftParams tiltshift_params(const TiltshiftSettings& s, int width, in
   p.band_centre_px = static_cast<float>(s.band_centre * display_height);
   p.half_band_px = static_cast<float>(half_band * display_height);
   // A band as high as the frame leaves nothing to blur.
+  p.limit_quanta = static_cast<float>(quanta);
   p.slope_quanta_per_px = ramp > 0 ? static_cast<float>(quanta / (ramp * display_height)) : 0;
   return p;
 }

@@ -27,9 +27,9 @@ float disc_area(const float radius) {
   return fmax(3.14159274f * (radius * radius + 0.0833333358f), 1.0f);
 }
 
-// Pixels that one of so many samples over a disc stands for, at least one.
+// Pixels, or parts of one, that one of so many samples over a disc stands for.
 float pixels_a_sample(const float radius, const uint count) {
-  return fmax(disc_area(radius) / (float)max(count, 1u), 1.0f);
+  return disc_area(radius) / (float)max(count, 1u);
 }
 
 __kernel void gather_aware(const DefrayGatherParams p, __global const int* restrict coc_quanta,
@@ -64,7 +64,8 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
   const float base_area = pixels_a_sample(splits ? own_radius : search, base_count);
 
   float4 near_sum = 0.0f, base_sum = 0.0f;  // of differences to the pixel's own colour
-  float near_weight = 0.0f, base_weight = 1.0f / base_area;  // the pixel itself is one pixel
+  float near_weight = 0.0f,
+        base_weight = 1.0f / fmax(base_area, 1.0f);  // the pixel itself: one pixel
   for (uint i = 0; i < p.sample_count && search >= 0.5f; ++i) {
     const bool only_base = splits && ((i + odd) / 2u & 1u);
     const bool only_near = splits && !only_base;

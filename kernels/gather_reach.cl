@@ -7,6 +7,8 @@
 // coc_quanta  [height][width]     signed radius, 1/256 px
 // largest     [tiles_y][tiles_x]  quanta
 // reach       [tiles_y][tiles_x]  quanta
+// gather_reach runs twice, along x and then, on its own result, along y: squares dilate one axis at
+// a time, and of the tiles of a row that reach a column the largest reaches farthest along it.
 // Global size of both: (tiles_x, tiles_y). Integers only: the same on every device.
 #include "params.h"
 
@@ -32,19 +34,17 @@ __kernel void gather_reach(const DefrayTileParams p, __global const int* restric
   const int tile_x = (int)get_global_id(0);
   const int tile_y = (int)get_global_id(1);
   if (tile_x >= (int)p.tiles_x || tile_y >= (int)p.tiles_y) return;
-  const int x0 = max(tile_x - p.reach_tiles, 0);
-  const int y0 = max(tile_y - p.reach_tiles, 0);
-  const int x1 = min(tile_x + p.reach_tiles, (int)p.tiles_x - 1);
-  const int y1 = min(tile_y + p.reach_tiles, (int)p.tiles_y - 1);
+  const int here = p.along_y ? tile_y : tile_x;
+  const int tiles = (int)(p.along_y ? p.tiles_y : p.tiles_x);
+  const int step = p.along_y ? (int)p.tiles_x : 1;
+  const int line = tile_y * (int)p.tiles_x + tile_x - here * step;
+  const int last = min(here + p.reach_tiles, tiles - 1);
   int most = 0;
-  for (int y = y0; y <= y1; ++y) {
-    for (int x = x0; x <= x1; ++x) {
-      // Pixel centres of different tiles are at least this far apart, in px.
-      const int gap_x = max((int)abs(x - tile_x) - 1, 0) * DEFRAY_GATHER_TILE;
-      const int gap_y = max((int)abs(y - tile_y) - 1, 0) * DEFRAY_GATHER_TILE;
-      const int theirs = largest[y * (int)p.tiles_x + x];
-      if ((long)max(gap_x, gap_y) << DEFRAY_COC_FRACTION_BITS <= theirs) most = max(most, theirs);
-    }
+  for (int i = max(here - p.reach_tiles, 0); i <= last; ++i) {
+    // Pixel centres of different tiles are at least this far apart, in px.
+    const int gap = max((int)abs(i - here) - 1, 0) * DEFRAY_GATHER_TILE;
+    const int theirs = largest[line + i * step];
+    if ((long)gap << DEFRAY_COC_FRACTION_BITS <= theirs) most = max(most, theirs);
   }
-  reach[tile_y * (int)p.tiles_x + tile_x] = most;
+  reach[line + here * step] = most;
 }

@@ -86,6 +86,7 @@ typedef struct {
   float band_centre_px;       ///< From the display window's top.
   float half_band_px;         ///< Half the height of the sharp band.
   float slope_quanta_per_px;  ///< Growth of the radius beyond the band.
+  float limit_quanta;         ///< Its end: data may lie beyond the frame's edge.
 } DefrayTiltshiftParams;
 
 /// A Poisson-disk gather over one band of target rows.
@@ -107,13 +108,14 @@ typedef struct {
   DEFRAY_UINT tiles_x;
   DEFRAY_UINT tiles_y;
   DEFRAY_INT reach_tiles;  ///< Tiles on each side from which a CoC can reach a tile.
+  DEFRAY_UINT along_y;     ///< gather_reach: 0 looks along x, 1 along y.
 } DefrayTileParams;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayLinearParams) == 24);
-static_assert(sizeof(DefrayTiltshiftParams) == 24);
+static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);
-static_assert(sizeof(DefrayTileParams) == 20);
+static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 48);
 #endif

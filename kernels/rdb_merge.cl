@@ -37,15 +37,18 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
     if (s == DEFRAY_EMPTY) continue;
     if (state.x == 0u) state.y = s;
     const uint f = state.y;
-    total += (float4)(channel0[s] - channel0[f], channel1[s] - channel1[f],
-                      channel2[s] - channel2[f], channel3[s] - channel3[f]);
+    if (s != f) {  // inf - inf would be NaN
+      total += (float4)(channel0[s] - channel0[f], channel1[s] - channel1[f],
+                        channel2[s] - channel2[f], channel3[s] - channel3[f]);
+    }
     ++state.x;
   }
 
   if (p.is_last_pass) {
     const uint f = state.y;  // the pixel itself where no ray has arrived
     const float4 first = (float4)(channel0[f], channel1[f], channel2[f], channel3[f]);
-    total = first + total / (float)max(state.x, 1u);
+    const float4 mean = first + total / (float)max(state.x, 1u);
+    total = select(mean, first, total == 0.0f);  // -0 + 0 would be +0
   }
   sum[target] = total;
   filled[target] = state;

@@ -14,5 +14,6 @@ __kernel void tiltshift(const DefrayTiltshiftParams p, __global int* restrict co
   if (x >= p.width || row >= p.rows) return;
   const float centre = p.first_row_px + (float)row + 0.5f;
   const float beyond = fmax(fabs(centre - p.band_centre_px) - p.half_band_px, 0.0f);
-  coc_quanta[(size_t)row * p.width + x] = convert_int_rte(p.slope_quanta_per_px * beyond);
+  coc_quanta[(size_t)row * p.width + x] =
+      convert_int_rte(fmin(p.slope_quanta_per_px * beyond, p.limit_quanta));
 }

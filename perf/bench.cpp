@@ -27,7 +27,8 @@ double largest_difference(const std::vector<Plane>& a, const std::vector<Plane>&
   double largest = 0;
   for (std::size_t c = 0; c < a.size(); ++c) {
     for (std::size_t i = 0; i < a[c].size(); ++i) {
-      largest = std::fmax(largest, std::fabs(double(a[c][i]) - double(b[c][i])));
+      const double difference = std::fabs(double(a[c][i]) - double(b[c][i]));
+      if (!(difference <= largest)) largest = difference;  // a NaN stays
     }
   }
   return largest;

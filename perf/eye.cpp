@@ -46,8 +46,10 @@ std::vector<Plane> render_tiltshift(Session& session, const Subject& s) {
   const auto p =
       tiltshift_params(estimate_gradient(s), s.scene.width, s.scene.height, 0, s.scene.height);
   const auto coc = tiltshift_on_device(session, p);
+  MethodSettings tiltshift_method;
+  tiltshift_method.method = Method::tiltshift;
   return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
-                      linear_of(), &session);
+                      tiltshift_method, &session);
 }
 
 View render_view(const Bench& bench, const std::string& name) {
@@ -161,7 +163,7 @@ Table cost(const Bench& bench, Section& section) {
       bench.session, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
   const Timing copy = time_copy(bench, s.pinhole.colour);
   Table table{"eye-cost",
-              "Cost at 1920 x 1200, 32 samples, 2 passes",
+              fmt::format("Cost at {} x {}, 32 samples, 2 passes", bench.size(1920), bench.size(1200)),
               {"what", "time", "copies of the frame"},
               {}};
   table.rows.push_back({"copy of the frame", to_text(copy), "1"});

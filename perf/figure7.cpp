@@ -16,7 +16,7 @@ Section figure7(const Bench& bench) {
       {},
       {}};
   Table table{"figure7",
-              "256 x 256, plate 2's scene",
+              fmt::format("{0} x {0}, plate 2's scene", bench.size(256)),
               {"cells a side", "RDB, focus 3 m", "RDB, focus 1 m", "accumulation, n x n views"},
               {}};
   Plot plot{"Figure 7: time against cells a side", "cells a side", "seconds", false, true, {}};

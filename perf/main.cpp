@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
 
 #include "error.h"
 #include "experiments.h"
@@ -30,16 +31,15 @@ std::vector<std::string> known_names() {
 std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
   std::vector<std::string> known = known_names();
   known.push_back("all");
-  std::vector<std::string> names;
+  bool is_all = false;
   for (const std::string& word : words) {
     if (std::find(known.begin(), known.end(), word) == known.end()) {
       fail(ExitCode::usage, "unknown experiment '{}'.{} There are: {}", word,
            did_you_mean(word, known), join(known, " "));
     }
-    if (word == "all") return known_names();
-    names.push_back(word);
+    is_all = is_all || word == "all";
   }
-  return names;
+  return is_all ? known_names() : words;
 }
 
 int run(const Options& o) {
@@ -56,6 +56,8 @@ int run(const Options& o) {
     };
     sections.push_back(experiments().at(name).run({o.folder, session, o.is_quick, step}));
     if (is_terminal) fmt::print(stderr, "\r\033[K");
+    // Small pictures have small circles of confusion: what they show is not what the papers saw.
+    if (o.is_quick) sections.back().findings = {"a rehearsal (--quick): its figures mean nothing"};
     for (const std::string& finding : sections.back().findings) {
       fmt::print("{}: {}\n", name, finding);
     }
@@ -63,6 +65,7 @@ int run(const Options& o) {
   }
   write_report(o.folder, session.info().name + ", " + session.info().version, sections);
   fmt::print("{}/index.html\n", o.folder);
+  if (std::fflush(stdout) != 0) fail(ExitCode::output, "cannot write to standard output");
   return 0;
 }
 
@@ -81,7 +84,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App* command = app.add_subcommand("experiment", "Run experiments, write one report");
   command->add_option("names", o.names, "Which, or all")->required();
   command->add_option("-o,--output", o.folder, "Folder for index.html, pictures, plots, CSV")
-      ->required();
+      ->required()
+      ->check([](const std::string& path) { return std::string(path.empty() ? "is empty" : ""); });
   command->add_option("--device", o.device, "Index or part of the name of 'defray devices'");
   command->add_flag("--quick", o.is_quick, "A quarter of the size, two repetitions: a rehearsal");
   command->footer(about());
@@ -116,5 +120,11 @@ int main(int argc, char** argv) {
   } catch (const defray::Error& error) {
     fmt::print(stderr, "defray-perf: error: {}\n", error.what());
     return static_cast<int>(error.code());
+  } catch (const std::system_error& error) {  // fmt's, from a broken standard output
+    fmt::print(stderr, "defray-perf: error: {}\n", error.what());
+    return static_cast<int>(defray::ExitCode::output);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "defray-perf: error: {}\n", error.what());
+    return static_cast<int>(defray::ExitCode::internal);
   }
 }

@@ -65,7 +65,7 @@ Section plate1(const Bench& bench) {
   const double opaque = mean_where(truth, bars);
   const double background = mean_where(s.pinhole.colour, background_mask(s));
   Table table{"plate1",
-              "Light inside the opaque bars, and the whole picture against 1024 lens rays",
+              "Light inside the opaque bars, and the whole picture against the truth",
               {"method", "mean inside the bars", "leaked, % of the background's light",
                "PSNR sRGB dB", "PSNR linear dB"},
               {}};
@@ -89,7 +89,7 @@ Section plate1(const Bench& bench) {
                    "opaque bars, the RDB {:.2f} %.",
                    linear_leak, rdb_leak)},
       {table},
-      {sheet(bench, "plate1", "Plate 1 at 640 x 480. The bars are opaque and in focus.",
+      {sheet(bench, "plate1", "Plate 1. The bars are opaque and in focus.",
              {{"pinhole", &s.pinhole.colour},
               {"linear", &linear},
               {"accumulation, 81 views", &accumulation},

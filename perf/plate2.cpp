@@ -34,7 +34,7 @@ Subject subject(const Bench& bench, int complexity, const std::string& setting) 
 /// Table 1, with the pictures of plate 2.
 void focus_settings(const Bench& bench, Section& section) {
   Table table{"plate2",
-              "Table 1: 640 x 480, 9 x 9, f/R = 1",
+              fmt::format("Table 1: {} x {}, 9 x 9, f/R = 1", bench.size(640), bench.size(480)),
               {"focus", "RDB", "accumulation, 81 views", "ratio", "paper's ratio",
                "PSNR between them, sRGB dB"},
               {}};

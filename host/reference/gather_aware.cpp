@@ -13,9 +13,9 @@ float disc_area(float radius) {
   return std::max(pi * (radius * radius + 1.0f / 12), 1.0f);
 }
 
-/// Pixels that one of so many samples over a disc stands for, at least one.
+/// Pixels, or parts of one, that one of so many samples over a disc stands for.
 float pixels_a_sample(float radius, std::size_t count) {
-  return std::max(disc_area(radius) / static_cast<float>(std::max<std::size_t>(count, 1)), 1.0f);
+  return disc_area(radius) / static_cast<float>(std::max<std::size_t>(count, 1));
 }
 
 /// One layer of a pixel's samples: how far they spread, and what each stands for.
@@ -102,7 +102,7 @@ void aware_pixel(const GatherFrame& frame, const std::vector<std::int32_t>& coc,
         return (1.0f - nearness(own, theirs)) * covers(own, distance);
       });
   const float near_weight = sum_of_weights(near, 0);
-  const float base_weight = sum_of_weights(base, 1 / base_layer.area);
+  const float base_weight = sum_of_weights(base, 1 / std::max(base_layer.area, 1.0f));
   const float rest = std::max(1.0f - near_weight, 0.0f);
   for (std::size_t c = 0; c < out.size(); ++c) {
     const Plane& plane = frame.channels[c];

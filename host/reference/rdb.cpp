@@ -103,7 +103,7 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress) {
   const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
-  std::vector<std::vector<double>> sum(channels.size(), std::vector<double>(depth.size()));
+  std::vector<std::vector<double>> sum(channels.size(), std::vector<double>(depth.size(), -0.0));
   std::vector<int> filled(depth.size());
   for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
     const auto winner = rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);

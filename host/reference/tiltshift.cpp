@@ -12,8 +12,8 @@ std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p) {
   for (std::uint32_t row = 0; row < p.rows; ++row) {
     const float centre = p.first_row_px + static_cast<float>(row) + 0.5f;
     const float beyond = std::max(std::fabs(centre - p.band_centre_px) - p.half_band_px, 0.0f);
-    coc.insert(coc.end(), p.width,
-               static_cast<std::int32_t>(std::nearbyint(p.slope_quanta_per_px * beyond)));
+    const float radius = std::min(p.slope_quanta_per_px * beyond, p.limit_quanta);
+    coc.insert(coc.end(), p.width, static_cast<std::int32_t>(std::nearbyint(radius)));
   }
   return coc;
 }

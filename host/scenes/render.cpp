@@ -151,11 +151,15 @@ ScenePicture render_hidden(const Scene& scene) {
   });
 }
 
-Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint32_t seed,
-                   const Progress& progress) {
+void check_truth_samples(int samples) {
   if (samples < 1 || samples > 65536) {
     fail(ExitCode::usage, "--truth-samples is {}: allowed are 1 to 65536", samples);
   }
+}
+
+Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint32_t seed,
+                   const Progress& progress) {
+  check_truth_samples(samples);
   const Tracer tracer(scene);
   const int counts[2] = {samples - samples / 2, samples / 2};
   std::vector<Plane> mean = empty_planes(scene);

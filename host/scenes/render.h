@@ -39,6 +39,9 @@ ScenePicture render_pinhole(const Scene& scene);
 /// Background where there is nothing more.
 ScenePicture render_hidden(const Scene& scene);
 
+/// Throws Error(usage) unless 1 <= samples <= 65536.
+void check_truth_samples(int samples);
+
 /// What the lens gives: the scene traced through `samples` stratified points of the aperture and
 /// of the pixel's square, for each pixel. Throws Error(usage) unless 1 <= samples <= 65536.
 Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint32_t seed,
