@@ -37,7 +37,7 @@ void check_outputs(const Options& o) {
   if (std::filesystem::equivalent(o.csv, o.camera_file, ignored)) {
     fail(ExitCode::usage, "{}: is input and output at once; write to another file", o.csv);
   }
-  if (!o.csv.empty() && o.csv == o.output) {
+  if (is_same_file(o.csv, o.output)) {
     fail(ExitCode::usage, "{}: -o and --csv are the same file", o.csv);
   }
 }

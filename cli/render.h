@@ -29,7 +29,7 @@ struct RenderOptions {
   bool jitter = false, rotate = false;
   std::optional<std::uint32_t> seed;
   std::optional<double> band_centre, band_width, max_blur;
-  double memory_mib = 512;
+  std::optional<double> memory_mib;
   std::string device, work_group;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
 };

@@ -42,7 +42,18 @@ void reject_foreign_options(const RenderOptions& o) {
       {"--perceived-distance", o.perceived_distance.has_value(), lens},
       {"--eye", !o.eye.empty(), lens},
       {"--max-coc", o.max_coc.has_value(), lens},
-      {"--camera", !o.camera.empty(), lens}};
+      {"--camera", !o.camera.empty(), lens},
+      {"--focus-setting", !o.focus_setting.empty(), lens},
+      {"--display-distance", o.display_distance.has_value(), lens},
+      {"--display-resolution", o.display_resolution.has_value(), lens},
+      {"--lens-model", o.lens_model != "cg", lens},
+      {"--depth-kind", o.depth_kind != "z", lens},
+      {"--near", o.near_units != 0, lens},
+      {"--far", o.far_units != 0, lens},
+      {"--invert", o.invert, lens},
+      {"--background", !o.background.empty(), lens},
+      {"--unit", o.unit != "m", lens},
+      {"--memory", o.memory_mib.has_value(), {"rdb", "linear", "tiltshift"}}};
   for (const MethodOption& option : options) {
     const auto& known = option.methods;
     if (!option.is_given || std::find(known.begin(), known.end(), o.method) != known.end())
@@ -87,7 +98,7 @@ void add_method_options(CLI::App& c, RenderOptions& o) {
   c.add_option("--max-blur", o.max_blur,
                "tiltshift: blur radius at the farthest edge, px; default 9.2")
       ->group(group);
-  c.add_option("--memory", o.memory_mib, "MiB for ray distribution buffers, or linear's planes")
+  c.add_option("--memory", o.memory_mib, "rdb, linear, tiltshift: MiB for buffers; default 512")
       ->group(group);
   c.add_option("--device", o.device, "Index or part of the name of 'defray devices'; reference")
       ->group(group);
@@ -99,11 +110,12 @@ MethodSettings to_method(const RenderOptions& o) {
   MethodSettings s;
   s.method = choice<Method>("--method", o.method, methods);
   reject_foreign_options(o);
-  if (!(o.memory_mib > 0) || o.memory_mib > 1048576) {
+  const double memory_mib = o.memory_mib.value_or(512);
+  if (!(memory_mib > 0) || memory_mib > 1048576) {
     fail(ExitCode::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
-         o.memory_mib);
+         memory_mib);
   }
-  const auto memory_bytes = static_cast<std::size_t>(o.memory_mib * 1048576);
+  const auto memory_bytes = static_cast<std::size_t>(memory_mib * 1048576);
   s.rdb = {o.rdb.value_or(9), o.jitter, o.seed.value_or(0), memory_bytes};
   make_lens_cells(s.rdb.cells_per_side, o.jitter);
   s.linear = {memory_bytes};

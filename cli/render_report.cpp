@@ -25,13 +25,14 @@ std::string depth_line(const FrameReport& r) {
 
 std::string lens_line(const FrameReport& r) {
   const Lens& l = r.lens;
-  return fmt::format(
-      "{:.6g} mm, aperture {:.6g} mm{}, sensor {:.6g} mm, focus {:.6g} units of {:.6g} m",
-      l.focal_length_mm, l.aperture_diameter_mm,
-      l.aperture_diameter_mm > 0
-          ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
-          : "",
-      l.sensor_width_mm, l.focus_distance_units, l.metres_per_unit);
+  return fmt::format("{:.6g} mm, aperture {:.6g} mm{}, {}, focus {:.6g} units of {:.6g} m",
+                     l.focal_length_mm, l.aperture_diameter_mm,
+                     l.aperture_diameter_mm > 0
+                         ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
+                         : "",
+                     l.pixels_per_metre > 0 ? fmt::format("{:.6g} px/m", l.pixels_per_metre)
+                                            : fmt::format("sensor {:.6g} mm", l.sensor_width_mm),
+                     l.focus_distance_units, l.metres_per_unit);
 }
 
 std::vector<std::string> notes_of(const FrameReport& r) {
@@ -50,29 +51,43 @@ std::vector<std::string> notes_of(const FrameReport& r) {
   return notes;
 }
 
+/// What a tilt-shift has none of.
+nlohmann::ordered_json lens_json(const FrameReport& r) {
+  if (r.depth_channel.empty()) return nlohmann::ordered_json::object();
+  nlohmann::ordered_json lens = {{"depth_channel", r.depth_channel},
+                                 {"focal_length_mm", r.lens.focal_length_mm},
+                                 {"aperture_diameter_mm", r.lens.aperture_diameter_mm},
+                                 {"focus_distance_units", r.lens.focus_distance_units},
+                                 {"metres_per_unit", r.lens.metres_per_unit},
+                                 {"nearest_units", r.depth.nearest_units},
+                                 {"farthest_units", r.depth.farthest_units},
+                                 {"background_px", r.depth.background},
+                                 {"nan_depth_px", r.depth.not_a_number},
+                                 {"depth_outside_range_px", r.depth.outside_range}};
+  if (r.lens.pixels_per_metre > 0) {
+    lens["pixels_per_metre"] = r.lens.pixels_per_metre;
+  } else {
+    lens["sensor_width_mm"] = r.lens.sensor_width_mm;
+  }
+  return lens;
+}
+
 nlohmann::ordered_json report_json(const FrameReport& r) {
-  return {{"colour_channels", r.colour_channels},
-          {"depth_channel", r.depth_channel},
-          {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
-          {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}},
-          {"focal_length_mm", r.lens.focal_length_mm},
-          {"aperture_diameter_mm", r.lens.aperture_diameter_mm},
-          {"sensor_width_mm", r.lens.sensor_width_mm},
-          {"focus_distance_units", r.lens.focus_distance_units},
-          {"metres_per_unit", r.lens.metres_per_unit},
-          {"nearest_units", r.depth.nearest_units},
-          {"farthest_units", r.depth.farthest_units},
-          {"background_px", r.depth.background},
-          {"nan_depth_px", r.depth.not_a_number},
-          {"depth_outside_range_px", r.depth.outside_range},
-          {"nearest_coc_px", r.nearest_coc_px},
-          {"farthest_coc_px", r.farthest_coc_px},
-          {"coc_limited_px", r.coc_limited},
-          {"nonfinite_values", r.nonfinite},
-          {"notes", r.notes},
-          {"read_s", r.read_seconds},
-          {"render_s", r.render_seconds},
-          {"write_s", r.write_seconds}};
+  nlohmann::ordered_json report = {
+      {"method", to_string(r.method)},
+      {"colour_channels", r.colour_channels},
+      {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
+      {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
+  report.update(lens_json(r));
+  report.update({{"nearest_coc_px", r.nearest_coc_px},
+                 {"farthest_coc_px", r.farthest_coc_px},
+                 {"coc_limited_px", r.coc_limited},
+                 {"nonfinite_values", r.nonfinite},
+                 {"notes", r.notes},
+                 {"read_s", r.read_seconds},
+                 {"render_s", r.render_seconds},
+                 {"write_s", r.write_seconds}});
+  return report;
 }
 
 }  // namespace
@@ -89,8 +104,8 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
-  fmt::print("  read {:.3f} s, render {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
-             r.render_seconds, device, r.write_seconds);
+  fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
+             to_string(r.method), r.render_seconds, device, r.write_seconds);
 }
 
 void print_json_line(const FrameOutcome& o, const std::string& device) {

@@ -108,7 +108,9 @@ Run add_scene(CLI::App& app) {
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
   auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "One of the scenes below")->required();
-  command->add_option("-o,--output", o->folder, "Folder, made if missing")->required()->check(no_empty_path);
+  command->add_option("-o,--output", o->folder, "Folder, made if missing")
+      ->required()
+      ->check(no_empty_path);
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");
   command->add_option("--setting", o->setting, "The truth of this focus setting only");

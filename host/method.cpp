@@ -39,6 +39,20 @@ std::vector<Plane> apply_twin(const PinholeFrame& f, const MethodSettings& s,
 
 }  // namespace
 
+const char* to_string(Method method) {
+  switch (method) {
+    case Method::rdb:
+      return "rdb";
+    case Method::linear:
+      return "linear";
+    case Method::gather:
+      return "gather";
+    case Method::tiltshift:
+      return "tiltshift";
+  }
+  return "";
+}
+
 std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, Session* session,
                                 const std::function<void(double)>& progress) {
   if (!session) return apply_twin(f, s, progress);

@@ -16,6 +16,9 @@ enum class Method {
   tiltshift,  ///< A mean with `linear`'s weights, its CoC from the pixel's row: no depth.
 };
 
+/// "rdb", as on the command line.
+const char* to_string(Method method);
+
 struct MethodSettings {
   Method method = Method::rdb;
   RdbSettings rdb;

@@ -39,7 +39,7 @@ void check_paths(const FramePaths& paths) {
       }
     }
   }
-  if (paths.coc == paths.output) {
+  if (is_same_file(paths.coc, paths.output)) {
     fail(ExitCode::usage, "{}: -o and --coc-out are the same file", paths.coc);
   }
 }
@@ -102,6 +102,12 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
     camera.source = paths.input + "'s metadata";
   }
   report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
+  if (settings.depth.kind == DepthKind::distance && report.lens.pixels_per_metre > 0) {
+    fail(
+        ExitCode::usage,
+        "--depth-kind distance needs the picture's field of view, which --eye and --pixel-scale do "
+        "not state: convert the depth to planar z first");
+  }
   report.depth = convert_depth(frame.depth, settings.depth, part.data, part.display,
                                pixel_focal_length(report.lens, part.display.width),
                                paths.depth.empty() ? paths.input : paths.depth);
@@ -142,6 +148,7 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
                          const std::function<void(double)>& progress) {
   FrameReport report;
   report.paths = paths;
+  report.method = settings.method.method;
   check_paths(paths);
   check_can_write(paths.output);
   if (!paths.coc.empty()) check_can_write(paths.coc);

@@ -45,6 +45,7 @@ struct FramePaths {
 /// What was done, for people and machines.
 struct FrameReport {
   FramePaths paths;
+  Method method = Method::rdb;
   std::vector<std::string> colour_channels;
   std::string depth_channel;  ///< Empty for a tilt-shift, which reads neither depth nor lens.
   Window data, display;

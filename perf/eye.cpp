@@ -162,10 +162,11 @@ Table cost(const Bench& bench, Section& section) {
   const Subject s = make_subject(
       bench.session, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
   const Timing copy = time_copy(bench, s.pinhole.colour);
-  Table table{"eye-cost",
-              fmt::format("Cost at {} x {}, 32 samples, 2 passes", bench.size(1920), bench.size(1200)),
-              {"what", "time", "copies of the frame"},
-              {}};
+  Table table{
+      "eye-cost",
+      fmt::format("Cost at {} x {}, 32 samples, 2 passes", bench.size(1920), bench.size(1200)),
+      {"what", "time", "copies of the frame"},
+      {}};
   table.rows.push_back({"copy of the frame", to_text(copy), "1"});
   for (const auto& [name, kind] : {std::pair{"gather literal", GatherKind::literal},
                                    std::pair{"gather aware", GatherKind::aware}}) {

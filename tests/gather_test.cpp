@@ -144,6 +144,24 @@ TEST(Gather, OnlyAwareKeepsSharpSurfacesCleanAndLetsNearOnesSpread) {
   EXPECT_EQ(left_of_edge(before, GatherKind::literal), 0);
 }
 
+TEST(Gather, MoreSamplesDoNotPileUpBesideNearEdges) {
+  // A white near half before a sharp black one: brightness must fall steadily across the edge, also
+  // with more samples than the disc has pixels.
+  Halves h = halves(-3, 0);
+  for (float& value : h.colour) value = 1 - value;
+  for (const int samples : {64, 1024}) {
+    if (samples > 64 && is_slow_device()) continue;
+    const Plane out =
+        render({64, 32}, h.coc, {h.colour}, settings_of(GatherKind::aware, samples, 1, false))[0];
+    for (int x = 26; x < 40; ++x) {
+      EXPECT_LE(out[16 * 64 + x + 1], out[16 * 64 + x] + 0.05)
+          << samples << " samples, column " << x;
+    }
+    // Two pixels beyond the edge a segment of the disc is all that arrives: 20 to 30 %.
+    EXPECT_NEAR(out[16 * 64 + 33], 0.2, 0.1) << samples;
+  }
+}
+
 TEST(Gather, RefusesAbsurdCounts) {
   for (const int samples : {0, -1, 1025}) {
     expect_error(2, {"--samples", std::to_string(samples), "1 to 1024"},

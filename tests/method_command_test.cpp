@@ -98,6 +98,38 @@ TEST_F(MethodCommand, RefusesOptionsOfOtherMethods) {
   expect_refused("--method tiltshift --focus 3", {"--focus", "rdb, linear, gather"});
 }
 
+TEST_F(MethodCommand, RefusesWhatTheMethodWouldIgnore) {
+  for (const std::string option :
+       {"--unit cm", "--depth-kind inverse", "--near 1", "--far 2", "--invert", "--background 0",
+        "--lens-model breathing", "--focus-setting x", "--display-distance 1",
+        "--display-resolution 9", "--depth in.exr", "--camera none.json", "--eye", "--max-coc 3"}) {
+    expect_refused("--method tiltshift " + option,
+                   {option.substr(0, option.find(' ')), "means nothing"});
+  }
+  expect_refused(lens + "--method gather --memory 100", {"--memory", "rdb, linear, tiltshift"});
+}
+
+TEST_F(MethodCommand, RefusesOneFileForTwoOutputsHoweverSpelt) {
+  expect_refused(lens + "--coc-out ./none.exr", {"-o and --coc-out", "same file"});
+}
+
+TEST_F(MethodCommand, ReportsSayWhatRan) {
+  const Result tiltshift = defray(folder, "render in.exr -o out.exr --json --method tiltshift");
+  EXPECT_NE(tiltshift.out.find("\"method\":\"tiltshift\""), std::string::npos) << tiltshift.out;
+  EXPECT_EQ(tiltshift.out.find("focal_length"), std::string::npos) << tiltshift.out;
+  const Result eye = defray(folder, "render in.exr -o out.exr --json --eye --focus 3");
+  EXPECT_NE(eye.out.find("\"pixels_per_metre\":28000"), std::string::npos) << eye.out;
+  EXPECT_EQ(eye.out.find("sensor"), std::string::npos) << eye.out;
+  EXPECT_NE(defray(folder, "render in.exr -o out.exr --eye --focus 3").out.find("28000 px/m"),
+            std::string::npos);
+}
+
+TEST_F(MethodCommand, RayDistancesNeedAFieldOfView) {
+  const Result result =
+      defray(folder, "render in.exr -o none.exr --depth-kind distance --eye --focus 3");
+  expect_refusal(result, 2, {"--depth-kind distance", "field of view"}, "distance");
+}
+
 TEST_F(MethodCommand, RefusesValuesOutOfRange) {
   expect_refused(lens + "--method gather --samples 0", {"--samples is 0", "1 to 1024"});
   expect_refused(lens + "--method gather --samples 100000", {"100000", "1 to 1024"});
@@ -115,6 +147,7 @@ TEST_F(MethodCommand, RefusesContradictingLenses) {
   expect_refused("--eye=retna --focus 5", {"retna", "Did you mean 'retina'"});
   expect_refused("--eye --focus 5 --display-distance 0.5", {"--display-distance", "--eye=display"});
   expect_refused("--eye=display --focus 5 --display-distance 0", {"above 0"});
+  expect_refused("--eye --focus -3 --perceived-distance 1", {"focus distance is -3"});
   expect_refused("--eye --focus 5 --scale 0", {"perceived scale is 0"});
   expect_refused("--eye --focus 5 --scale 1 --perceived-distance 1", {"--scale", "one of them"});
   expect_refused("--eye --focus inf --perceived-distance 1", {"finite --focus"});

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "reference/reference.h"
 #include "scenes/primitives.h"
 #include "scenes/render.h"
 #include "support.h"
+#include "tiltshift.h"
 
 namespace defray::test {
 namespace {
@@ -64,6 +66,18 @@ TEST(Method, ImpulsesKeepTheirCentroid) {
       EXPECT_NEAR(x / sum, 0, 0.01) << name << ", radius " << radius;
       EXPECT_NEAR(y / sum, 0, 0.01) << name << ", radius " << radius;
     }
+  }
+}
+
+TEST(Method, TiltshiftKeepsFlatAreasFlat) {
+  const auto coc = reference::tiltshift(tiltshift_params({0.5, 0.3, 12}, 40, 60, 0, 60));
+  const std::vector<Plane> grey{Plane(40 * 60, 0.5f)};
+  MethodSettings settings;
+  settings.method = Method::tiltshift;
+  for (Session* s : {&session(), static_cast<Session*>(nullptr)}) {
+    const Plane out = apply_method({40, 60, coc, {}, grey}, settings, s)[0];
+    // 25 x 25 additions each of light and weight.
+    for (const float value : out) ASSERT_NEAR(value, 0.5f, 2 * 625 * 0x1p-24);
   }
 }
 

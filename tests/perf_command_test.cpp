@@ -47,11 +47,14 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
     EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
   }
   EXPECT_GT(links, 20u);
+  EXPECT_NE(html.find("rehearsal"), std::string::npos);
   EXPECT_EQ(text_of("report/plate1.csv").substr(0, 7), "method,");
 }
 
 TEST_F(PerfCommand, RefusesWhatItCannotDo) {
   expect_refused("experiment plat1 -o report", 2, {"plat1", "Did you mean 'plate1'", "tradeoff"});
+  expect_refused("experiment all plat2 -o report", 2, {"plat2"});
+  expect_refused("experiment plate1 -o ''", 2, {"--output", "is empty"});
   expect_refused("experiment plate1 -o /proc/none", 4, {"/proc/none"});
   expect_refused("experiment plate1", 2, {"--output"});
   expect_refused("experiment plate1 -o report --device nothing", 5, {"nothing"});

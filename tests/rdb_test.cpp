@@ -2,6 +2,7 @@
 #include "rdb.h"
 
 #include <cmath>
+#include <limits>
 
 #include "reference/reference.h"
 #include "support.h"
@@ -116,6 +117,16 @@ TEST(Rdb, ClosedApertureReturnsTheInputBitForBit) {
   Input in = make_input({61, 33}, 0, 71);
   std::fill(in.coc.begin(), in.coc.end(), 0);
   EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
+}
+
+TEST(Rdb, ClosedApertureKeepsInfinityAndMinusZero) {
+  Input in = make_input({9, 7}, 0, 71);
+  std::fill(in.coc.begin(), in.coc.end(), 0);
+  in.channels[0][5] = std::numeric_limits<float>::infinity();
+  in.channels[1][6] = -0.0f;
+  EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
+  EXPECT_EQ(hash_of(reference::render_rdb(9, 7, in.coc, in.depth, in.channels, small_settings())),
+            hash_of(in.channels));
 }
 
 TEST(Rdb, FewerChannelsGiveTheSamePlanes) {

@@ -93,5 +93,13 @@ TEST(SceneCommand, OneCoreGivesTheSameBits) {
   EXPECT_EQ(file_hash(folder / "truth_f2.exr"), all);
 }
 
+TEST(SceneCommand, RefusesBeforeItWritesAnything) {
+  const Folder folder;
+  const Result samples = defray(folder, "scene plate1 -o out --truth-samples 0");
+  expect_refusal(samples, 2, {"--truth-samples is 0"}, "samples");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  expect_refusal(defray(folder, "scene plate1 -o ''"), 2, {"--output", "is empty"}, "empty");
+}
+
 }  // namespace
 }  // namespace defray::test

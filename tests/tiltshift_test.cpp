@@ -1,6 +1,8 @@
 // Kernel tiltshift and its twin: a gradient from a band to the frame's edges.
 #include "tiltshift.h"
 
+#include <algorithm>
+
 #include "reference/reference.h"
 #include "support.h"
 
@@ -37,6 +39,16 @@ TEST(Tiltshift, DataWindowsShareTheDisplayWindowsGradient) {
   const auto whole = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100));
   const auto part = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 30, 55, 100));
   EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + 55));
+}
+
+TEST(Tiltshift, DataBeyondTheFrameIsBlurredNoMoreThanItsEdge) {
+  // Rows from 1000 above to 2000 below a frame of 10, and next to no ramp.
+  for (const auto& s : {TiltshiftSettings{0.5, 0.99999999, 9}, {0.5, 0.2, 9}, {0, 0, 1024}}) {
+    const auto p = tiltshift_params(s, 1, 3000, -1000, 10);
+    const auto coc = tiltshift_on_device(session(), p);
+    EXPECT_EQ(coc, reference::tiltshift(p));
+    EXPECT_EQ(*std::max_element(coc.begin(), coc.end()), std::lround(256 * s.max_blur_px));
+  }
 }
 
 TEST(Tiltshift, BandAsHighAsTheFrameBlursNothing) {

@@ -106,4 +106,13 @@ void remove_temporary_on_signal() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code error;
+  const auto place = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return place(a) == place(b) || std::filesystem::equivalent(a, b, error);
+}
+
 }  // namespace defray

@@ -16,4 +16,7 @@ void write_safely(const std::string& path, const std::function<void(const std::s
 /// On SIGINT and SIGTERM: removes the temporary file in hand, then ends the process.
 void remove_temporary_on_signal();
 
+/// Whether two paths name one file, written yet or not, however they are spelt.
+bool is_same_file(const std::string& a, const std::string& b);
+
 }  // namespace defray
