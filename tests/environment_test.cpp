@@ -160,7 +160,8 @@ TEST(Help, ShowsUnitsDefaultsAndExamples) {
   }
   const Result render = defray(folder, "render --help");
   EXPECT_EQ(render.code, 0);
-  for (const char* word : {"--focus", "mm", "px", "Examples", "default 9", "=512", "Units"}) {
+  for (const char* word :
+       {"--focus", "mm", "px", "Examples", "default 9", "default 512", "Units"}) {
     EXPECT_NE(render.out.find(word), std::string::npos) << word << "\n" << render.out;
   }
   EXPECT_EQ(defray(folder, "--version").code, 0);
