@@ -12,7 +12,7 @@ std::vector<std::int32_t> coc_on_device(Session& session, const Lens& lens, int 
   for (std::size_t first = 0; first < depth.size(); first += chunk) {
     const std::size_t count = std::min(chunk, depth.size() - first);
     const DefrayCocParams p = coc_params(lens, display_width_px, static_cast<std::uint32_t>(count));
-    const cl::Buffer in = session.view(depth.data() + first, count * sizeof(float));
+    const cl::Buffer in = session.picture(depth.data() + first, count);
     const cl::Buffer out = session.buffer(count * sizeof(std::int32_t));
     session.launch("coc", DEFRAY_COC_GROUP, {count}, p, in, out);
     session.read(out, coc.data() + first, count * sizeof(std::int32_t));

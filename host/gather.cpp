@@ -42,7 +42,8 @@ std::vector<Plane> gather_once(Session& session, DefrayGatherParams p, GatherKin
   cl::Buffer in[4];
   // The kernel always takes four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
-    in[c] = c < channels.size() ? session.view(channels[c]) : in[c - 1];
+    in[c] =
+        c < channels.size() ? session.picture(channels[c].data(), channels[c].size()) : in[c - 1];
   }
   const int most_rows = std::min(rows_per_launch, height);
   std::vector<cl_float4> band(static_cast<std::size_t>(width) *
@@ -119,17 +120,26 @@ DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_qua
   return p;
 }
 
+std::vector<std::int32_t> gather_tiles_on_device(Session& session, int width, int height,
+                                                 const std::vector<std::int32_t>& coc_quanta) {
+  const DefrayTileParams p = tile_params(width, height, largest_coc(coc_quanta));
+  std::vector<std::int32_t> largest(std::size_t{p.tiles_x} * p.tiles_y);
+  const cl::Buffer out = session.buffer(largest.size() * sizeof(std::int32_t));
+  session.launch("gather_tiles", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p,
+                 session.view(coc_quanta), out);
+  session.read(out, largest.data(), largest.size() * sizeof(std::int32_t));
+  return largest;
+}
+
 std::vector<std::int32_t> gather_reach_on_device(Session& session, int width, int height,
                                                  const std::vector<std::int32_t>& coc_quanta) {
   DefrayTileParams p = tile_params(width, height, largest_coc(coc_quanta));
-  std::vector<std::int32_t> reach(std::size_t{p.tiles_x} * p.tiles_y);
-  const cl::Buffer largest = session.buffer(reach.size() * sizeof(std::int32_t));
+  std::vector<std::int32_t> reach = gather_tiles_on_device(session, width, height, coc_quanta);
+  const std::vector<std::int32_t> largest = reach;
   const cl::Buffer along_x = session.buffer(reach.size() * sizeof(std::int32_t));
   const cl::Buffer out = session.buffer(reach.size() * sizeof(std::int32_t));
-  session.launch("gather_tiles", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p,
-                 session.view(coc_quanta), largest);
-  session.launch("gather_reach", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p, largest,
-                 along_x);
+  session.launch("gather_reach", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p,
+                 session.view(largest), along_x);
   p.along_y = 1;
   session.launch("gather_reach", DEFRAY_GATHER_REACH_GROUP, {p.tiles_x, p.tiles_y}, p, along_x,
                  out);

@@ -41,6 +41,10 @@ DefrayGatherParams gather_params(const GatherSettings& settings, int width, int 
 /// Tiles of a frame, and how many of them a CoC of this size spans.
 DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_quanta);
 
+/// The largest |CoC| of each tile, quanta: kernel `gather_tiles`.
+std::vector<std::int32_t> gather_tiles_on_device(Session& session, int width, int height,
+                                                 const std::vector<std::int32_t>& coc_quanta);
+
 /// How far light comes from, for each tile, quanta: kernels `gather_tiles` and `gather_reach`.
 std::vector<std::int32_t> gather_reach_on_device(Session& session, int width, int height,
                                                  const std::vector<std::int32_t>& coc_quanta);

@@ -135,7 +135,7 @@ void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, i
   cl::Buffer in[4], result[4];
   // The kernel always sums four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
-    in[c] = c < scaled.size() ? session.view(scaled[c]) : in[c - 1];
+    in[c] = c < scaled.size() ? session.picture(scaled[c].data(), scaled[c].size()) : in[c - 1];
     result[c] = session.buffer(bytes);
   }
   for (p.first_row = 0; p.first_row < rows; p.first_row += rows_per_launch) {

@@ -11,13 +11,6 @@ std::size_t pixels(int width, int rows) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
 }
 
-/// A device view of the rows [first_row, first_row + rows) of a plane.
-template <typename T>
-cl::Buffer view_rows(Session& session, const std::vector<T>& plane, int width, int first_row,
-                     int rows) {
-  return session.view(plane.data() + pixels(width, first_row), pixels(width, rows) * sizeof(T));
-}
-
 }  // namespace
 
 RdbRun::RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
@@ -62,10 +55,10 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
 
 void RdbRun::view_window(const RdbPass& pass) {
   if (window_.band_y == pass.band_y) return;
-  const auto view = [&](const auto& plane) {
-    return view_rows(session_, plane, width_, pass.window_y, pass.window_rows);
-  };
-  window_ = {pass.band_y, view(coc_), view(depth_), {}};
+  const std::size_t first = pixels(width_, pass.window_y);
+  const std::size_t count = pixels(width_, pass.window_rows);
+  const auto view = [&](const Plane& plane) { return session_.picture(&plane[first], count); };
+  window_ = {pass.band_y, session_.view(&coc_[first], count * sizeof(coc_[0])), view(depth_), {}};
   // The kernel always sums four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
     window_.channel[c] = c < channels_.size() ? view(channels_[c]) : window_.channel[c - 1];

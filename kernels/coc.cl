@@ -8,8 +8,6 @@
 // coc_quanta   [pixel_count]  signed radius, 1/256 px, rounded to nearest even
 #include "params.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 __kernel void coc(const DefrayCocParams p, __global const float* restrict depth_units,
                   __global int* restrict coc_quanta) {
   const uint i = get_global_id(0);

@@ -4,8 +4,6 @@
 #include "params.h"
 #include "pcg3d.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 // The turn (cos, sin) of a pixel's sample set, from a table: no device's sine matters.
 float2 gather_turn(const DefrayGatherParams p, __global const float2* restrict rotations,
                    const uint x, const uint y) {

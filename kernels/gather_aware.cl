@@ -15,8 +15,6 @@
 // Samples are taken at whole pixels: no colour is mixed across an edge.
 #include "gather.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 // Share of a disc's border pixel at this distance from its centre.
 float covers(const float radius, const float distance) {
   return clamp(radius + 0.5f - distance, 0.0f, 1.0f);

@@ -12,8 +12,6 @@
 // Global size: (width, band_rows).
 #include "gather.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 __kernel void gather_literal(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                              __global const float2* restrict samples,
                              __global const float2* restrict rotations,

@@ -14,8 +14,6 @@
 // launch_rows).
 #include "params.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 // Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
 float16 lit(const float16 weight, const float16 colour) {
   return select((float16)(-0.0f), weight * colour, weight > 0.0f);

@@ -14,8 +14,6 @@
 // Global size: (width, band_rows).
 #include "params.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
                         __global const float* restrict channel0,
                         __global const float* restrict channel1,

@@ -6,8 +6,6 @@
 // Global size: (width, rows).
 #include "params.h"
 
-#pragma OPENCL FP_CONTRACT OFF
-
 __kernel void tiltshift(const DefrayTiltshiftParams p, __global int* restrict coc_quanta) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);

@@ -46,7 +46,7 @@ Session& session() {
 
 Session& session_without_int64() {
   auto& shared = sessions().without_int64;
-  if (!shared) shared = std::make_unique<Session>(device_under_test(), false);
+  if (!shared) shared = std::make_unique<Session>(device_under_test(), SessionOptions{false});
   return *shared;
 }
 

@@ -34,6 +34,9 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   info.has_int64_atomics = extensions.find("cl_khr_int64_extended_atomics") != std::string::npos;
   const cl_device_type not_cpu = CL_DEVICE_TYPE_GPU | CL_DEVICE_TYPE_ACCELERATOR;
   info.shares_host_memory = (device.getInfo<CL_DEVICE_TYPE>() & not_cpu) == 0;
+  const auto floats = device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>();
+  info.rounds_divisions = (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
+  info.keeps_denormals = (floats & CL_FP_DENORM) != 0;
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
   return info;
 }

@@ -22,6 +22,8 @@ struct DeviceInfo {
   std::size_t max_buffer_bytes = 0;
   bool has_int64_atomics = false;  ///< Packed z-test; without it the scatter runs twice.
   bool has_double = false;
+  bool rounds_divisions = false;    ///< x / y and sqrt(x) can be correctly rounded, if asked for.
+  bool keeps_denormals = false;     ///< Otherwise floats below 2^-126 may count as 0.
   bool shares_host_memory = false;  ///< A CPU: buffers can be host memory itself.
 };
 

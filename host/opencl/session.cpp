@@ -1,5 +1,7 @@
 #include "opencl/session.h"
 
+#include <Imath/half.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -32,10 +34,10 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
 /// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails
 /// with an empty log, and a new program succeeds. A real compile error has a log: no second try.
 cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
-                          const std::string& options) {
+                          const std::string& source, const std::string& options) {
   constexpr int attempts = 8;
   for (int attempt = 1;; ++attempt) {
-    cl::Program program(context, std::string(kernels_source));
+    cl::Program program(context, source);
     try {
       program.build({info.device}, options.c_str());
       return program;
@@ -51,16 +53,68 @@ cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
   }
 }
 
+std::string substituted(std::string text, const std::vector<Substitution>& substitutions) {
+  for (const Substitution& s : substitutions) {
+    const std::size_t at = text.find(s.from);
+    if (at == std::string::npos || text.find(s.from, at + 1) != std::string::npos) {
+      fail(ExitCode::internal, "'{}' is not in the kernels exactly once", s.from);
+    }
+    text.replace(at, s.from.size(), s.to);
+  }
+  return text;
+}
+
+std::string build_options(const DeviceInfo& info, const SessionOptions& options,
+                          bool int64_atomics) {
+  std::string text = "-cl-std=CL1.2 " + options.build_options;
+  if (int64_atomics) text += " -DDEFRAY_INT64_ATOMICS";
+  if (options.math == Math::fast) return text + " -DDEFRAY_FAST_MATH -cl-fast-relaxed-math";
+  // Without it OpenCL lets x / y be 2.5 ulp off, and sqrt 3.
+  if (info.rounds_divisions) text += " -cl-fp32-correctly-rounded-divide-sqrt";
+  return text;
+}
+
 }  // namespace
 
-Session::Session(const DeviceInfo& info, bool use_int64_atomics)
-    : info_(info), int64_atomics_(use_int64_atomics && info.has_int64_atomics) {
+Session::Session(const DeviceInfo& info, const SessionOptions& options)
+    : info_(info),
+      int64_atomics_(options.use_int64_atomics && info.has_int64_atomics),
+      half_planes_(options.half_planes),
+      measures_(options.measures) {
   context_ = checked(info_, "clCreateContext", [&] { return cl::Context(info.device); });
-  queue_ = checked(info_, "clCreateCommandQueue", [&] { return cl::CommandQueue(context_); });
-  const std::string options =
-      std::string("-cl-std=CL1.2") + (int64_atomics_ ? " -DDEFRAY_INT64_ATOMICS" : "");
-  program_ = checked(info_, "clCreateProgramWithSource",
-                     [&] { return build_program(context_, info_, options); });
+  queue_ = checked(info_, "clCreateCommandQueue", [&] {
+    return cl::CommandQueue(context_, info.device, measures_ ? CL_QUEUE_PROFILING_ENABLE : 0);
+  });
+  const std::string source = substituted(std::string(kernels_source), options.substitutions);
+  program_ = checked(info_, "clCreateProgramWithSource", [&] {
+    return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
+  });
+}
+
+std::vector<std::string> Session::kernel_names() const {
+  // Not CL_PROGRAM_KERNEL_NAMES: OpenCL 1.2 calls it optional without an online linker.
+  return checked(info_, "clCreateKernelsInProgram", [&] {
+    std::vector<cl::Kernel> kernels;
+    cl::Program(program_).createKernels(&kernels);
+    std::vector<std::string> names;
+    for (const cl::Kernel& k : kernels) names.push_back(k.getInfo<CL_KERNEL_FUNCTION_NAME>());
+    std::sort(names.begin(), names.end());
+    return names;
+  });
+}
+
+std::map<std::string, double> Session::take_kernel_seconds() {
+  finish();
+  std::map<std::string, double> seconds;
+  for (const auto& [name, events] : events_) {
+    for (const cl::Event& event : events) {
+      const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+      const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+      seconds[name] += 1e-9 * static_cast<double>(end - start);
+    }
+  }
+  events_.clear();
+  return seconds;
 }
 
 void Session::set_work_group(std::size_t x, std::size_t y) {
@@ -96,6 +150,16 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
   });
 }
 
+cl::Buffer Session::picture(const float* data, std::size_t count) {
+  if (!half_planes_) return view(data, count * sizeof(float));
+  std::vector<Imath::half> halves(data, data + count);
+  const cl::Buffer copy = buffer(count * sizeof(Imath::half));
+  checked(info_, "clEnqueueWriteBuffer", [&] {
+    queue_.enqueueWriteBuffer(copy, CL_TRUE, 0, count * sizeof(Imath::half), halves.data());
+  });
+  return copy;
+}
+
 void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes) {
   checked(info_, "clEnqueueReadBuffer",
           [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
@@ -124,10 +188,13 @@ void Session::enqueue(cl::Kernel& kernel, const char* name, std::size_t default_
   for (std::size_t d = 0; d < global.size(); ++d) {
     padded[d] = (global[d] + group[d] - 1) / group[d] * group[d];
   }
+  cl::Event event;
   checked(info_, std::string("clEnqueueNDRangeKernel ") + name, [&] {
     queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(padded[0], padded[1], padded[2]),
-                                cl::NDRange(group[0], group[1], group[2]));
+                                cl::NDRange(group[0], group[1], group[2]), nullptr,
+                                measures_ ? &event : nullptr);
   });
+  if (measures_) events_[name].push_back(event);
 }
 
 std::string opencl_error_name(int code) {

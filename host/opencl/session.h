@@ -1,6 +1,7 @@
 #pragma once
 // One device, made ready: context, queue and the kernels, built once.
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,15 +9,40 @@
 
 namespace defray {
 
+/// How kernels compute.
+enum class Math {
+  strict,  ///< As written, every operation rounded: the scalar twins' bits.
+  fast,    ///< The compiler may fuse and approximate: results differ from device to device.
+};
+
+/// A change of the kernels' text, for experiments and for faults that tests must find.
+struct Substitution {
+  std::string from, to;  ///< `from` must be there exactly once.
+};
+
+struct SessionOptions {
+  bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
+  Math math = Math::strict;
+  std::string build_options = {};  ///< More options for the OpenCL compiler.
+  std::vector<Substitution> substitutions = {};
+  bool half_planes = false;  ///< `picture` hands kernels half floats: they must be told to read so.
+  bool measures = false;     ///< Keep each kernel's time on the device.
+};
+
 /// Runs kernels on one device. Every failure is an Error(device) that names the call and the
 /// OpenCL error; a failed build carries the compiler's log.
 class Session {
  public:
-  /// `use_int64_atomics` false takes the two-pass scatter even where the device could do better.
-  explicit Session(const DeviceInfo& info, bool use_int64_atomics = true);
+  explicit Session(const DeviceInfo& info, const SessionOptions& options = {});
 
   const DeviceInfo& info() const { return info_; }
   bool has_int64_atomics() const { return int64_atomics_; }
+
+  /// Names of all kernels of the program, sorted.
+  std::vector<std::string> kernel_names() const;
+
+  /// Seconds that each kernel has run since the last call. Needs SessionOptions::measures.
+  std::map<std::string, double> take_kernel_seconds();
 
   /// Work-group for every kernel, {x, y}; {0, 0}: each kernel's own default.
   void set_work_group(std::size_t x, std::size_t y);
@@ -30,6 +56,9 @@ class Session {
   cl::Buffer view(const std::vector<T>& plane) {
     return view(plane.data(), plane.size() * sizeof(T));
   }
+
+  /// A read-only view of colour or depth: `view`, or a copy in half floats where so asked.
+  cl::Buffer picture(const float* data, std::size_t count);
 
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
 
@@ -60,7 +89,8 @@ class Session {
                const std::vector<std::size_t>& global);
 
   DeviceInfo info_;
-  bool int64_atomics_;
+  bool int64_atomics_, half_planes_, measures_;
+  std::map<std::string, std::vector<cl::Event>> events_;
   std::size_t group_x_ = 0;
   std::size_t group_y_ = 0;
   cl::Context context_;

@@ -98,33 +98,70 @@ std::vector<std::int64_t> rdb_scatter(int width, int height, const LensCells& ce
   return winner;
 }
 
+namespace {
+
+/// Calls visit(target, source) for every ray that wins a cell, cell by cell in lens order.
+template <typename Visit>
+void for_each_winner(int width, int height, const std::vector<std::int32_t>& coc_quanta,
+                     const Plane& depth, const RdbSettings& settings, const Visit& visit,
+                     const std::function<void(double)>& progress) {
+  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
+  const std::size_t count = cells.centres.size();
+  for (std::size_t cell = 0; cell < count; ++cell) {
+    const auto winner = rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
+    for (std::size_t i = 0; i < winner.size(); ++i) {
+      if (winner[i] >= 0) visit(i, static_cast<std::size_t>(winner[i]));
+    }
+    if (progress) progress(static_cast<double>(cell + 1) / static_cast<double>(count));
+  }
+}
+
+}  // namespace
+
 std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
                               const Plane& depth, const std::vector<Plane>& channels,
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress) {
-  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
-  std::vector<std::vector<double>> sum(channels.size(), std::vector<double>(depth.size(), -0.0));
-  std::vector<int> filled(depth.size());
-  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const auto winner = rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
-    for (std::size_t i = 0; i < winner.size(); ++i) {
-      if (winner[i] < 0) continue;
-      ++filled[i];
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        sum[c][i] += static_cast<double>(channels[c][static_cast<std::size_t>(winner[i])]);
-      }
+  std::vector<Plane> sum(channels.size(), Plane(depth.size()));
+  std::vector<std::size_t> first(depth.size()), filled(depth.size());
+  const auto add = [&](std::size_t target, std::size_t source) {
+    if (filled[target]++ == 0) first[target] = source;
+    if (source == first[target]) return;
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      sum[c][target] += channels[c][source] - channels[c][first[target]];
     }
-    if (progress) {
-      progress(static_cast<double>(cell + 1) / static_cast<double>(cells.centres.size()));
-    }
-  }
+  };
+  for_each_winner(width, height, coc_quanta, depth, settings, add, progress);
   std::vector<Plane> out(channels);  // a pixel that no ray reached keeps its own colour
   for (std::size_t c = 0; c < out.size(); ++c) {
     for (std::size_t i = 0; i < out[c].size(); ++i) {
-      if (filled[i] > 0) out[c][i] = static_cast<float>(sum[c][i] / filled[i]);
+      if (filled[i] == 0) continue;
+      out[c][i] = channels[c][first[i]];
+      if (sum[c][i] != 0) out[c][i] += sum[c][i] / static_cast<float>(filled[i]);
     }
   }
   return out;
+}
+
+std::vector<std::vector<double>> exact_rdb(int width, int height,
+                                           const std::vector<std::int32_t>& coc_quanta,
+                                           const Plane& depth, const std::vector<Plane>& channels,
+                                           const RdbSettings& settings) {
+  std::vector<std::vector<double>> mean(channels.size(), std::vector<double>(depth.size()));
+  std::vector<int> filled(depth.size());
+  const auto add = [&](std::size_t target, std::size_t source) {
+    ++filled[target];
+    for (std::size_t c = 0; c < mean.size(); ++c) {
+      mean[c][target] += static_cast<double>(channels[c][source]);
+    }
+  };
+  for_each_winner(width, height, coc_quanta, depth, settings, add, {});
+  for (std::size_t c = 0; c < mean.size(); ++c) {
+    for (std::size_t i = 0; i < filled.size(); ++i) {
+      mean[c][i] = filled[i] == 0 ? static_cast<double>(channels[c][i]) : mean[c][i] / filled[i];
+    }
+  }
+  return mean;
 }
 
 }  // namespace defray::reference

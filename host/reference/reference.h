@@ -26,11 +26,19 @@ std::vector<std::int64_t> rdb_scatter(int width, int height, const LensCells& ce
                                       const std::vector<std::int32_t>& coc_quanta,
                                       const Plane& depth);
 
-/// Twins of `rdb_scatter` and `rdb_merge`: the lens picture.
+/// Twins of `rdb_scatter` and `rdb_merge`: the lens picture, summed in float and in the kernel's
+/// order: equal bits.
 std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
                               const Plane& depth, const std::vector<Plane>& channels,
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress = {});
+
+/// The same means without float's rounding, cells simply added up: what rounding is measured
+/// against.
+std::vector<std::vector<double>> exact_rdb(int width, int height,
+                                           const std::vector<std::int32_t>& coc_quanta,
+                                           const Plane& depth, const std::vector<Plane>& channels,
+                                           const RdbSettings& settings);
 
 /// Twin of kernel `linear_psf` with its preparation, edge pixels repeated outside the frame. Real
 /// float adds in the kernel's order: equal bits. Real double is what rounding is measured against.
@@ -42,7 +50,11 @@ std::vector<std::vector<Real>> render_linear(int width, int height,
 /// Twin of kernel `tiltshift`.
 std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p);
 
-/// Twin of kernels `gather_tiles` and `gather_reach`, each tile against each.
+/// Twin of kernel `gather_tiles`.
+std::vector<std::int32_t> gather_tiles(int width, int height,
+                                       const std::vector<std::int32_t>& coc_quanta);
+
+/// Twin of kernel `gather_reach`, both its runs: each tile against each.
 std::vector<std::int32_t> gather_reach(int width, int height,
                                        const std::vector<std::int32_t>& coc_quanta);
 
