@@ -93,16 +93,14 @@ constexpr std::size_t planes_in = 5, planes_out = 4;
 
 /// Rows of a band whose planes fit the memory.
 int band_rows_for(int width, int height, int reach, std::size_t memory_bytes) {
-  const std::size_t in_row = planes_in * sizeof(float) * PaddedBand::stride_for(width, reach);
-  const std::size_t out_row = planes_out * sizeof(float) * PaddedBand::target_stride_for(width);
-  const std::size_t fixed = 2 * as_size(reach) * in_row;
-  const std::size_t least = fixed + in_row + out_row;
+  const std::size_t least = linear_band_bytes(width, reach, 1);
   if (memory_bytes < least) {
     fail(ExitCode::usage,
          "--memory is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
          std::ldexp(static_cast<double>(memory_bytes), -20), width, reach, (least >> 20) + 1);
   }
-  return static_cast<int>(std::min(as_size(height), (memory_bytes - fixed) / (in_row + out_row)));
+  const std::size_t row = linear_band_bytes(width, reach, 2) - least;
+  return static_cast<int>(std::min(as_size(height), 1 + (memory_bytes - least) / row));
 }
 
 /// Whole pixels that a disc of this radius reaches; it ends half a pixel beyond its radius.
@@ -153,6 +151,12 @@ void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, i
 }
 
 }  // namespace
+
+std::size_t linear_band_bytes(int width, int reach, int rows) {
+  const std::size_t in_row = planes_in * sizeof(float) * PaddedBand::stride_for(width, reach);
+  const std::size_t out_row = planes_out * sizeof(float) * PaddedBand::target_stride_for(width);
+  return as_size(rows + 2 * reach) * in_row + as_size(rows) * out_row;
+}
 
 int linear_reach(const std::vector<std::int32_t>& coc_quanta) {
   const std::int32_t largest = largest_coc(coc_quanta);

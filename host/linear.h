@@ -25,6 +25,9 @@ std::vector<Plane> render_linear(Session& session, int width, int height,
                                  const std::vector<Plane>& channels, const LinearSettings& settings,
                                  const std::function<void(double)>& progress = {});
 
+/// Memory for a band of so many rows.
+std::size_t linear_band_bytes(int width, int reach, int rows);
+
 /// Reach of `linear`, in whole pixels, for these CoC radii. Throws Error(usage) above the limit.
 int linear_reach(const std::vector<std::int32_t>& coc_quanta);
 

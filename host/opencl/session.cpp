@@ -154,15 +154,18 @@ cl::Buffer Session::picture(const float* data, std::size_t count) {
   if (!half_planes_) return view(data, count * sizeof(float));
   std::vector<Imath::half> halves(data, data + count);
   const cl::Buffer copy = buffer(count * sizeof(Imath::half));
-  checked(info_, "clEnqueueWriteBuffer", [&] {
-    queue_.enqueueWriteBuffer(copy, CL_TRUE, 0, count * sizeof(Imath::half), halves.data());
-  });
+  write(copy, halves.data(), count * sizeof(Imath::half));
   return copy;
 }
 
 void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes) {
   checked(info_, "clEnqueueReadBuffer",
           [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
+}
+
+void Session::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) {
+  checked(info_, "clEnqueueWriteBuffer",
+          [&] { queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data); });
 }
 
 void Session::finish() {

@@ -61,6 +61,7 @@ class Session {
   cl::Buffer picture(const float* data, std::size_t count);
 
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
+  void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);
 
   /// Enqueues kernel `name` over at least `global` work-items (kernels test their bounds).
   template <typename... Args>

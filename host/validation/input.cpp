@@ -1,0 +1,105 @@
+#include "validation/input.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "random.h"
+
+namespace defray::validation {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
+
+/// Depth, and CoC as a share of the largest.
+struct Point {
+  float depth;
+  double share;
+};
+
+/// Depths from denormal to the largest float, and the special ones.
+float any_depth(Random& random) {
+  constexpr std::array special{infinite, 1e10f, 65504.0f, 1e-6f, 1e-38f, 1e-45f, 3.4e38f, 1.0f};
+  const double choice = random.next();
+  if (choice < 0.1) return special[static_cast<std::size_t>(choice * 80)];
+  if (choice < 0.4) return static_cast<float>(1 + 8 * random.next());
+  return std::max(static_cast<float>(std::exp2(-149 + 276 * random.next())), 1e-45f);
+}
+
+Point point_at(const Case& c, int x, int y, Random& random) {
+  const double across = (x + 0.5) / c.width;
+  switch (c.pattern) {
+    case Pattern::constant:
+      return {2, 1};
+    case Pattern::slanted:
+      return {static_cast<float>(1 + 8 * across), 2 * across - 1};
+    case Pattern::steps: {
+      Random block(x / 11, y / 7, c.seed);
+      const auto depth = static_cast<float>(1 + std::floor(8 * block.next()));
+      return {depth, std::floor(9 * block.next()) / 4 - 1};
+    }
+    case Pattern::random:
+      return {any_depth(random), 2 * random.next() - 1};
+    case Pattern::ties: {
+      const auto depth = static_cast<float>(1 + std::floor(3 * random.next()));
+      const double halves = 2 * c.coc_px * (2 * random.next() - 1);
+      return {random.next() < 0.05 ? infinite : depth,
+              c.coc_px > 0 ? std::trunc(halves) / (2 * c.coc_px) : 0};
+    }
+    case Pattern::converging:  // for the lens coordinate 1/2: x + r / 2 is the frame's middle
+      return {2, c.coc_px > 0 ? (c.width - 2.0 * x) / c.coc_px : 0};
+    case Pattern::checker:
+      return (x + y) % 2 == 0 ? Point{1, -1} : Point{5, 1};
+  }
+  return {1, 0};
+}
+
+float colour(Colours colours, Random& random) {
+  constexpr std::array extremes{0.0f,  -0.0f,  1e-45f, -1e-45f, 65504.0f,
+                                1e30f, -1e30f, 1.0f,   0.18f,   std::numeric_limits<float>::max()};
+  constexpr std::array nonfinite{infinite, -infinite, std::numeric_limits<float>::quiet_NaN()};
+  const double choice = random.next();
+  switch (colours) {
+    case Colours::plain:
+      break;
+    case Colours::wild:
+      return static_cast<float>(std::exp2(12 * random.next() - 6) * (choice < 0.125 ? -1 : 1));
+    case Colours::extreme:
+      return extremes[static_cast<std::size_t>(choice * extremes.size())];
+    case Colours::nonfinite:
+      if (choice < 0.03) return nonfinite[static_cast<std::size_t>(choice * 100)];
+  }
+  return static_cast<float>(random.next());
+}
+
+/// f = 50 mm on 36 mm film; the aperture that makes the background's CoC as large as asked.
+Lens lens_of(const Case& c) {
+  Lens lens;
+  lens.focus_distance_units = c.focus;
+  const double distance = std::isinf(c.focus) ? 1 : c.focus;
+  lens.aperture_diameter_mm = 1000 * 2 * c.coc_px * distance / pixel_focal_length(lens, c.width);
+  return lens;
+}
+
+}  // namespace
+
+Input make_input(const Case& c) {
+  Input in;
+  in.lens = lens_of(c);
+  in.channels.resize(static_cast<std::size_t>(c.channels));
+  for (int y = 0; y < c.height; ++y) {
+    for (int x = 0; x < c.width; ++x) {
+      Random random(x, y, c.seed);
+      const Point p = point_at(c, x, y, random);
+      in.depth.push_back(p.depth);
+      const double quanta = quanta_per_px * c.coc_px * std::clamp(p.share, -1.0, 1.0);
+      in.coc_quanta.push_back(static_cast<std::int32_t>(std::lround(quanta)));
+      for (Plane& plane : in.channels) plane.push_back(colour(c.colours, random));
+    }
+  }
+  return in;
+}
+
+}  // namespace defray::validation

@@ -1,0 +1,237 @@
+#include "validation/kernel_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gather.h"
+#include "linear.h"
+#include "random.h"
+#include "rdb.h"
+#include "reference/reference.h"
+#include "tiltshift.h"
+#include "validation/rdb_winners.h"
+
+namespace defray::validation {
+namespace {
+
+double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
+
+template <typename T>
+Values integers(const std::vector<T>& values) {
+  return {{values.begin(), values.end()}, {}};
+}
+
+double square(double x) { return x * x; }
+
+// coc ---------------------------------------------------------------------------------------------
+
+Values run_coc(Session& session, const Case& c, const Input& in) {
+  return integers(coc_on_device(session, in.lens, c.width, in.depth));
+}
+
+Values twin_coc(const Case& c, const Input& in) {
+  return integers(reference::coc(in.lens, c.width, in.depth));
+}
+
+/// 4 ulp of the float radius (tests/coc_accuracy_test.cpp derives them), and one quantum where that
+/// crosses a rounding boundary.
+double coc_slack(std::int64_t twin) { return 1 + std::fabs(static_cast<double>(twin)) * 0x1p-22; }
+
+// RDB ---------------------------------------------------------------------------------------------
+
+RdbSettings rdb_settings(const Case& c) {
+  RdbSettings s;
+  s.cells_per_side = c.cells;
+  s.jitter = c.jitter;
+  s.seed = c.seed;
+  constexpr std::size_t bytes_a_pixel = 32;  // a cell and the sums
+  if (c.band_rows > 0) {
+    s.memory_bytes =
+        static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) * bytes_a_pixel;
+  }
+  return s;
+}
+
+Values run_rdb_clear(Session& session, const Case& c, const Input&) {
+  return integers(cleared_on_device(session, c.width, c.height, c.cells));
+}
+
+Values twin_rdb_clear(const Case& c, const Input&) {
+  return integers(cleared_twin(c.width, c.height, c.cells));
+}
+
+Values run_rdb_scatter(Session& session, const Case& c, const Input& in) {
+  return {winners_on_device(session, c.width, c.height, in.coc_quanta, in.depth, rdb_settings(c)),
+          {}};
+}
+
+Values twin_rdb_scatter(const Case& c, const Input& in) {
+  return {winners_of_twin(c.width, c.height, in.coc_quanta, in.depth, rdb_settings(c)), {}};
+}
+
+double rdb_work(const Case& c) {
+  const double side = c.jitter ? 2 * (c.coc_px / c.cells + 1) + 1 : 1;
+  return 4 * pixels(c) * c.cells * c.cells * (1 + std::min(square(side), pixels(c)));
+}
+
+Values run_rdb_merge(Session& session, const Case& c, const Input& in) {
+  return {{},
+          render_rdb(session, c.width, c.height, in.coc_quanta, in.depth, in.channels,
+                     rdb_settings(c))};
+}
+
+Values twin_rdb_merge(const Case& c, const Input& in) {
+  return {{},
+          reference::render_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
+                                rdb_settings(c))};
+}
+
+/// n differences <= 2 L, each rounded and added to sums <= 2 n L, then a division and an addition:
+/// (n 2 L u + n 2 n L u) / n + 2 L u + L u + L u <= (2 n + 7) L u, u = 2^-24.
+std::optional<Exact> exact_rdb(const Case& c, const Input& in) {
+  const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
+  return Exact{reference::exact_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
+                                    rdb_settings(c)),
+               2 * cells + 7};
+}
+
+/// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
+double one_division(const Case&) { return 12; }
+
+// linear ------------------------------------------------------------------------------------------
+
+int reach_px(const Case& c) { return static_cast<int>(c.coc_px + 0.5); }
+double side_px(const Case& c) { return 2.0 * reach_px(c) + 1; }
+
+Values run_linear(Session& session, const Case& c, const Input& in) {
+  LinearSettings s;
+  if (c.band_rows > 0) {
+    const int reach = linear_reach(in.coc_quanta);
+    s.memory_bytes = linear_band_bytes(c.width, reach, c.band_rows);
+  }
+  return {{}, render_linear(session, c.width, c.height, in.coc_quanta, in.channels, s)};
+}
+
+Values twin_linear(const Case& c, const Input& in) {
+  return {{}, reference::render_linear<float>(c.width, c.height, in.coc_quanta, in.channels)};
+}
+
+/// A term carries the roundings of its root, its subtraction (both of numbers up to the reach + 1
+/// for a weight from 0 to 1), its quotient and its product; n terms are then added, each addition
+/// rounded. Terms are below L (the disc's sum is at least 1), partial sums below n L.
+std::optional<Exact> exact_linear(const Case& c, const Input& in) {
+  const double n = square(side_px(c));
+  return Exact{reference::render_linear<double>(c.width, c.height, in.coc_quanta, in.channels),
+               n * (2 * (reach_px(c) + 1) + 3 + n)};
+}
+
+/// n weights, each from a root 3 ulp = 6 u off, of numbers up to the reach + 1.
+double linear_roundings(const Case& c) { return square(side_px(c)) * 12 * (reach_px(c) + 1); }
+
+// tiltshift ---------------------------------------------------------------------------------------
+
+DefrayTiltshiftParams tiltshift_case(const Case& c) {
+  Random random(0, 0, c.seed);
+  TiltshiftSettings s;
+  s.band_centre = random.next();
+  s.band_width = random.next();
+  s.max_blur_px = std::min(c.coc_px, static_cast<double>(linear_max_radius_px));
+  const int first_row = static_cast<int>(20 * random.next()) - 10;
+  return tiltshift_params(s, c.width, c.height, first_row, c.height + 5);
+}
+
+Values run_tiltshift(Session& session, const Case& c, const Input&) {
+  return integers(tiltshift_on_device(session, tiltshift_case(c)));
+}
+
+Values twin_tiltshift(const Case& c, const Input&) {
+  return integers(reference::tiltshift(tiltshift_case(c)));
+}
+
+// gather ------------------------------------------------------------------------------------------
+
+template <GatherKind kind>
+GatherSettings gather_settings(const Case& c) {
+  GatherSettings s;
+  s.kind = kind;
+  s.samples = c.samples;
+  s.passes = 1 + static_cast<int>(c.seed % 2);
+  s.rotate = c.jitter;
+  s.seed = c.seed;
+  return s;
+}
+
+template <GatherKind kind>
+Values run_gather(Session& session, const Case& c, const Input& in) {
+  return {{},
+          render_gather(session, c.width, c.height, in.coc_quanta, in.channels,
+                        gather_settings<kind>(c))};
+}
+
+template <GatherKind kind>
+Values twin_gather(const Case& c, const Input& in) {
+  return {{},
+          reference::render_gather(c.width, c.height, in.coc_quanta, in.channels,
+                                   gather_settings<kind>(c))};
+}
+
+double gather_work(const Case& c) { return pixels(c) * c.samples * (4 + 2.0 * c.channels); }
+
+double tiles_work(const Case& c) { return pixels(c) + square(pixels(c) / 256 + 1); }
+
+/// n samples of differences <= 2 L, their weights from a root 6 u off of distances up to the search
+/// radius and a quotient 5 u off, times the area that a near sample stands for.
+double aware_roundings(const Case& c) {
+  const double search = std::min(c.coc_px, 65536.0);
+  return 4 * c.samples * (6 * search + 12) * std::max(1.0, 4 * square(search) / c.samples);
+}
+
+Values run_tiles(Session& session, const Case& c, const Input& in) {
+  return integers(gather_tiles_on_device(session, c.width, c.height, in.coc_quanta));
+}
+
+Values twin_tiles(const Case& c, const Input& in) {
+  return integers(reference::gather_tiles(c.width, c.height, in.coc_quanta));
+}
+
+Values run_reach(Session& session, const Case& c, const Input& in) {
+  return integers(gather_reach_on_device(session, c.width, c.height, in.coc_quanta));
+}
+
+Values twin_reach(const Case& c, const Input& in) {
+  return integers(reference::gather_reach(c.width, c.height, in.coc_quanta));
+}
+
+constexpr const char* winners_rule = "equal winners: integer arithmetic";
+constexpr const char* integer_rule = "equal: integer arithmetic";
+constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
+
+}  // namespace
+
+const std::vector<KernelCheck>& kernel_checks() {
+  constexpr GatherKind literal = GatherKind::literal, aware = GatherKind::aware;
+  static const std::vector<KernelCheck> checks = {
+      {"coc", "1 quantum + 4 ulp: float against double", run_coc, twin_coc, pixels, coc_slack},
+      {"gather_aware", bits_rule, run_gather<aware>, twin_gather<aware>, gather_work, nullptr,
+       aware_roundings},
+      {"gather_literal", bits_rule, run_gather<literal>, twin_gather<literal>, gather_work, nullptr,
+       one_division},
+      {"gather_reach", integer_rule, run_reach, twin_reach, tiles_work},
+      {"gather_tiles", integer_rule, run_tiles, twin_tiles, tiles_work},
+      {"linear_psf", bits_rule, run_linear, twin_linear,
+       [](const Case& c) {
+         return c.coc_px > linear_max_radius_px ? HUGE_VAL
+                                                : pixels(c) * square(side_px(c)) * (1 + c.channels);
+       },
+       nullptr, linear_roundings, exact_linear},
+      {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear,
+       [](const Case& c) { return pixels(c) * c.cells * c.cells; }},
+      {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, nullptr, one_division,
+       exact_rdb},
+      {"rdb_scatter", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work},
+      {"tiltshift", bits_rule, run_tiltshift, twin_tiltshift, pixels},
+  };
+  return checks;
+}
+
+}  // namespace defray::validation

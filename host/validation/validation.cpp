@@ -1,0 +1,151 @@
+#include "validation/validation.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "error.h"
+#include "text.h"
+
+namespace defray::validation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The shape of a result must be right before its values can be.
+void require_same_shape(const Values& kernel, const Values& twin) {
+  bool same =
+      kernel.integers.size() == twin.integers.size() && kernel.planes.size() == twin.planes.size();
+  for (std::size_t p = 0; same && p < twin.planes.size(); ++p) {
+    same = kernel.planes[p].size() == twin.planes[p].size();
+  }
+  if (!same) fail(ExitCode::internal, "kernel and twin give different numbers of values");
+}
+
+class CheckRun {
+ public:
+  CheckRun(Session& session, const KernelCheck& check, DeviceResult& device)
+      : session_(session), check_(check), device_(device) {
+    result_.kernel = check.kernel;
+    result_.rule = check.rule;
+    result_.hash = 0xcbf29ce484222325u;
+  }
+
+  void run(const Case& c) {
+    const std::string text = to_string(c);
+    const Run done = run_case(session_, check_, c);
+    require_same_shape(done.kernel, done.twin);
+    const DeviceInfo& info = session_.info();
+    Verdict verdict = compare(check_, c, done.input, done.kernel, done.twin, info.keeps_denormals,
+                              info.rounds_divisions);
+    measure_rounding(c, done, verdict);
+    ++result_.cases;
+    const std::uint64_t hash = hash_of(done.kernel);
+    if (hash_of(check_.run(session_, c, done.input)) != hash) ++result_.unstable;
+    result_.hash = (result_.hash ^ hash) * 0x100000001b3u;
+    if (verdict.wrong > 0 && result_.first_wrong.empty()) result_.first_wrong = text;
+    if (result_.verdict.add(verdict)) result_.worst_case = text;
+  }
+
+  void stop_at(const Case& c, const Error& error) {
+    result_.error = to_string(c) + ": " + error.what();
+  }
+
+  KernelResult finish(double seconds) {
+    result_.seconds = seconds;
+    return result_;
+  }
+
+ private:
+  void measure_rounding(const Case& c, const Run& done, Verdict& verdict) {
+    if (!check_.exact) return;
+    const auto exact = check_.exact(c, done.input);
+    if (!exact) return;
+    compare_exact(*exact, done.input, done.kernel.planes, verdict);
+    device_.exact.push_back({check_.kernel, exact->terms, verdict.exact_share});
+  }
+
+  Session& session_;
+  const KernelCheck& check_;
+  DeviceResult& device_;
+  KernelResult result_;
+};
+
+std::vector<const KernelCheck*> chosen_checks(const Settings& settings) {
+  std::vector<const KernelCheck*> chosen;
+  for (const std::string& name : settings.kernels) chosen.push_back(&find_check(name));
+  if (chosen.empty()) {
+    for (const KernelCheck& check : kernel_checks()) chosen.push_back(&check);
+  }
+  return chosen;
+}
+
+KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,
+                       DeviceResult& device, const std::function<void(double)>& progress) {
+  const auto start = Clock::now();
+  const std::vector<Case> cases = settings.only_case.empty()
+                                      ? grid(settings.level, check, session.info().max_work_group)
+                                      : std::vector<Case>{parse_case(settings.only_case)};
+  CheckRun run(session, check, device);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    try {
+      run.run(cases[i]);
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::usage) throw;
+      run.stop_at(cases[i], error);
+      break;
+    }
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
+  }
+  return run.finish(std::chrono::duration<double>(Clock::now() - start).count());
+}
+
+}  // namespace
+
+bool DeviceResult::passed() const {
+  return std::all_of(kernels.begin(), kernels.end(),
+                     [](const KernelResult& k) { return k.passed(); });
+}
+
+const KernelCheck& find_check(const std::string& kernel) {
+  std::vector<std::string> names;
+  for (const KernelCheck& check : kernel_checks()) {
+    if (kernel == check.kernel) return check;
+    names.push_back(check.kernel);
+  }
+  fail(ExitCode::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
+       did_you_mean(kernel, names), join(names, " "));
+}
+
+Run run_case(Session& session, const KernelCheck& check, const Case& c) {
+  const auto group = [](int n) { return static_cast<std::size_t>(n); };
+  session.set_work_group(group(c.group_x), group(c.group_y));
+  Run run;
+  run.input = make_input(c);
+  run.kernel = check.run(session, c, run.input);
+  run.twin = check.twin(c, run.input);
+  return run;
+}
+
+DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
+                             const std::function<void(double, const std::string&)>& progress) {
+  Session session(info, settings.session);
+  DeviceResult result;
+  result.device = info.name;
+  result.platform = info.platform;
+  result.version = info.version;
+  result.math = settings.session.math == Math::fast ? "fast" : "strict";
+  const auto checks = chosen_checks(settings);
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    const auto share = [&](double done) {
+      if (progress) {
+        progress((static_cast<double>(i) + done) / static_cast<double>(checks.size()),
+                 checks[i]->kernel);
+      }
+    };
+    share(0);
+    result.kernels.push_back(run_check(session, *checks[i], settings, result, share));
+  }
+  return result;
+}
+
+}  // namespace defray::validation

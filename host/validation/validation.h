@@ -1,0 +1,61 @@
+#pragma once
+// Every kernel against its scalar twin on one device.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/grid.h"
+#include "validation/verdict.h"
+
+namespace defray::validation {
+
+/// What one kernel showed on one device.
+struct KernelResult {
+  std::string kernel, rule;
+  std::size_t cases = 0;
+  Verdict verdict;
+  std::string worst_case;    ///< Of the largest difference; empty where there is none.
+  std::string first_wrong;   ///< The first case beyond the rule.
+  std::string error;         ///< An OpenCL error, with its case; the rest was not run.
+  std::size_t unstable = 0;  ///< Cases whose second run gave other bits.
+  std::uint64_t hash = 0;    ///< Of all results of the device, equal where devices agree.
+  double seconds = 0;
+  bool passed() const { return verdict.wrong == 0 && unstable == 0 && error.empty(); }
+};
+
+/// How often a case's result differed from the exact one, for the plot of bounds.
+struct ExactPoint {
+  std::string kernel;
+  double terms, share;
+};
+
+struct DeviceResult {
+  std::string device, platform, version;
+  std::string math;
+  std::vector<KernelResult> kernels;
+  std::vector<ExactPoint> exact;
+  bool passed() const;
+};
+
+struct Settings {
+  Level level = Level::quick;
+  std::vector<std::string> kernels;  ///< Empty: all.
+  std::string only_case;             ///< This case instead of the grid.
+  SessionOptions session;
+};
+
+/// Runs the checks. `progress` gets the share done, 0 to 1, and the kernel at work.
+DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
+                             const std::function<void(double, const std::string&)>& progress = {});
+
+/// The check of this name. Throws Error(usage), with the names there are.
+const KernelCheck& find_check(const std::string& kernel);
+
+/// What kernel and twin gave for one case.
+struct Run {
+  Input input;
+  Values kernel, twin;
+};
+Run run_case(Session& session, const KernelCheck& check, const Case& c);
+
+}  // namespace defray::validation
