@@ -14,5 +14,6 @@ Run add_scene(CLI::App& app);
 Run add_compare(CLI::App& app);
 Run add_sheet(CLI::App& app);
 Run add_psf(CLI::App& app);
+Run add_validate(CLI::App& app);
 
 }  // namespace defray::cli

@@ -25,7 +25,7 @@ constexpr const char* footer = R"(Examples:
   defray devices
 
 'defray COMMAND --help' explains a command.
-Exit codes: 0 done; 1 some frames failed, or a comparison missed its bound; 2 wrong usage;
+Exit codes: 0 done; 1 some frames failed, a comparison missed its bound, or a kernel failed; 2 wrong usage;
 3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray.)";
 
 /// Every option name, or every command name, that `app` knows.
@@ -64,7 +64,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "defray " DEFRAY_VERSION);
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
-  for (const auto add : {add_render, add_devices, add_scene, add_compare, add_sheet, add_psf}) {
+  for (const auto add :
+       {add_render, add_devices, add_scene, add_compare, add_sheet, add_psf, add_validate}) {
     const Run command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), command);
   }

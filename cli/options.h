@@ -4,6 +4,7 @@
 #include <string>
 
 #include "error.h"
+#include "opencl/session.h"
 #include "text.h"
 
 namespace defray::cli {
@@ -18,6 +19,8 @@ T choice(const std::string& option, const std::string& word, const std::map<std:
   fail(ExitCode::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
        did_you_mean(word, words), join(words, " "));
 }
+
+inline const std::map<std::string, Math> math_words{{"strict", Math::strict}, {"fast", Math::fast}};
 
 /// A check for options that name files: an empty value is most likely an unset shell variable.
 inline std::string no_empty_path(const std::string& path) { return path.empty() ? "is empty" : ""; }

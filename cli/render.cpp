@@ -54,13 +54,16 @@ class SequenceRun {
         bar_(frame_count, frame_count == 1 ? "frame" : "frames", !options.quiet) {
     check_output_format(options.output);
     const auto group = parse_work_group(options.work_group);
+    SessionOptions session;
+    session.math = choice<Math>("--math", options.math, math_words);
     if (options.device == "reference") {
       device_ = "the scalar reference";
       return;
     }
-    session_ = std::make_unique<Session>(select_device(options.device));
+    session_ = std::make_unique<Session>(select_device(options.device), session);
     session_->set_work_group(group[0], group[1]);
     device_ = session_->info().name;
+    if (session.math == Math::fast) device_ += " (fast arithmetic)";
   }
 
   /// False when the frame failed and --skip-bad-frames lets the run go on.

@@ -30,7 +30,7 @@ struct RenderOptions {
   std::optional<std::uint32_t> seed;
   std::optional<double> band_centre, band_width, max_blur;
   std::optional<double> memory_mib;
-  std::string device, work_group;
+  std::string device, work_group, math = "strict";
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
 };
 

@@ -61,6 +61,14 @@ void reject_foreign_options(const RenderOptions& o) {
     fail(ExitCode::usage, "{} means nothing to --method {}: it goes with {}", option.name, o.method,
          join(known, ", "));
   }
+  if (o.device == "reference") {
+    const std::pair<const char*, bool> of_kernels[] = {{"--work-group", !o.work_group.empty()},
+                                                       {"--memory", o.memory_mib.has_value()},
+                                                       {"--math", o.math != "strict"}};
+    for (const auto& [name, is_given] : of_kernels) {
+      if (is_given) fail(ExitCode::usage, "{} means nothing to --device reference", name);
+    }
+  }
   if (o.method == "rdb" && o.seed && !o.jitter) {
     fail(ExitCode::usage, "--seed goes with --jitter: without it nothing is random");
   }
@@ -101,6 +109,9 @@ void add_method_options(CLI::App& c, RenderOptions& o) {
   c.add_option("--memory", o.memory_mib, "rdb, linear, tiltshift: MiB for buffers; default 512")
       ->group(group);
   c.add_option("--device", o.device, "Index or part of the name of 'defray devices'; reference")
+      ->group(group);
+  c.add_option("--math", o.math,
+               "strict: the same bits on every device; fast: the compiler may fuse and approximate")
       ->group(group);
   c.add_option("--work-group", o.work_group, "Work-group, 64x1; default: each kernel's own")
       ->group(group);

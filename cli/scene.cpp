@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "commands.h"
 #include "error.h"
@@ -66,15 +65,6 @@ std::map<std::string, Comparison> write_truths(const Options& o, const Scene& sc
   return noise;
 }
 
-void write_camera(const std::string& path, const std::string& json) {
-  write_safely(path, [&](const std::string& name) {
-    std::ofstream stream(name);
-    stream << json;
-    if (!stream.flush()) fail(ExitCode::output, "{}: cannot write", name);
-  });
-  fmt::print("{}\n", path);
-}
-
 int run(const Options& o) {
   check_truth_samples(o.truth_samples);  // before anything is written
   const Scene scene = make_scene(o.name, o.width, o.height);
@@ -87,7 +77,9 @@ int run(const Options& o) {
   write_picture(o.folder + "/pinhole.exr", render_pinhole(scene), scene);
   if (o.hidden) write_picture(o.folder + "/hidden.exr", render_hidden(scene), scene);
   const auto noise = write_truths(o, scene, settings);
-  write_camera(o.folder + "/camera.json", camera_json(scene, noise));
+  const std::string camera = o.folder + "/camera.json";
+  write_text(camera, camera_json(scene, noise));
+  fmt::print("{}\n", camera);
   return 0;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <opencv2/core/utility.hpp>
 
@@ -171,21 +170,17 @@ Plot psf_plot(const PsfReport& report, bool is_log) {
 }
 
 void write_psf_csv(const std::string& path, const PsfReport& report) {
-  write_safely(path, [&](const std::string& name) {
-    std::ofstream stream(name);
-    stream << "radius_px,radius_um,geometric,broadband";
-    for (const PsfCurve& c : report.monochrome) stream << fmt::format(",{}nm", c.wavelength_nm);
-    for (std::size_t i = 0; i < report.radii_px.size(); ++i) {
-      const double r = report.radii_px[i];
-      stream << fmt::format("\n{:.8g},{:.8g},{:.8g},{:.8g}", r, r * report.pixel_um,
-                            report.geometric_per_px2[i], report.broadband_per_px2[i]);
-      for (const PsfCurve& c : report.monochrome) {
-        stream << fmt::format(",{:.8g}", c.density_per_px2[i]);
-      }
+  std::string csv = "radius_px,radius_um,geometric,broadband";
+  for (const PsfCurve& c : report.monochrome) csv += fmt::format(",{}nm", c.wavelength_nm);
+  for (std::size_t i = 0; i < report.radii_px.size(); ++i) {
+    const double r = report.radii_px[i];
+    csv += fmt::format("\n{:.8g},{:.8g},{:.8g},{:.8g}", r, r * report.pixel_um,
+                       report.geometric_per_px2[i], report.broadband_per_px2[i]);
+    for (const PsfCurve& c : report.monochrome) {
+      csv += fmt::format(",{:.8g}", c.density_per_px2[i]);
     }
-    stream << "\n";
-    if (!stream.flush()) fail(ExitCode::output, "{}: cannot write", name);
-  });
+  }
+  write_text(path, csv + "\n");
 }
 
 }  // namespace defray

@@ -1,6 +1,7 @@
-// What the gather kernels share: the turn of a pixel's sample set, and a pixel's colour.
+// What the gather kernels share: the turn of a pixel's sample set.
 #ifndef DEFRAY_KERNELS_GATHER_H
 #define DEFRAY_KERNELS_GATHER_H
+#include "colour.h"
 #include "params.h"
 #include "pcg3d.h"
 
@@ -13,12 +14,6 @@ float2 gather_turn(const DefrayGatherParams p, __global const float2* restrict r
 
 float2 rotated(const float2 v, const float2 turn) {
   return (float2)(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x);
-}
-
-float4 colour_at(__global const float* restrict channel0, __global const float* restrict channel1,
-                 __global const float* restrict channel2, __global const float* restrict channel3,
-                 const size_t at) {
-  return (float4)(channel0[at], channel1[at], channel2[at], channel3[at]);
 }
 
 #endif

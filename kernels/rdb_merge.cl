@@ -12,6 +12,7 @@
 // filled          [band_rows][width]               (x: cells that a ray has reached so far,
 //                                                   y: source of the first of them)
 // Global size: (width, band_rows).
+#include "colour.h"
 #include "params.h"
 
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
@@ -36,15 +37,15 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
     if (state.x == 0u) state.y = s;
     const uint f = state.y;
     if (s != f) {  // inf - inf would be NaN
-      total += (float4)(channel0[s] - channel0[f], channel1[s] - channel1[f],
-                        channel2[s] - channel2[f], channel3[s] - channel3[f]);
+      total += colour_at(channel0, channel1, channel2, channel3, s) -
+               colour_at(channel0, channel1, channel2, channel3, f);
     }
     ++state.x;
   }
 
   if (p.is_last_pass) {
     const uint f = state.y;  // the pixel itself where no ray has arrived
-    const float4 first = (float4)(channel0[f], channel1[f], channel2[f], channel3[f]);
+    const float4 first = colour_at(channel0, channel1, channel2, channel3, f);
     const float4 mean = first + total / (float)max(state.x, 1u);
     total = select(mean, first, total == 0.0f);  // -0 + 0 would be +0
   }

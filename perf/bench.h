@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "html_report.h"
 #include "method.h"
-#include "report.h"
-#include "scenes/render.h"
-#include "scenes/scene.h"
+#include "scenes/subject.h"
 
 namespace defray::perf {
 
@@ -39,19 +38,6 @@ std::string to_text(const Timing& timing);
 
 /// A number with so many digits behind the point.
 std::string fixed(double value, int digits = 2);
-
-/// A scene in focus, ready for every method.
-struct Subject {
-  Scene scene;
-  Lens lens;
-  ScenePicture pinhole;  ///< Depth as methods take it: +inf where nothing is hit.
-  std::vector<std::int32_t> coc;
-
-  PinholeFrame frame() const {
-    return {scene.width, scene.height, coc, pinhole.depth, pinhole.colour};
-  }
-};
-Subject make_subject(Session& session, Scene scene, const std::string& setting);
 
 /// The CoC kernel and the method, as `defray render` runs them.
 std::vector<Plane> render(Session& session, const Subject& subject, const MethodSettings& settings);

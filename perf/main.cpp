@@ -63,7 +63,13 @@ int run(const Options& o) {
     }
     std::fflush(stdout);
   }
-  write_report(o.folder, session.info().name + ", " + session.info().version, sections);
+  write_page(o.folder,
+             {"defray: the papers' experiments",
+              fmt::format("Measured on {}, {}. Times are medians with their spread (largest minus "
+                          "smallest, in percent of the median); on a shared machine trust ratios "
+                          "within one table.",
+                          session.info().name, session.info().version),
+              sections});
   fmt::print("{}/index.html\n", o.folder);
   if (std::fflush(stdout) != 0) fail(ExitCode::output, "cannot write to standard output");
   return 0;

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "error.h"
 
@@ -100,6 +101,14 @@ void write_safely(const std::string& to, const std::function<void(const std::str
          std::strerror(errno));
   }
   sync_path(path, folder_of(path).string());
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  write_safely(path, [&](const std::string& name) {
+    std::ofstream stream(name);
+    stream << text;
+    if (!stream.flush()) fail(ExitCode::output, "{}: cannot write", name);
+  });
 }
 
 void remove_temporary_on_signal() {

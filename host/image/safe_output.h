@@ -13,6 +13,9 @@ void check_can_write(const std::string& path);
 /// to `path`. When anything fails, the temporary file is removed and an old `path` stays.
 void write_safely(const std::string& path, const std::function<void(const std::string&)>& write);
 
+/// write_safely for a text.
+void write_text(const std::string& path, const std::string& text);
+
 /// On SIGINT and SIGTERM: removes the temporary file in hand, then ends the process.
 void remove_temporary_on_signal();
 

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <string>
 
+#include "temporary_folder.h"
+
 namespace defray {
 namespace {
 
@@ -41,31 +43,13 @@ bool is_writable(const fs::path& folder) {
   return true;
 }
 
-/// A folder of this process's own, removed with it.
-class PrivateFolder {
- public:
-  PrivateFolder() : path_((fs::temp_directory_path() / "defray-kcache-XXXXXX").string()) {
-    if (!mkdtemp(path_.data())) path_.clear();
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 }  // namespace
 
 void prepare_kernel_cache() {
   static std::once_flag once;
   std::call_once(once, [] {
     if (is_writable(pocl_cache_folder())) return;
-    static const PrivateFolder folder;
+    static const TemporaryFolder folder("defray-kcache");
     if (!folder.path().empty()) setenv("POCL_CACHE_DIR", folder.path().c_str(), 1);
   });
 }

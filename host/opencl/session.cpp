@@ -55,11 +55,15 @@ cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
 
 std::string substituted(std::string text, const std::vector<Substitution>& substitutions) {
   for (const Substitution& s : substitutions) {
-    const std::size_t at = text.find(s.from);
-    if (at == std::string::npos || text.find(s.from, at + 1) != std::string::npos) {
-      fail(ExitCode::internal, "'{}' is not in the kernels exactly once", s.from);
+    std::size_t count = 0;
+    for (auto at = text.find(s.from); at != std::string::npos;
+         at = text.find(s.from, at + s.to.size())) {
+      text.replace(at, s.from.size(), s.to);
+      ++count;
     }
-    text.replace(at, s.from.size(), s.to);
+    if (count == 0 || (count > 1 && !s.everywhere)) {
+      fail(ExitCode::internal, "'{}' is {} times in the kernels", s.from, count);
+    }
   }
   return text;
 }

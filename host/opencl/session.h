@@ -17,7 +17,8 @@ enum class Math {
 
 /// A change of the kernels' text, for experiments and for faults that tests must find.
 struct Substitution {
-  std::string from, to;  ///< `from` must be there exactly once.
+  std::string from, to;
+  bool everywhere = false;  ///< Otherwise `from` must be there exactly once.
 };
 
 struct SessionOptions {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "error.h"
 #include "text.h"
@@ -79,6 +80,64 @@ std::vector<const KernelCheck*> chosen_checks(const Settings& settings) {
   return chosen;
 }
 
+/// A plane for the eye: its finite values from 0 to 1.
+Plane stretched(const Plane& plane) {
+  float low = 0, high = 0;
+  for (const float v : plane) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  Plane out;
+  for (const float v : plane) out.push_back(high > low ? v / (high - low) - low / (high - low) : 0);
+  return out;
+}
+
+/// Each pixel as a square of `scale` pixels a side.
+Plane enlarged(const Plane& plane, int width, int scale) {
+  const auto w = static_cast<std::size_t>(width), s = static_cast<std::size_t>(scale);
+  Plane out(plane.size() * s * s);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = plane[i / (w * s) / s * w + i % (w * s) / s];
+  }
+  return out;
+}
+
+/// The plane that holds the value `at`, whole numbers as floats; empty where the values are no
+/// picture (tiles).
+Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
+  if (!values.planes.empty()) return values.planes[at / pixels];
+  const std::size_t first = at / pixels * pixels;
+  if (first + pixels > values.integers.size()) return {};
+  const auto begin = values.integers.begin() + static_cast<std::int64_t>(first);
+  return {begin, begin + static_cast<std::int64_t>(pixels)};
+}
+
+void add_picture(Session& session, const KernelCheck& check, const KernelResult& result,
+                 DeviceResult& device) {
+  if (result.worst_case.empty()) return;
+  const Case c = parse_case(result.worst_case);
+  const Run run = run_case(session, check, c);
+  const std::size_t pixels = static_cast<std::size_t>(c.width) * static_cast<std::size_t>(c.height);
+  const Plane kernel = plane_of(run.kernel, result.verdict.worst_at, pixels);
+  const Plane twin = plane_of(run.twin, result.verdict.worst_at, pixels);
+  if (kernel.empty()) return;
+  Plane difference;
+  for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
+  Picture picture{result.kernel, result.worst_case, c.width, c.height, {}};
+  const int scale = std::max(1, 240 / c.width);
+  picture.width *= scale;
+  picture.height *= scale;
+  const auto add = [&](const std::string& caption, const Plane& plane) {
+    picture.panels.push_back(
+        {caption, std::vector<Plane>(3, enlarged(stretched(plane), c.width, scale))});
+  };
+  add("kernel", kernel);
+  add("twin", twin);
+  add("difference", difference);
+  device.pictures.push_back(picture);
+}
+
 KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,
                        DeviceResult& device, const std::function<void(double)>& progress) {
   const auto start = Clock::now();
@@ -144,6 +203,7 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
     };
     share(0);
     result.kernels.push_back(run_check(session, *checks[i], settings, result, share));
+    add_picture(session, *checks[i], result.kernels.back(), result);
   }
   return result;
 }

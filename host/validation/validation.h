@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "display.h"
 #include "validation/grid.h"
 #include "validation/verdict.h"
 
@@ -23,7 +24,15 @@ struct KernelResult {
   bool passed() const { return verdict.wrong == 0 && unstable == 0 && error.empty(); }
 };
 
-/// How often a case's result differed from the exact one, for the plot of bounds.
+/// Kernel, twin and their difference where they lie farthest apart.
+struct Picture {
+  std::string kernel, case_text;
+  int width, height;
+  std::vector<SheetPanel> panels;
+};
+
+/// One case's sums against exact ones: roundings that the derived bound allows, and the share that
+/// was used.
 struct ExactPoint {
   std::string kernel;
   double terms, share;
@@ -34,6 +43,7 @@ struct DeviceResult {
   std::string math;
   std::vector<KernelResult> kernels;
   std::vector<ExactPoint> exact;
+  std::vector<Picture> pictures;  ///< Of kernels with differences.
   bool passed() const;
 };
 

@@ -51,7 +51,8 @@ void compare_integers(const KernelCheck& check, const Values& kernel, const Valu
   }
 }
 
-void compare_plane(const Plane& kernel, const Plane& twin, double slack, Verdict& v) {
+void compare_plane(const Plane& kernel, const Plane& twin, double slack, std::size_t first,
+                   Verdict& v) {
   for (std::size_t i = 0; i < twin.size(); ++i) {
     const std::uint32_t distance = ulp_distance(kernel[i], twin[i]);
     ++v.ulp_histogram[ulp_bin(distance)];
@@ -60,7 +61,7 @@ void compare_plane(const Plane& kernel, const Plane& twin, double slack, Verdict
     if (!is_within(kernel[i], twin[i], slack)) ++v.wrong;
     if (distance > v.worst) {
       v.worst = distance;
-      v.worst_at = i;
+      v.worst_at = first + i;
     }
   }
 }
@@ -82,6 +83,10 @@ std::string ulp_bin_name(std::size_t bin) {
   if (bin < 3) return std::to_string(bin);
   const std::uint64_t last = std::uint64_t{1} << (bin - 1);
   return std::to_string(last / 2 + 1) + "-" + std::to_string(last);
+}
+
+bool Verdict::has_floats() const {
+  return std::any_of(ulp_histogram.begin(), ulp_histogram.end(), [](auto n) { return n > 0; });
 }
 
 bool Verdict::add(const Verdict& other) {
@@ -109,7 +114,7 @@ Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const 
     }
     // Each term of a sum may have been flushed to zero, and its factors before it.
     if (!keeps_denormals) slack += 4.0 * static_cast<double>(twin.planes[p].size() + 64) * 0x1p-126;
-    compare_plane(kernel.planes[p], twin.planes[p], slack, v);
+    compare_plane(kernel.planes[p], twin.planes[p], slack, p * twin.planes[p].size(), v);
   }
   return v;
 }

@@ -28,8 +28,10 @@ struct Verdict {
 
   double worst = 0;  ///< Largest difference: whole numbers as a share of their slack (of 1 where
                      ///< there is none), floats in ulp.
-  std::size_t worst_at = 0;
-  double exact_share = 0;  ///< Largest error against exact arithmetic, as a share of its bound.
+  std::size_t worst_at = 0;  ///< Index among all its values, plane by plane.
+  double exact_share = 0;    ///< Largest error against exact arithmetic, as a share of its bound.
+
+  bool has_floats() const;
 
   /// Adds another case; true if that holds the worst value so far.
   bool add(const Verdict& other);

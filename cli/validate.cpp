@@ -1,0 +1,195 @@
+// defray validate: every kernel against its scalar twin, on this machine's devices.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "commands.h"
+#include "error.h"
+#include "image/safe_output.h"
+#include "options.h"
+#include "progress.h"
+#include "temporary_folder.h"
+#include "validation/arithmetic.h"
+#include "validation/report.h"
+
+namespace defray::cli {
+namespace {
+
+using namespace defray::validation;
+
+struct Options {
+  std::string device, folder, only_case, math = "strict";
+  std::vector<std::string> kernels;
+  bool all = false, quick = false, full = false, arithmetic = false, json = false;
+};
+
+/// An OpenCL implementation that Debian has.
+struct Implementation {
+  const char *platform, *package, *how;
+};
+constexpr Implementation implementations[] = {
+    {"Portable Computing Language", "pocl-opencl-icd", ""},
+    {"rusticl", "mesa-opencl-icd", " and set RUSTICL_ENABLE=llvmpipe"},
+    {"Oclgrind", "oclgrind", " and run 'oclgrind defray validate'"}};
+
+/// What --all could not try, with the package to install.
+std::vector<std::string> missing_implementations(const std::vector<DeviceInfo>& devices) {
+  std::set<std::string> found;
+  for (const DeviceInfo& d : devices) found.insert(d.platform);
+  std::vector<std::string> notes;
+  for (const Implementation& i : implementations) {
+    if (found.count(i.platform)) continue;
+    notes.push_back(fmt::format("skipped: {} offers no device here; Debian: apt-get install {}{}",
+                                i.platform, i.package, i.how));
+  }
+  return notes;
+}
+
+std::vector<DeviceInfo> chosen_devices(const Options& o, std::vector<std::string>& notes) {
+  if (!o.all) return {select_device(o.device)};
+  // Mesa hides its CPU device unless asked for it.
+  setenv("RUSTICL_ENABLE", "llvmpipe", 0);
+  const std::vector<DeviceInfo> devices = list_devices();
+  if (devices.empty()) select_device("");  // says what to install
+  notes = missing_implementations(devices);
+  return devices;
+}
+
+Settings settings_of(const Options& o) {
+  Settings s;
+  s.level = o.full ? Level::full : Level::quick;
+  s.kernels = o.kernels;
+  s.only_case = o.only_case;
+  s.session.math = choice<Math>("--math", o.math, math_words);
+  for (const std::string& kernel : s.kernels) find_check(kernel);
+  if (!o.only_case.empty()) parse_case(o.only_case);
+  return s;
+}
+
+void print_device(const DeviceResult& d) {
+  fmt::print("{} ({}), {} arithmetic\n", d.device, d.platform, d.math);
+  for (const KernelResult& k : d.kernels) {
+    const Verdict& v = k.verdict;
+    fmt::print(
+        "  {}  {:15} {:4} cases, {:9} values, {} differing, {} beyond the rule, {} unstable\n",
+        k.passed() ? "PASS" : "FAIL", k.kernel, k.cases, v.compared, v.differing, v.wrong,
+        k.unstable);
+    if (!k.first_wrong.empty()) fmt::print("        {}\n", command_of(d, k.kernel, k.first_wrong));
+    if (!k.error.empty()) fmt::print("        {}\n", k.error);
+  }
+}
+
+DeviceResult validate_with_progress(const DeviceInfo& info, Settings settings) {
+  // A simulator takes a thousand times longer: the smallest frames must do.
+  if (info.platform == "Oclgrind") settings.level = Level::tiny;
+  ProgressBar bar(1, info.name.c_str(), true);
+  return validate_device(info, settings,
+                         [&](double share, const std::string&) { bar.update(0, share); });
+}
+
+void write_report(const Options& o, const Page& page, const TemporaryFolder& pictures,
+                  const std::string& json) {
+  write_single_file(o.folder + "/report.html", page, pictures.path());
+  write_text(o.folder + "/report.json", json);
+  if (o.json) {
+    fmt::print("{}", json);
+  } else {
+    fmt::print("{}/report.html\n{}/report.json\n", o.folder, o.folder);
+  }
+}
+
+int run_arithmetic(const Options& o) {
+  const DeviceInfo info = select_device(o.device);
+  const TemporaryFolder pictures("defray-report");
+  const auto results = [&] {
+    ProgressBar bar(1, "arithmetic", true);
+    const int width = o.full ? 1280 : 640;
+    return measure_arithmetic(info, width, width * 3 / 4, o.full ? 9 : 5,
+                              [&](double share) { bar.update(0, share); });
+  }();
+  if (!o.json) {
+    for (const VariantResult& r : results) {
+      for (const MethodFigures& m : r.methods) {
+        fmt::print("{:18} {:24} x {:.2f}, {:6.1f} dB, {:6.2f} % of the values changed{}\n", r.name,
+                   m.method, m.time_ratio, m.psnr_db, 100 * m.changed,
+                   m.is_stable ? "" : ", differs with the work-group");
+      }
+    }
+  }
+  const Page page{"defray: arithmetic on " + info.name,
+                  info.platform + ", " + info.version,
+                  {to_section(results, pictures.path())}};
+  write_report(o, page, pictures, to_json(results));
+  return 0;
+}
+
+int run(const Options& o) {
+  const Settings settings = settings_of(o);
+  std::error_code ignored;
+  std::filesystem::create_directories(o.folder, ignored);
+  check_can_write(o.folder + "/report.html");
+  if (o.arithmetic) return run_arithmetic(o);
+  std::vector<std::string> notes;
+  std::vector<DeviceResult> results;
+  bool passed = true;
+  for (const DeviceInfo& info : chosen_devices(o, notes)) {
+    results.push_back(validate_with_progress(info, settings));
+    passed = passed && results.back().passed();
+    if (!o.json) print_device(results.back());
+    std::fflush(stdout);
+  }
+  if (!o.json) {
+    for (const std::string& note : notes) fmt::print("{}\n", note);
+  }
+  const TemporaryFolder pictures("defray-report");
+  const Page page{
+      passed ? "defray: all kernels pass" : "defray: some kernels FAIL",
+      "Every OpenCL kernel against its scalar C++ twin, over a grid of sizes, circles of "
+      "confusion, depth patterns, colours, work-groups and bands.",
+      to_sections(results, notes, pictures.path())};
+  write_report(o, page, pictures, to_json(results, notes, o.full ? "full" : "quick"));
+  return passed ? 0 : static_cast<int>(ExitCode::failed);
+}
+
+}  // namespace
+
+Run add_validate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "validate", "Check every kernel against its scalar twin on this machine's devices");
+  auto o = std::make_shared<Options>();
+  command->add_option("-o,--output", o->folder, "Folder for report.html and report.json")
+      ->required()
+      ->check(no_empty_path);
+  auto* device =
+      command->add_option("--device", o->device, "OpenCL device: an index or a part of its name");
+  auto* all = command->add_flag("--all", o->all, "Every device of every implementation");
+  all->excludes(device);
+  auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
+  command->add_flag("--full", o->full, "Every pattern with every size; some minutes")
+      ->excludes(quick);
+  auto* kernel = command->add_option("--kernel", o->kernels, "Only this kernel; may be repeated");
+  auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it");
+  auto* math = command->add_option("--math", o->math, "strict or fast, as in 'defray render'");
+  command
+      ->add_flag("--arithmetic", o->arithmetic,
+                 "Measure instead what relaxed arithmetic buys and costs")
+      ->excludes(all)
+      ->excludes(kernel)
+      ->excludes(only)
+      ->excludes(math);
+  command->add_flag("--json", o->json, "Print report.json instead of text");
+  command->footer(
+      "PASS: every value within the kernel's rule, and the same bits in a second run.\n"
+      "Exit code: 0 all pass, 1 a kernel fails.\n"
+      "Examples:\n"
+      "  defray validate -o report\n"
+      "  defray validate --all --full -o report\n"
+      "  defray validate --kernel rdb_merge --case 257x89,ties,coc=8,wild,cells=5,seed=3 -o "
+      "report\n"
+      "  defray validate --arithmetic -o report");
+  return [o] { return run(*o); };
+}
+
+}  // namespace defray::cli

@@ -1,0 +1,27 @@
+#pragma once
+// A built-in scene before its lens, as methods take it: for experiments.
+#include <string>
+#include <vector>
+
+#include "method.h"
+#include "scenes/render.h"
+#include "scenes/scene.h"
+
+namespace defray {
+
+/// A scene in focus, ready for every method.
+struct Subject {
+  Scene scene;
+  Lens lens;
+  ScenePicture pinhole;  ///< Depth as methods take it: +inf where nothing is hit.
+  std::vector<std::int32_t> coc;
+
+  PinholeFrame frame() const {
+    return {scene.width, scene.height, coc, pinhole.depth, pinhole.colour};
+  }
+};
+
+/// Throws Error(usage) where the scene has no such focus setting.
+Subject make_subject(Session& session, Scene scene, const std::string& setting);
+
+}  // namespace defray

@@ -1,0 +1,229 @@
+#include "validation/arithmetic.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "error.h"
+#include "scenes/subject.h"
+
+namespace defray::validation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* no_pragma = "-DDEFRAY_FAST_MATH";  // lets the compiler contract a * b + c
+
+std::vector<Substitution> half_reads() {
+  return {
+      {"__global const float* restrict channel", "__global const half* restrict channel", true},
+      {"(float4)(channel0[at], channel1[at], channel2[at], channel3[at])",
+       "(float4)(vload_half(at, channel0), vload_half(at, channel1), "
+       "vload_half(at, channel2), vload_half(at, channel3))"},
+      {"vload16(0, channel", "vload_half16(0, channel", true},
+      {"__global const float* restrict depth_units", "__global const half* restrict depth_units"},
+      {"depth_units[i]", "vload_half(i, depth_units)"},
+      {"= depth_bits[source]", "= as_uint(vload_half(source, (__global const half*)depth_bits))"}};
+}
+
+/// Divisions of OpenCL's native_ kind; its roots come by a build option.
+std::vector<Substitution> native_divisions() {
+  return {{"-p.infinite_focus_scale / z", "native_divide(-p.infinite_focus_scale, z)"},
+          {"(from_focus / z)", "native_divide(from_focus, z)"},
+          {"total / (float)max(state.x, 1u)",
+           "native_divide(total, (float4)((float)max(state.x, 1u)))"},
+          {"sum / (float)p.sample_count", "native_divide(sum, (float4)((float)p.sample_count))"},
+          {"near_sum / fmax(near_weight, 1.0f)",
+           "native_divide(near_sum, (float4)(fmax(near_weight, 1.0f)))"},
+          {"(base_sum / base_weight)", "native_divide(base_sum, (float4)(base_weight))"},
+          {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"}};
+}
+
+SessionOptions with(const std::string& build_options, std::vector<Substitution> substitutions = {},
+                    bool half_planes = false) {
+  SessionOptions options;
+  options.build_options = build_options;
+  options.substitutions = std::move(substitutions);
+  options.half_planes = half_planes;
+  options.measures = true;
+  return options;
+}
+
+SessionOptions fast() {
+  SessionOptions options = with("");
+  options.math = Math::fast;
+  return options;
+}
+
+struct NamedMethod {
+  std::string name;
+  MethodSettings settings;
+};
+
+std::vector<NamedMethod> methods() {
+  MethodSettings rdb, linear, literal, aware;
+  linear.method = Method::linear;
+  literal.method = aware.method = Method::gather;
+  literal.gather.kind = GatherKind::literal;
+  return {{"rdb, 9x9", rdb},
+          {"linear", linear},
+          {"gather literal, 32 x 2", literal},
+          {"gather aware, 32 x 2", aware}};
+}
+
+std::vector<Plane> render(Session& session, const Subject& s, const MethodSettings& settings) {
+  const auto coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
+  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
+                      settings, &session);
+}
+
+double share_changed(const std::vector<Plane>& a, const std::vector<Plane>& b) {
+  double changed = 0, all = 0;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    for (std::size_t i = 0; i < a[c].size(); ++i) {
+      changed += ulp_distance(a[c][i], b[c][i]) != 0;
+      ++all;
+    }
+  }
+  return changed / all;
+}
+
+bool is_stable(Session& session, const Subject& subject, const MethodSettings& settings,
+               const std::vector<Plane>& expected) {
+  bool same = true;
+  for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{16, 1}, {7, 3}, {0, 0}}) {
+    session.set_work_group(x, y);
+    same = same && render(session, subject, settings) == expected;
+  }
+  return same;
+}
+
+/// Median, and largest minus smallest.
+struct Spread {
+  double median = 1, width = 0;
+};
+Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  return {values[values.size() / 2], values.back() - values.front()};
+}
+
+/// One variant at work.
+struct Trial {
+  const Variant* variant;
+  std::unique_ptr<Session> session;
+  std::vector<std::vector<double>> method_seconds;  ///< [method][round]
+  std::map<std::string, std::vector<double>> kernel_seconds;
+};
+
+void time_round(Trial& trial, const Subject& subject, const std::vector<NamedMethod>& all) {
+  trial.method_seconds.resize(all.size());
+  trial.session->take_kernel_seconds();
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const auto start = Clock::now();
+    render(*trial.session, subject, all[m].settings);
+    trial.method_seconds[m].push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  for (const auto& [kernel, seconds] : trial.session->take_kernel_seconds()) {
+    trial.kernel_seconds[kernel].push_back(seconds);
+  }
+}
+
+Spread ratio(const std::vector<double>& times, const std::vector<double>& strict) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / strict[i]);
+  return spread_of(ratios);
+}
+
+MethodFigures figures_of(Trial& trial, const Subject& subject, const NamedMethod& method,
+                         const std::vector<Plane>& strict) {
+  MethodFigures f;
+  f.method = method.name;
+  const auto picture = render(*trial.session, subject, method.settings);
+  const Comparison c = defray::compare(picture, strict, subject.scene.width);
+  f.psnr_db = c.psnr_srgb_db;
+  f.worst = c.worst;
+  f.changed = share_changed(picture, strict);
+  f.is_stable = is_stable(*trial.session, subject, method.settings, picture);
+  return f;
+}
+
+VariantResult open_trial(const DeviceInfo& info, const Variant& variant, Trial& trial) {
+  VariantResult result;
+  result.name = variant.name;
+  result.about = variant.about;
+  trial.variant = &variant;
+  try {
+    trial.session = std::make_unique<Session>(info, variant.options);
+    Settings settings;
+    settings.session = variant.options;
+    result.kernels = validate_device(info, settings);
+  } catch (const Error& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+}  // namespace
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = {
+      {"strict", "as written: contraction off, divisions and roots correctly rounded", with("")},
+      {"mad", "-cl-mad-enable: a * b + c in one, contraction on",
+       with(std::string("-cl-mad-enable ") + no_pragma)},
+      {"fast", "-cl-fast-relaxed-math, contraction on (--math fast)", fast()},
+      {"denormals flushed", "-cl-denorms-are-zero", with("-cl-denorms-are-zero")},
+      {"native", "native_divide and native_sqrt",
+       with(std::string("-Dsqrt=native_sqrt ") + no_pragma, native_divisions())},
+      {"half storage", "colour and depth kept as half floats, computed in float",
+       with("", half_reads(), true)}};
+  return all;
+}
+
+std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width, int height,
+                                              int rounds,
+                                              const std::function<void(double)>& progress) {
+  std::vector<VariantResult> results;
+  std::vector<Trial> trials(variants().size());
+  const double steps = static_cast<double>(2 * trials.size()) + rounds;
+  double done = 0;
+  const auto step = [&] {
+    if (progress) progress(++done / steps);
+  };
+  for (std::size_t i = 0; i < trials.size(); ++i, step()) {
+    results.push_back(open_trial(info, variants()[i], trials[i]));
+  }
+  if (!trials[0].session) fail(ExitCode::device, "{}", results[0].error);
+  const Subject subject =
+      make_subject(*trials[0].session, make_scene("fence", width, height), "bg");
+  const std::vector<NamedMethod> all = methods();
+  std::vector<std::vector<Plane>> strict;
+  for (const NamedMethod& m : all)
+    strict.push_back(render(*trials[0].session, subject, m.settings));
+  for (std::size_t i = 0; i < trials.size(); ++i, step()) {
+    if (!trials[i].session) continue;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+      results[i].methods.push_back(figures_of(trials[i], subject, all[m], strict[m]));
+    }
+  }
+  for (int round = 0; round < rounds; ++round, step()) {
+    for (Trial& trial : trials) {
+      if (trial.session) time_round(trial, subject, all);
+    }
+  }
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    for (std::size_t m = 0; m < results[i].methods.size(); ++m) {
+      const Spread s = ratio(trials[i].method_seconds[m], trials[0].method_seconds[m]);
+      results[i].methods[m].time_ratio = s.median;
+      results[i].methods[m].time_spread = s.width;
+    }
+    for (const auto& [kernel, seconds] : trials[i].kernel_seconds) {
+      results[i].kernel_time_ratio[kernel] =
+          ratio(seconds, trials[0].kernel_seconds[kernel]).median;
+    }
+  }
+  return results;
+}
+
+}  // namespace defray::validation
