@@ -17,7 +17,7 @@ const std::map<std::string, Pattern> patterns = {
     {"constant", Pattern::constant}, {"slanted", Pattern::slanted},
     {"steps", Pattern::steps},       {"random", Pattern::random},
     {"ties", Pattern::ties},         {"converging", Pattern::converging},
-    {"checker", Pattern::checker}};
+    {"checker", Pattern::checker},   {"sparse", Pattern::sparse}};
 
 const std::map<std::string, Colours> colours = {{"plain", Colours::plain},
                                                 {"wild", Colours::wild},

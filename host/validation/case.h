@@ -15,6 +15,7 @@ enum class Pattern {
   ties,        ///< Few depths, CoC in whole and half pixels: equal keys, rays on pixel borders.
   converging,  ///< One depth; CoC such that whole rows of rays meet in one pixel.
   checker,     ///< A checkerboard of near and far.
+  sparse,      ///< In focus, but for a few pixels of the largest CoC.
 };
 
 enum class Colours {

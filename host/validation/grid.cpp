@@ -43,7 +43,7 @@ T pick(const std::array<T, n>& choices, Random& random) {
 Case vary(Case c, Random& random, std::size_t max_work_group) {
   constexpr std::array patterns{Pattern::constant,   Pattern::slanted, Pattern::steps,
                                 Pattern::random,     Pattern::ties,    Pattern::ties,
-                                Pattern::converging, Pattern::checker};
+                                Pattern::converging, Pattern::checker, Pattern::sparse};
   constexpr std::array colours{Colours::plain, Colours::wild, Colours::wild, Colours::extreme,
                                Colours::nonfinite};
   constexpr std::array<std::array<int, 2>, 6> groups{

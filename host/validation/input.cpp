@@ -19,12 +19,17 @@ struct Point {
   double share;
 };
 
-/// Depths from denormal to the largest float, and the special ones.
-float any_depth(Random& random) {
+/// Depths from denormal to the largest float, the special ones, and those beside the focus.
+float any_depth(double focus, Random& random) {
   constexpr std::array special{infinite, 1e10f, 65504.0f, 1e-6f, 1e-38f, 1e-45f, 3.4e38f, 1.0f};
   const double choice = random.next();
   if (choice < 0.1) return special[static_cast<std::size_t>(choice * 80)];
-  if (choice < 0.4) return static_cast<float>(1 + 8 * random.next());
+  if (choice < 0.3) return static_cast<float>(1 + 8 * random.next());
+  if (choice < 0.5 && std::isfinite(focus)) {
+    float z = static_cast<float>(focus);
+    for (double steps = 8 * random.next() - 4; steps > 0; --steps) z = std::nextafter(z, infinite);
+    return z;
+  }
   return std::max(static_cast<float>(std::exp2(-149 + 276 * random.next())), 1e-45f);
 }
 
@@ -41,7 +46,7 @@ Point point_at(const Case& c, int x, int y, Random& random) {
       return {depth, std::floor(9 * block.next()) / 4 - 1};
     }
     case Pattern::random:
-      return {any_depth(random), 2 * random.next() - 1};
+      return {any_depth(c.focus, random), 2 * random.next() - 1};
     case Pattern::ties: {
       const auto depth = static_cast<float>(1 + std::floor(3 * random.next()));
       const double halves = 2 * c.coc_px * (2 * random.next() - 1);
@@ -52,6 +57,10 @@ Point point_at(const Case& c, int x, int y, Random& random) {
       return {2, c.coc_px > 0 ? (c.width - 2.0 * x) / c.coc_px : 0};
     case Pattern::checker:
       return (x + y) % 2 == 0 ? Point{1, -1} : Point{5, 1};
+    case Pattern::sparse: {
+      const bool is_wide = random.next() < 1.0 / 512 || (x == c.width / 3 && y == c.height / 2);
+      return is_wide ? Point{1, random.next() < 0.5 ? -1.0 : 1.0} : Point{3, 0};
+    }
   }
   return {1, 0};
 }

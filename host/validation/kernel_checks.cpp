@@ -33,9 +33,17 @@ Values twin_coc(const Case& c, const Input& in) {
   return integers(reference::coc(in.lens, c.width, in.depth));
 }
 
-/// 4 ulp of the float radius (tests/coc_accuracy_test.cpp derives them), and one quantum where that
-/// crosses a rounding boundary.
-double coc_slack(std::int64_t twin) { return 1 + std::fabs(static_cast<double>(twin)) * 0x1p-22; }
+/// The radius before it is rounded to quanta: 4 ulp = 8 u (tests/coc_accuracy_test.cpp).
+Exact exact_coc(const Case& c, const Input& in) {
+  constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
+  constexpr double limit = DEFRAY_COC_LIMIT_QUANTA;
+  std::vector<double> exact;
+  for (const float z : in.depth) {
+    const double quanta = quanta_per_px * reference::coc_px(in.lens, c.width, double{z});
+    exact.push_back(std::clamp(quanta, -limit, limit));
+  }
+  return {{exact}, 8};
+}
 
 // RDB ---------------------------------------------------------------------------------------------
 
@@ -59,6 +67,8 @@ Values run_rdb_clear(Session& session, const Case& c, const Input&) {
 Values twin_rdb_clear(const Case& c, const Input&) {
   return integers(cleared_twin(c.width, c.height, c.cells));
 }
+
+double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
 
 Values run_rdb_scatter(Session& session, const Case& c, const Input& in) {
   return {winners_on_device(session, c.width, c.height, in.coc_quanta, in.depth, rdb_settings(c)),
@@ -88,11 +98,11 @@ Values twin_rdb_merge(const Case& c, const Input& in) {
 
 /// n differences <= 2 L, each rounded and added to sums <= 2 n L, then a division and an addition:
 /// (n 2 L u + n 2 n L u) / n + 2 L u + L u + L u <= (2 n + 7) L u, u = 2^-24.
-std::optional<Exact> exact_rdb(const Case& c, const Input& in) {
+Exact exact_rdb(const Case& c, const Input& in) {
   const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
-  return Exact{reference::exact_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
-                                    rdb_settings(c)),
-               2 * cells + 7};
+  return {reference::exact_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
+                               rdb_settings(c)),
+          2 * cells + 7};
 }
 
 /// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
@@ -102,6 +112,11 @@ double one_division(const Case&) { return 12; }
 
 int reach_px(const Case& c) { return static_cast<int>(c.coc_px + 0.5); }
 double side_px(const Case& c) { return 2.0 * reach_px(c) + 1; }
+
+double linear_work(const Case& c) {
+  if (c.coc_px > linear_max_radius_px) return HUGE_VAL;
+  return pixels(c) * square(side_px(c)) * (1 + c.channels);
+}
 
 Values run_linear(Session& session, const Case& c, const Input& in) {
   LinearSettings s;
@@ -119,10 +134,10 @@ Values twin_linear(const Case& c, const Input& in) {
 /// A term carries the roundings of its root, its subtraction (both of numbers up to the reach + 1
 /// for a weight from 0 to 1), its quotient and its product; n terms are then added, each addition
 /// rounded. Terms are below L (the disc's sum is at least 1), partial sums below n L.
-std::optional<Exact> exact_linear(const Case& c, const Input& in) {
+Exact exact_linear(const Case& c, const Input& in) {
   const double n = square(side_px(c));
-  return Exact{reference::render_linear<double>(c.width, c.height, in.coc_quanta, in.channels),
-               n * (2 * (reach_px(c) + 1) + 3 + n)};
+  return {reference::render_linear<double>(c.width, c.height, in.coc_quanta, in.channels),
+          n * (2 * (reach_px(c) + 1) + 3 + n)};
 }
 
 /// n weights, each from a root 3 ulp = 6 u off, of numbers up to the reach + 1.
@@ -211,24 +226,21 @@ constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 const std::vector<KernelCheck>& kernel_checks() {
   constexpr GatherKind literal = GatherKind::literal, aware = GatherKind::aware;
   static const std::vector<KernelCheck> checks = {
-      {"coc", "1 quantum + 4 ulp: float against double", run_coc, twin_coc, pixels, coc_slack},
-      {"gather_aware", bits_rule, run_gather<aware>, twin_gather<aware>, gather_work, nullptr,
+      {"coc", "within 1/2 quantum + 4 ulp of the exact radius", run_coc, twin_coc, pixels, nullptr,
+       exact_coc},
+      {"gather_aware", bits_rule, run_gather<aware>, twin_gather<aware>, gather_work,
        aware_roundings},
-      {"gather_literal", bits_rule, run_gather<literal>, twin_gather<literal>, gather_work, nullptr,
+      {"gather_literal", bits_rule, run_gather<literal>, twin_gather<literal>, gather_work,
        one_division},
       {"gather_reach", integer_rule, run_reach, twin_reach, tiles_work},
       {"gather_tiles", integer_rule, run_tiles, twin_tiles, tiles_work},
-      {"linear_psf", bits_rule, run_linear, twin_linear,
-       [](const Case& c) {
-         return c.coc_px > linear_max_radius_px ? HUGE_VAL
-                                                : pixels(c) * square(side_px(c)) * (1 + c.channels);
-       },
-       nullptr, linear_roundings, exact_linear},
-      {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear,
-       [](const Case& c) { return pixels(c) * c.cells * c.cells; }},
-      {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, nullptr, one_division,
-       exact_rdb},
+      {"linear_psf", bits_rule, run_linear, twin_linear, linear_work, linear_roundings,
+       exact_linear},
+      {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear, clear_work},
+      {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, one_division, exact_rdb},
       {"rdb_scatter", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work},
+      {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work, nullptr,
+       nullptr, true},
       {"tiltshift", bits_rule, run_tiltshift, twin_tiltshift, pixels},
   };
   return checks;

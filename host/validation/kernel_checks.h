@@ -1,7 +1,6 @@
 #pragma once
 // The table of kernels: how each is run, its scalar twin, and how far they may lie apart. A new
 // kernel needs one entry here, and its twin.
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +16,16 @@ struct Values {
   std::vector<Plane> planes = {};
 };
 
-/// The same planes without float's rounding, and how far from them a float sum may lie:
-/// |float - exact| <= terms x (L x 2^-24 + 2^-149), L the largest magnitude of the plane's input.
+/// Exact arithmetic, to measure float's rounding against.
 struct Exact {
   std::vector<std::vector<double>> planes;
-  double terms;
+  /// |float - exact| <= roundings x (L x 2^-24 + 2^-149), L the largest magnitude of the plane's
+  /// input. For whole numbers: the bound is 1/2 + roundings x |exact| x 2^-24.
+  double roundings;
 };
 
 struct KernelCheck {
-  const char* kernel;
+  const char* name;  ///< The kernel's, or with a way of running it behind.
   const char* rule;  ///< For people: how far kernel and twin may lie apart, and why.
   Values (*run)(Session&, const Case&, const Input&);
   Values (*twin)(const Case&, const Input&);
@@ -33,18 +33,18 @@ struct KernelCheck {
   /// Operations of the twin: a grid leaves out what takes too long.
   double (*work)(const Case&);
 
-  /// Largest difference of whole numbers, given the twin's; none: they must be equal.
-  double (*integer_slack)(std::int64_t twin) = nullptr;
-
   /// Roundings u = 2^-24 of the largest input L by which floats may differ on a device that does
   /// not promise correctly rounded divisions and roots (they may be 2.5 and 3 ulp off there).
   double (*loose_roundings)(const Case&) = nullptr;
 
-  /// Exact arithmetic to measure float's rounding against, where a sum has a bound.
-  std::optional<Exact> (*exact)(const Case&, const Input&) = nullptr;
+  /// Where results have a derived bound. Whole numbers are held to it alone, floats to their
+  /// twin's bits too.
+  Exact (*exact)(const Case&, const Input&) = nullptr;
+
+  bool needs_two_passes = false;  ///< Runs without 64-bit atomics.
 };
 
-/// One entry a kernel.
+/// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();
 
 }  // namespace defray::validation

@@ -11,12 +11,11 @@ namespace {
 
 const char* pass_word(bool passed) { return passed ? "PASS" : "FAIL"; }
 
-/// "0", "3 ulp", "0.7 of the slack".
+/// "0", "3 ulp", "2".
 std::string worst_text(const KernelResult& k) {
   if (k.verdict.worst == 0) return "0";
   if (k.verdict.has_floats()) return fmt::format("{:.0f} ulp", k.verdict.worst);
-  return find_check(k.kernel).integer_slack ? fmt::format("{:.3f} of the slack", k.verdict.worst)
-                                            : fmt::format("{:.0f}", k.verdict.worst);
+  return fmt::format("{:.0f}", k.verdict.worst);
 }
 
 std::string hash_text(const KernelResult& k) { return fmt::format("{:016x}", k.hash); }
@@ -44,7 +43,7 @@ Table kernel_table(const DeviceResult& device) {
   Table table{"",
               "Kernels against their scalar twins",
               {"kernel", "result", "rule", "cases", "values", "differing", "beyond the rule",
-               "worst", "share of the sum's bound", "unstable", "seconds", "hash"},
+               "worst", "share of the exact bound", "unstable", "seconds", "hash"},
               {}};
   for (const KernelResult& k : device.kernels) {
     const Verdict& v = k.verdict;
@@ -93,7 +92,7 @@ Table histogram_table(const DeviceResult& device) {
 
 /// Measured rounding over the number of terms, below the bound's line.
 void add_bound_plot(const DeviceResult& device, const std::string& folder, Section& section) {
-  Plot plot{"Rounding of float sums against exact ones", "roundings in the derived bound",
+  Plot plot{"Rounding of float sums against exact ones", "roundings that the derived bound allows",
             "largest error, in roundings of the largest input"};
   plot.x_log = plot.y_log = true;
   Series bound{"derived bound", {}, true, false};
@@ -101,8 +100,8 @@ void add_bound_plot(const DeviceResult& device, const std::string& folder, Secti
     Series series{kernel, {}, false, true};
     for (const ExactPoint& p : device.exact) {
       if (p.kernel != kernel || p.share <= 0) continue;
-      series.points.push_back({p.terms, p.share * p.terms});
-      bound.points.push_back({p.terms, p.terms});
+      series.points.push_back({p.roundings, p.share * p.roundings});
+      bound.points.push_back({p.roundings, p.roundings});
     }
     if (!series.points.empty()) plot.series.push_back(series);
   }
@@ -168,7 +167,7 @@ std::string to_json(const std::vector<DeviceResult>& devices, const std::vector<
                             {"differing", v.differing},
                             {"beyond_rule", v.wrong},
                             {"worst", v.worst},
-                            {"worst_unit", v.has_floats() ? "ulp" : "slack"},
+                            {"worst_unit", v.has_floats() ? "ulp" : "integer"},
                             {"exact_share_of_bound", v.exact_share},
                             {"unstable_cases", k.unstable},
                             {"hash", hash_text(k)},

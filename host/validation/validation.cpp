@@ -26,7 +26,7 @@ class CheckRun {
  public:
   CheckRun(Session& session, const KernelCheck& check, DeviceResult& device)
       : session_(session), check_(check), device_(device) {
-    result_.kernel = check.kernel;
+    result_.kernel = check.name;
     result_.rule = check.rule;
     result_.hash = 0xcbf29ce484222325u;
   }
@@ -47,6 +47,8 @@ class CheckRun {
     if (result_.verdict.add(verdict)) result_.worst_case = text;
   }
 
+  bool has_failed() const { return !result_.passed(); }
+
   void stop_at(const Case& c, const Error& error) {
     result_.error = to_string(c) + ": " + error.what();
   }
@@ -59,10 +61,9 @@ class CheckRun {
  private:
   void measure_rounding(const Case& c, const Run& done, Verdict& verdict) {
     if (!check_.exact) return;
-    const auto exact = check_.exact(c, done.input);
-    if (!exact) return;
-    compare_exact(*exact, done.input, done.kernel.planes, verdict);
-    device_.exact.push_back({check_.kernel, exact->terms, verdict.exact_share});
+    const Exact exact = check_.exact(c, done.input);
+    compare_exact(exact, done.input, done.kernel, verdict);
+    device_.exact.push_back({check_.name, exact.roundings, verdict.exact_share});
   }
 
   Session& session_;
@@ -153,6 +154,7 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
       run.stop_at(cases[i], error);
       break;
     }
+    if (settings.stops_at_first && run.has_failed()) break;
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
   }
   return run.finish(std::chrono::duration<double>(Clock::now() - start).count());
@@ -168,8 +170,8 @@ bool DeviceResult::passed() const {
 const KernelCheck& find_check(const std::string& kernel) {
   std::vector<std::string> names;
   for (const KernelCheck& check : kernel_checks()) {
-    if (kernel == check.kernel) return check;
-    names.push_back(check.kernel);
+    if (kernel == check.name) return check;
+    names.push_back(check.name);
   }
   fail(ExitCode::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
        did_you_mean(kernel, names), join(names, " "));
@@ -188,6 +190,9 @@ Run run_case(Session& session, const KernelCheck& check, const Case& c) {
 DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
                              const std::function<void(double, const std::string&)>& progress) {
   Session session(info, settings.session);
+  SessionOptions options = settings.session;
+  options.use_int64_atomics = false;
+  Session two_pass(info, options);
   DeviceResult result;
   result.device = info.name;
   result.platform = info.platform;
@@ -198,12 +203,13 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
     const auto share = [&](double done) {
       if (progress) {
         progress((static_cast<double>(i) + done) / static_cast<double>(checks.size()),
-                 checks[i]->kernel);
+                 checks[i]->name);
       }
     };
     share(0);
-    result.kernels.push_back(run_check(session, *checks[i], settings, result, share));
-    add_picture(session, *checks[i], result.kernels.back(), result);
+    Session& own = checks[i]->needs_two_passes ? two_pass : session;
+    result.kernels.push_back(run_check(own, *checks[i], settings, result, share));
+    if (!settings.stops_at_first) add_picture(own, *checks[i], result.kernels.back(), result);
   }
   return result;
 }

@@ -35,7 +35,7 @@ struct Picture {
 /// was used.
 struct ExactPoint {
   std::string kernel;
-  double terms, share;
+  double roundings, share;
 };
 
 struct DeviceResult {
@@ -52,6 +52,7 @@ struct Settings {
   std::vector<std::string> kernels;  ///< Empty: all.
   std::string only_case;             ///< This case instead of the grid.
   SessionOptions session;
+  bool stops_at_first = false;  ///< Of a kernel's cases, none after the first that fails.
 };
 
 /// Runs the checks. `progress` gets the share done, 0 to 1, and the kernel at work.

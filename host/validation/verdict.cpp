@@ -41,11 +41,9 @@ void compare_integers(const KernelCheck& check, const Values& kernel, const Valu
     const std::int64_t difference = std::abs(kernel.integers[i] - twin.integers[i]);
     if (difference == 0) continue;
     ++v.differing;
-    const double slack = check.integer_slack ? check.integer_slack(twin.integers[i]) : 0;
-    if (!(static_cast<double>(difference) <= slack)) ++v.wrong;
-    const double far = static_cast<double>(difference) / std::max(slack, 1.0);
-    if (far > v.worst) {
-      v.worst = far;
+    if (!check.exact) ++v.wrong;
+    if (static_cast<double>(difference) > v.worst) {
+      v.worst = static_cast<double>(difference);
       v.worst_at = i;
     }
   }
@@ -119,21 +117,28 @@ Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const 
   return v;
 }
 
-void compare_exact(const Exact& exact, const Input& in, const std::vector<Plane>& kernel,
-                   Verdict& verdict) {
-  for (std::size_t p = 0; p < exact.planes.size(); ++p) {
+void compare_exact(const Exact& exact, const Input& in, const Values& kernel, Verdict& verdict) {
+  const auto hold = [&](double value, double expected, double bound) {
+    const double error = std::fabs(value - expected);
+    if (!(error <= bound)) ++verdict.wrong;
+    if (bound > 0) verdict.exact_share = std::max(verdict.exact_share, error / bound);
+  };
+  for (std::size_t i = 0; i < kernel.integers.size(); ++i) {
+    const double expected = exact.planes[0][i];
+    hold(static_cast<double>(kernel.integers[i]), expected,
+         0.5 + exact.roundings * std::fabs(expected) * u);
+  }
+  for (std::size_t p = 0; p < kernel.planes.size(); ++p) {
     const Plane& source = in.channels[p];
     const bool is_finite =
         std::all_of(source.begin(), source.end(), [](float v) { return std::isfinite(v); });
     const double largest = largest_magnitude(source);
     // Sums of the largest floats overflow: they have no bound.
-    if (!is_finite || exact.terms * largest > std::numeric_limits<float>::max()) continue;
+    if (!is_finite || exact.roundings * largest > std::numeric_limits<float>::max()) continue;
     // Near 0 a rounding is at most half the smallest denormal, however small the values.
-    const double bound = exact.terms * (largest * u + 0x1p-149);
-    for (std::size_t i = 0; i < kernel[p].size(); ++i) {
-      const double error = std::fabs(static_cast<double>(kernel[p][i]) - exact.planes[p][i]);
-      if (!(error <= bound)) ++verdict.wrong;
-      if (bound > 0) verdict.exact_share = std::max(verdict.exact_share, error / bound);
+    const double bound = exact.roundings * (largest * u + 0x1p-149);
+    for (std::size_t i = 0; i < kernel.planes[p].size(); ++i) {
+      hold(static_cast<double>(kernel.planes[p][i]), exact.planes[p][i], bound);
     }
   }
 }

@@ -26,8 +26,7 @@ struct Verdict {
   std::uint64_t wrong = 0;      ///< Farther apart than the rule allows.
   std::array<std::uint64_t, ulp_bins> ulp_histogram{};  ///< Of floats.
 
-  double worst = 0;  ///< Largest difference: whole numbers as a share of their slack (of 1 where
-                     ///< there is none), floats in ulp.
+  double worst = 0;          ///< Largest difference from the twin: whole numbers, or floats in ulp.
   std::size_t worst_at = 0;  ///< Index among all its values, plane by plane.
   double exact_share = 0;    ///< Largest error against exact arithmetic, as a share of its bound.
 
@@ -42,10 +41,9 @@ struct Verdict {
 Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const Values& kernel,
                 const Values& twin, bool keeps_denormals, bool rounds_divisions);
 
-/// Measures a kernel's planes against exact ones, where the input is finite: fills exact_share and
+/// Measures a kernel's values against exact ones, where the input is finite: fills exact_share and
 /// counts values beyond the bound as wrong.
-void compare_exact(const Exact& exact, const Input& in, const std::vector<Plane>& kernel,
-                   Verdict& verdict);
+void compare_exact(const Exact& exact, const Input& in, const Values& kernel, Verdict& verdict);
 
 /// FNV-1a over all values.
 std::uint64_t hash_of(const Values& values);
