@@ -81,9 +81,7 @@ void print_device(const DeviceResult& d) {
   }
 }
 
-DeviceResult validate_with_progress(const DeviceInfo& info, Settings settings) {
-  // A simulator takes a thousand times longer: the smallest frames must do.
-  if (info.platform == "Oclgrind") settings.level = Level::tiny;
+DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& settings) {
   ProgressBar bar(1, info.name.c_str(), true);
   return validate_device(info, settings,
                          [&](double share, const std::string&) { bar.update(0, share); });

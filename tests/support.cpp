@@ -8,6 +8,8 @@
 #include <memory>
 #include <random>
 
+#include "validation/oclgrind_log.h"
+
 namespace defray::test {
 
 DeviceInfo device_under_test() {
@@ -50,7 +52,7 @@ Session& session_without_int64() {
   return *shared;
 }
 
-bool is_slow_device() { return device_under_test().name.find("Oclgrind") != std::string::npos; }
+bool is_slow_device() { return validation::is_simulator(device_under_test()); }
 
 std::vector<Size> awkward_sizes() {
   return {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {640, 480}};

@@ -13,7 +13,8 @@ enum class Pattern {
   steps,       ///< Rectangles: discontinuities.
   random,      ///< Every pixel for itself, depths of all magnitudes.
   ties,        ///< Few depths, CoC in whole and half pixels: equal keys, rays on pixel borders.
-  converging,  ///< One depth; CoC such that whole rows of rays meet in one pixel.
+  converging,  ///< Whole rows (odd seeds: columns) of rays meet in one pixel, each nearer than the
+               ///< one before: through the lens coordinate 1/2, as 2 x 2 cells have it.
   checker,     ///< A checkerboard of near and far.
   sparse,      ///< In focus, but for a few pixels of the largest CoC.
 };

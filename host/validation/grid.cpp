@@ -61,6 +61,11 @@ Case vary(Case c, Random& random, std::size_t max_work_group) {
     c.group_x = group[0];
     c.group_y = group[1];
   }
+  if (c.pattern == Pattern::converging) {
+    c.cells = 2;
+    c.jitter = false;
+    c.group_x = c.group_y = 1;  // neighbours go to different threads, and meet
+  }
   return c;
 }
 

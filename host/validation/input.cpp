@@ -53,8 +53,11 @@ Point point_at(const Case& c, int x, int y, Random& random) {
       return {random.next() < 0.05 ? infinite : depth,
               c.coc_px > 0 ? std::trunc(halves) / (2 * c.coc_px) : 0};
     }
-    case Pattern::converging:  // for the lens coordinate 1/2: x + r / 2 is the frame's middle
-      return {2, c.coc_px > 0 ? (c.width - 2.0 * x) / c.coc_px : 0};
+    case Pattern::converging: {
+      const double order = (y + (x + 0.5) / c.width) / c.height;
+      const double to_middle = c.seed % 2 == 0 ? c.width / 2 - x : c.height / 2 - y;
+      return {static_cast<float>(9 - 8 * order), c.coc_px > 0 ? 2 * to_middle / c.coc_px : 0};
+    }
     case Pattern::checker:
       return (x + y) % 2 == 0 ? Point{1, -1} : Point{5, 1};
     case Pattern::sparse: {

@@ -6,6 +6,7 @@
 
 #include "error.h"
 #include "text.h"
+#include "validation/oclgrind_log.h"
 
 namespace defray::validation {
 namespace {
@@ -140,10 +141,11 @@ void add_picture(Session& session, const KernelCheck& check, const KernelResult&
 }
 
 KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,
-                       DeviceResult& device, const std::function<void(double)>& progress) {
+                       Level level, DeviceResult& device,
+                       const std::function<void(double)>& progress) {
   const auto start = Clock::now();
   const std::vector<Case> cases = settings.only_case.empty()
-                                      ? grid(settings.level, check, session.info().max_work_group)
+                                      ? grid(level, check, session.info().max_work_group)
                                       : std::vector<Case>{parse_case(settings.only_case)};
   CheckRun run(session, check, device);
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -189,11 +191,13 @@ Run run_case(Session& session, const KernelCheck& check, const Case& c) {
 
 DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
                              const std::function<void(double, const std::string&)>& progress) {
+  OclgrindLog log(info);
   Session session(info, settings.session);
   SessionOptions options = settings.session;
   options.use_int64_atomics = false;
   Session two_pass(info, options);
   DeviceResult result;
+  const Level level = is_simulator(info) ? Level::tiny : settings.level;
   result.device = info.name;
   result.platform = info.platform;
   result.version = info.version;
@@ -208,7 +212,10 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
     };
     share(0);
     Session& own = checks[i]->needs_two_passes ? two_pass : session;
-    result.kernels.push_back(run_check(own, *checks[i], settings, result, share));
+    result.kernels.push_back(run_check(own, *checks[i], settings, level, result, share));
+    if (const std::string found = log.take(); !found.empty()) {
+      result.kernels.back().error = "Oclgrind: " + found;
+    }
     if (!settings.stops_at_first) add_picture(own, *checks[i], result.kernels.back(), result);
   }
   return result;

@@ -55,7 +55,8 @@ struct Settings {
   bool stops_at_first = false;  ///< Of a kernel's cases, none after the first that fails.
 };
 
-/// Runs the checks. `progress` gets the share done, 0 to 1, and the kernel at work.
+/// Runs the checks; on a simulator the smallest frames whatever the level. `progress` gets the
+/// share done, 0 to 1, and the kernel at work.
 DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
                              const std::function<void(double, const std::string&)>& progress = {});
 

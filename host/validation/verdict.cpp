@@ -28,7 +28,7 @@ double largest_magnitude(const Plane& plane) {
 
 /// Infinite results on one side only: an overflow that the slack must explain.
 bool is_within(float a, float b, double slack) {
-  if (ulp_distance(a, b) == 0) return true;
+  if (ulp_distance(a, b) == 0 || slack == 0) return ulp_distance(a, b) == 0;  // -0 is not 0
   if (std::isfinite(a) && std::isfinite(b)) {
     return std::fabs(static_cast<double>(a) - static_cast<double>(b)) <= slack;
   }
