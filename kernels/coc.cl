@@ -4,9 +4,16 @@
 // Shinya 1994, eq. 2-3, in pinhole pixels). The difference is taken first: the algebraically equal
 // K (1 - z0/z) loses every digit near focus.
 //
-// depth_units  [pixel_count]  planar depth > 0, scene units; +inf is background
+// Every value has an answer, and no NaN reaches the rounding: what is no finite depth (inf, NaN, 0,
+// negative) is background. A difference or quotient that overflows stands for a radius far beyond
+// the limit (host/lens.cpp sees to it), and becomes the limit.
+//
+// depth_units  [pixel_count]  planar depth > 0, scene units; anything else is background
 // coc_quanta   [pixel_count]  signed radius, 1/256 px, rounded to nearest even
 #include "params.h"
+
+// By its bits: devices that take denormals for 0 still see them as depths in front of everything.
+bool is_finite_depth(const float z) { return as_uint(z) - 1u < 0x7f7fffffu; }
 
 __kernel void coc(const DefrayCocParams p, __global const float* restrict depth_units,
                   __global int* restrict coc_quanta) {
@@ -16,7 +23,7 @@ __kernel void coc(const DefrayCocParams p, __global const float* restrict depth_
   float radius;
   if (p.scale_quanta == 0.0f && p.infinite_focus_scale == 0.0f) {
     radius = 0.0f;  // a closed aperture; 0 * inf below would be NaN
-  } else if (isinf(z)) {
+  } else if (!is_finite_depth(z)) {
     radius = p.focus_is_infinite ? 0.0f : p.scale_quanta;  // the limit; inf / inf is NaN
   } else if (p.focus_is_infinite) {
     radius = -p.infinite_focus_scale / z;

@@ -47,7 +47,7 @@
 typedef struct {
   DEFRAY_UINT pixel_count;
   DEFRAY_UINT focus_is_infinite;  ///< 1: coc = -infinite_focus_scale / depth.
-  float scale_quanta;             ///< K = A F / (2 z0), in quanta; 0 for a closed aperture.
+  float scale_quanta;             ///< K = A F / (2 z0), in quanta; 0 for focus at infinity.
   float focus_hi_units;           ///< Focus distance z0 = hi + lo, scene units.
   float focus_lo_units;           ///< What float rounding takes from z0.
   float infinite_focus_scale;     ///< A F / 2, in quanta x scene units.

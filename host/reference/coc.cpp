@@ -17,14 +17,15 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units) {
   const double pixel_focal = lens.focal_length_mm * px_per_mm;
   const double z0 = lens.focus_distance_units;
   const double z = depth_units;
+  const bool is_background = !(z > 0) || std::isinf(z);
   if (z0 > std::numeric_limits<float>::max()) {
-    return std::isinf(z) ? 0 : -0.5 * aperture * pixel_focal / z;
+    return is_background ? 0 : -0.5 * aperture * pixel_focal / z;
   }
   // A textbook camera puts the sensor at the image distance f z0 / (z0 - f), not at f.
   const double f = lens.focal_length_mm / unit_mm;
   const double magnification =
       lens.model == LensModel::breathing ? pixel_focal / (z0 - f) : pixel_focal / z0;
-  const double signed_share = std::isinf(z) ? 1 : (z - z0) / z;
+  const double signed_share = is_background ? 1 : (z - z0) / z;
   return 0.5 * aperture * magnification * signed_share;
 }
 

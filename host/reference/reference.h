@@ -12,8 +12,8 @@
 
 namespace defray::reference {
 
-/// Signed CoC radius in pixels of a point at planar depth z > 0 (inf: background), exact to a few
-/// double roundings, before any limit.
+/// Signed CoC radius in pixels of a point at planar depth z > 0 (anything else: background), exact
+/// to a few double roundings, before any limit.
 double coc_px(const Lens& lens, int display_width_px, double depth_units);
 
 /// Twin of kernel `coc`: radii limited and rounded to quanta of 1/256 px.
