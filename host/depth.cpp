@@ -12,6 +12,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_half = 65504;
 constexpr double far_away = 1e9;
+/// 1/z of a denormal lies farther than floats go: background too.
+constexpr double farthest = std::numeric_limits<float>::max();
 
 bool is_background(double stored, const DepthSettings& s) {
   if (s.background) return stored == static_cast<double>(static_cast<float>(*s.background));
@@ -44,7 +46,7 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
 
 void validate(const DepthSettings& s) {
   if (s.kind == DepthKind::normalized) {
-    if (!(s.near_units > 0) || !(s.far_units > s.near_units)) {
+    if (!(s.near_units > 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
       fail(ExitCode::usage,
            "--depth-kind normalized needs 0 < --near < --far in scene units; found near {} far {}",
            s.near_units, s.far_units);
@@ -67,20 +69,20 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
   for (int y = data.y; y < data.y + data.height; ++y) {
     for (int x = data.x; x < data.x + data.width; ++x, ++i) {
       const double stored = static_cast<double>(depth[i]);
-      const bool is_nan = std::isnan(stored);
-      if (is_nan || std::isinf(stored) || is_background(stored, settings)) {
-        report.not_a_number += is_nan;
-        ++report.background;
-        depth[i] = std::numeric_limits<float>::infinity();
-        continue;
-      }
+      const bool is_nothing = !std::isfinite(stored) || is_background(stored, settings);
       const bool is_normalized = settings.kind == DepthKind::normalized;
-      report.outside_range += is_normalized && (stored < 0 || stored > 1);
+      report.outside_range += is_normalized && !is_nothing && (stored < 0 || stored > 1);
       const double share =
           settings.kind == DepthKind::distance
               ? planar_share(x + 0.5 - centre_x, y + 0.5 - centre_y, pixel_focal_length)
               : 1;
-      const double z = planar_depth(stored, settings, share);
+      const double z = is_nothing ? infinity : planar_depth(stored, settings, share);
+      if (z > farthest) {
+        report.not_a_number += std::isnan(stored);
+        ++report.background;
+        depth[i] = std::numeric_limits<float>::infinity();
+        continue;
+      }
       depth[i] = static_cast<float>(z);
       if (!(depth[i] > 0)) {
         fail(ExitCode::input,

@@ -1,6 +1,7 @@
 #include "image/output.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "error.h"
@@ -33,6 +34,15 @@ void write_display_encoded(const std::string& path, const PartInfo& part,
                            {},
                            to_display_window(colour, part.data, part.display)};
   write_safely(path, [&](const std::string& name) { write_ldr(name, picture); });
+}
+
+/// Values that are finite, but not as the file's channel stores them.
+std::size_t count_lost(const Plane& values, const Plane& stored) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    count += std::isfinite(values[i]) && !std::isfinite(stored[i]);
+  }
+  return count;
 }
 
 }  // namespace
@@ -79,8 +89,14 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
     notes.push_back(
         "the file's compression is lossy: channels not rendered may change a little too");
   }
+  std::size_t overflowed = 0;
   for (std::size_t c = 0; c < colour.size(); ++c) {
     file.set_plane(choice.part, choice.channels[c], colour[c]);
+    overflowed += count_lost(colour[c], file.plane(choice.part, choice.channels[c]));
+  }
+  if (overflowed > 0) {
+    notes.push_back(
+        fmt::format("{} values beyond half float's 65504 are written as Inf", overflowed));
   }
   write_safely(path, [&](const std::string& name) {
     if (keeps_all) return file.write(name);
