@@ -1,15 +1,17 @@
 // rdb_merge: the mean over the cells of each pixel's ray distribution buffer (Shinya 1994,
 // section 4, step 5).
 //
-// Cells that no ray reached do not count; a pixel without any ray keeps its own colour. The mean is
-// taken of the differences to the first cell's colour: equal colours, as in focus, come out bit for
-// bit. The cells come in passes, and sums run over them in lens order whatever the passes: one
-// result, bit for bit, for every band height and memory budget.
+// Cells that no ray reached do not count; a pixel without any ray keeps its own colour. Where all
+// cells have one colour, as in focus, it comes out bit for bit, not as a rounded mean; elsewhere
+// colours are simply added: sums of differences to one of them would lose dark cells beside a
+// bright one. The cells come in passes, and sums run over them in lens order whatever the passes:
+// one result, bit for bit, for every band height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // channel0..3     [window_rows][width]             colour planes of the source window
-// sum             [band_rows][width]               differences' sums; after the last pass the means
-// filled          [band_rows][width]               (x: cells that a ray has reached so far,
+// sum             [band_rows][width]               colours' sums; after the last pass the means
+// filled          [band_rows][width]               (x: cells that a ray has reached so far; bits 16
+//                                                   to 19: whether each channel has varied,
 //                                                   y: source of the first of them)
 // Global size: (width, band_rows).
 #include "colour.h"
@@ -29,26 +31,28 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
   const size_t own = (size_t)(p.band_y - p.window_y + row) * p.width + x;
   const size_t cell_stride = (size_t)p.band_rows * p.width;
   float4 total = p.is_first_pass ? (float4)(0.0f) : sum[target];
-  uint2 state = p.is_first_pass ? (uint2)(0u, (uint)own) : filled[target];
+  const uint2 state = p.is_first_pass ? (uint2)(0u, (uint)own) : filled[target];
+  uint count = state.x & 0xffffu;
+  uint f = state.y;  // the pixel itself while no ray has arrived
+  float4 first = colour_at(channel0, channel1, channel2, channel3, f);
+  int4 varies = (int4)((int)(state.x >> 16)) << (int4)(31, 30, 29, 28);  // in the sign bits
 
   for (uint cell = 0; cell < p.cell_count; ++cell) {
     const uint s = winner[cell * cell_stride + target].x;
     if (s == DEFRAY_EMPTY) continue;
-    if (state.x == 0u) state.y = s;
-    const uint f = state.y;
-    if (s != f) {  // inf - inf would be NaN
-      total += colour_at(channel0, channel1, channel2, channel3, s) -
-               colour_at(channel0, channel1, channel2, channel3, f);
+    const float4 colour = colour_at(channel0, channel1, channel2, channel3, s);
+    if (count == 0u) {
+      f = s;
+      first = colour;
     }
-    ++state.x;
+    if (s != f) varies |= colour != first;  // a NaN differs from itself
+    total += colour;
+    ++count;
   }
 
-  if (p.is_last_pass) {
-    const uint f = state.y;  // the pixel itself where no ray has arrived
-    const float4 first = colour_at(channel0, channel1, channel2, channel3, f);
-    const float4 mean = first + total / (float)max(state.x, 1u);
-    total = select(mean, first, total == 0.0f);  // -0 + 0 would be +0
-  }
+  if (p.is_last_pass) total = select(first, total / (float)max(count, 1u), varies);
   sum[target] = total;
-  filled[target] = state;
+  const uint4 flags = as_uint4(varies) >> (uint4)(31u);
+  filled[target] =
+      (uint2)(count | flags.x << 16 | flags.y << 17 | flags.z << 18 | flags.w << 19, f);
 }

@@ -52,10 +52,9 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
     for (std::size_t c = 0; c < 4; ++c) {
       double largest = 0;
       for (const float v : in.channels[c]) largest = std::fmax(largest, std::fabs(v));
-      // n differences <= 2 L in size, each rounded and added to sums <= 2 n L, one division, one
-      // addition that gives the mean <= L; u = 2^-24:
-      // |error| <= (n 2 L u + n 2 n L u) / n + 2 L u + 2 L u + L u = (2 n + 7) L u.
-      const double bound = (2 * cells + 7) * largest * 0x1p-24;
+      // n - 1 additions to sums <= n L, each rounded, one division and the kernel's 2.5 ulp for it
+      // at worst; u = 2^-24: |error| <= (n n L u) / n + 5 L u.
+      const double bound = (cells + 5) * largest * 0x1p-24;
       for (std::size_t i = 0; i < exact[c].size(); ++i) {
         ASSERT_NEAR(kernel[c][i], exact[c][i], bound) << "channel " << c << ", pixel " << i;
       }

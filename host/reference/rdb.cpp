@@ -123,12 +123,15 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress) {
   std::vector<Plane> sum(channels.size(), Plane(depth.size()));
+  std::vector<std::vector<bool>> varies(channels.size(), std::vector<bool>(depth.size()));
   std::vector<std::size_t> first(depth.size()), filled(depth.size());
   const auto add = [&](std::size_t target, std::size_t source) {
     if (filled[target]++ == 0) first[target] = source;
-    if (source == first[target]) return;
     for (std::size_t c = 0; c < sum.size(); ++c) {
-      sum[c][target] += channels[c][source] - channels[c][first[target]];
+      sum[c][target] += channels[c][source];
+      if (source != first[target] && channels[c][source] != channels[c][first[target]]) {
+        varies[c][target] = true;
+      }
     }
   };
   for_each_winner(width, height, coc_quanta, depth, settings, add, progress);
@@ -136,8 +139,7 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
   for (std::size_t c = 0; c < out.size(); ++c) {
     for (std::size_t i = 0; i < out[c].size(); ++i) {
       if (filled[i] == 0) continue;
-      out[c][i] = channels[c][first[i]];
-      if (sum[c][i] != 0) out[c][i] += sum[c][i] / static_cast<float>(filled[i]);
+      out[c][i] = varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : channels[c][first[i]];
     }
   }
   return out;

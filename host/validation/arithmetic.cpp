@@ -29,15 +29,15 @@ std::vector<Substitution> half_reads() {
 
 /// Divisions of OpenCL's native_ kind; its roots come by a build option.
 std::vector<Substitution> native_divisions() {
-  return {{"-p.infinite_focus_scale / z", "native_divide(-p.infinite_focus_scale, z)"},
-          {"(from_focus / z)", "native_divide(from_focus, z)"},
-          {"total / (float)max(state.x, 1u)",
-           "native_divide(total, (float4)((float)max(state.x, 1u)))"},
-          {"sum / (float)p.sample_count", "native_divide(sum, (float4)((float)p.sample_count))"},
-          {"near_sum / fmax(near_weight, 1.0f)",
-           "native_divide(near_sum, (float4)(fmax(near_weight, 1.0f)))"},
-          {"(base_sum / base_weight)", "native_divide(base_sum, (float4)(base_weight))"},
-          {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"}};
+  return {
+      {"-p.infinite_focus_scale / z", "native_divide(-p.infinite_focus_scale, z)"},
+      {"(from_focus / z)", "native_divide(from_focus, z)"},
+      {"total / (float)max(count, 1u)", "native_divide(total, (float4)((float)max(count, 1u)))"},
+      {"sum / (float)p.sample_count", "native_divide(sum, (float4)((float)p.sample_count))"},
+      {"near_sum / fmax(near_weight, 1.0f)",
+       "native_divide(near_sum, (float4)(fmax(near_weight, 1.0f)))"},
+      {"(base_sum / base_weight)", "native_divide(base_sum, (float4)(base_weight))"},
+      {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"}};
 }
 
 SessionOptions with(const std::string& build_options, std::vector<Substitution> substitutions = {},

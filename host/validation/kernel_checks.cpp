@@ -96,13 +96,13 @@ Values twin_rdb_merge(const Case& c, const Input& in) {
                                 rdb_settings(c))};
 }
 
-/// n differences <= 2 L, each rounded and added to sums <= 2 n L, then a division and an addition:
-/// (n 2 L u + n 2 n L u) / n + 2 L u + L u + L u <= (2 n + 7) L u, u = 2^-24.
+/// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
+/// (n n L u) / n + 5 L u.
 Exact exact_rdb(const Case& c, const Input& in) {
   const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
   return {reference::exact_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
                                rdb_settings(c)),
-          2 * cells + 7};
+          cells + 5};
 }
 
 /// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.

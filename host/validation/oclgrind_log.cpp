@@ -6,22 +6,18 @@
 #include <fstream>
 #include <iterator>
 
+#include "temporary_folder.h"
+
 namespace defray::validation {
 
 OclgrindLog::OclgrindLog(const DeviceInfo& info) {
   if (!is_simulator(info)) return;
+  // Oclgrind opens its log once: one for the process, the user's own if there is one.
+  static const TemporaryFolder folder("defray-oclgrind");
   setenv("OCLGRIND_DATA_RACES", "1", 0);
-  if (const char* own = getenv("OCLGRIND_LOG")) {
-    path_ = own;
-    return;
-  }
-  folder_ = std::make_unique<TemporaryFolder>("defray-oclgrind");
-  path_ = folder_->path() + "/log";
-  setenv("OCLGRIND_LOG", path_.c_str(), 1);
-}
-
-OclgrindLog::~OclgrindLog() {
-  if (folder_) unsetenv("OCLGRIND_LOG");
+  setenv("OCLGRIND_LOG", (folder.path() + "/log").c_str(), 0);
+  path_ = getenv("OCLGRIND_LOG");
+  take();
 }
 
 std::string OclgrindLog::take() {

@@ -1,10 +1,8 @@
 #pragma once
 // What the simulator Oclgrind reports: races, memory outside buffers.
-#include <memory>
 #include <string>
 
 #include "opencl/device.h"
-#include "temporary_folder.h"
 
 namespace defray::validation {
 
@@ -13,15 +11,11 @@ namespace defray::validation {
 class OclgrindLog {
  public:
   explicit OclgrindLog(const DeviceInfo& info);
-  ~OclgrindLog();
-  OclgrindLog(const OclgrindLog&) = delete;
-  OclgrindLog& operator=(const OclgrindLog&) = delete;
 
   /// What was reported since the last call: its first lines; empty: nothing.
   std::string take();
 
  private:
-  std::unique_ptr<TemporaryFolder> folder_;
   std::string path_;
   std::size_t read_ = 0;
 };
