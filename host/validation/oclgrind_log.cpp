@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -12,12 +12,12 @@ namespace defray::validation {
 
 OclgrindLog::OclgrindLog(const DeviceInfo& info) {
   if (!is_simulator(info)) return;
-  // Oclgrind opens its log once: one for the process, the user's own if there is one.
+  // One for the process; the user's own if there is one.
   static const TemporaryFolder folder("defray-oclgrind");
   setenv("OCLGRIND_DATA_RACES", "1", 0);
   setenv("OCLGRIND_LOG", (folder.path() + "/log").c_str(), 0);
   path_ = getenv("OCLGRIND_LOG");
-  take();
+  std::remove(path_.c_str());  // a new context would begin it anew
 }
 
 std::string OclgrindLog::take() {
@@ -25,8 +25,9 @@ std::string OclgrindLog::take() {
   std::ifstream stream(path_);
   const std::string all{std::istreambuf_iterator<char>(stream), {}};
   constexpr std::size_t longest = 600;
-  const std::string news = all.substr(std::min(read_, all.size()), longest);
-  read_ = all.size();
+  const bool is_longer = all.compare(0, seen_.size(), seen_) == 0;
+  const std::string news = all.substr(is_longer ? seen_.size() : 0, longest);
+  seen_ = all;
   return news;
 }
 

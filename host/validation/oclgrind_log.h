@@ -17,7 +17,7 @@ class OclgrindLog {
 
  private:
   std::string path_;
-  std::size_t read_ = 0;
+  std::string seen_;
 };
 
 /// Whether a device is simulated: a thousand times slower than others.
