@@ -17,7 +17,7 @@ class OclgrindLog {
 
  private:
   std::string path_;
-  std::string seen_;
+  std::size_t read_ = 0;
 };
 
 /// Whether a device is simulated: a thousand times slower than others.
