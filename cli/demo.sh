@@ -2,6 +2,7 @@
 # The demo: builds defray, makes the paper's Plate 1, renders it through the ray distribution
 # buffer on OpenCL and shows how far from the truth that is. Pictures go to build/demo.
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+build "$project/build" -DCMAKE_BUILD_TYPE=Release
 
 defray=$project/build/bin/defray
 out=$project/build/demo

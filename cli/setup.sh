@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian's packages) and builds Release into build/.
-# Sourced by demo.sh and tests/run.sh; says nothing when nothing is to be done.
-# setup NAME...: build these targets. Packages beyond the program's own: $EXTRA_PACKAGES.
+# Installs what is missing (Debian's packages), and defines `build`. Sourced by demo.sh and the
+# scripts in tests/; says nothing when nothing is to be done. Packages beyond the program's own:
+# $EXTRA_PACKAGES.
 set -euo pipefail
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -25,13 +25,13 @@ install_missing() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# Configures and builds; the log is shown only if that fails.
+# build FOLDER [CMAKE OPTIONS]: configures and builds; the log is shown only if that fails.
 build() {
   local folder=$1
   shift
   local log
   log=$(mktemp)
-  [ -x "$folder/bin/defray" ] || echo "Building in $folder; the first time takes a few minutes"
+  [ -d "$folder/bin" ] || echo "Building in $folder; the first time takes a few minutes"
   if ! { cmake -S "$project" -B "$folder" -G Ninja "$@" && cmake --build "$folder"; } >"$log" 2>&1
   then
     cat "$log" >&2
@@ -43,4 +43,3 @@ build() {
 }
 
 install_missing
-build "$project/build" -DCMAKE_BUILD_TYPE=Release

@@ -3,7 +3,6 @@
 export EXTRA_PACKAGES="libgtest-dev libbenchmark-dev clang-format clang-tidy
   oclgrind mesa-opencl-icd xvfb xdotool"
 source "$(dirname "${BASH_SOURCE[0]}")/../cli/setup.sh"
-build "$project/build" -DDEFRAY_TESTS=ON -DDEFRAY_BENCHMARKS=ON
-build "$project/build/asan" -DDEFRAY_TESTS=ON -DDEFRAY_SANITIZE=ON \
-  -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1"
+build "$project/build" -DCMAKE_BUILD_TYPE=Release -DDEFRAY_TESTS=ON -DDEFRAY_BENCHMARKS=ON
+build "$project/build/asan" -C "$project/tests/presets/asan.cmake"
 exec ctest --test-dir "$project/build" --output-on-failure --parallel "$(nproc)" "$@"
