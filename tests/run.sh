@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # All tests: installs what is missing, builds, runs CTest. Arguments go to ctest (-R Render, -V …).
-export EXTRA_PACKAGES="libgtest-dev libbenchmark-dev clang-format clang-tidy
+export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
   oclgrind mesa-opencl-icd xvfb xdotool"
 source "$(dirname "${BASH_SOURCE[0]}")/../cli/setup.sh"
 build "$project/build" -DCMAKE_BUILD_TYPE=Release -DDEFRAY_TESTS=ON -DDEFRAY_BENCHMARKS=ON
