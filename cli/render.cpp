@@ -6,6 +6,7 @@
 #include "display.h"
 #include "image/output.h"
 #include "options.h"
+#include "parse.h"
 #include "progress.h"
 #include "sequence.h"
 

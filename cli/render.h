@@ -44,9 +44,6 @@ TiltshiftSettings to_tiltshift(const RenderOptions& options);
 /// Throws Error(usage) on values that are not allowed.
 RenderSettings to_settings(const RenderOptions& options);
 
-/// "64x1" -> {64, 1}; {0, 0} for an empty text. Throws Error(usage).
-std::array<std::size_t, 2> parse_work_group(const std::string& text);
-
 /// What became of one frame.
 struct FrameOutcome {
   std::optional<int> frame;  ///< Empty for a single picture.

@@ -1,9 +1,8 @@
 // The options of defray render.
-#include <charconv>
 #include <cmath>
-#include <regex>
 
 #include "options.h"
+#include "parse.h"
 #include "render.h"
 
 namespace defray::cli {
@@ -96,27 +95,6 @@ void add_lens(CLI::App& c, RenderOptions& o) {
   c.add_option("--max-coc", o.max_coc, "Limit of the CoC radius, px; default: none")->group(group);
 }
 
-double parse_unit(const std::string& text) {
-  static const std::map<std::string, double> metres{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
-                                                    {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size()) return number;
-  return choice("--unit", text, metres);
-}
-
-/// A value that says "background", or nothing but infinity for "none".
-double parse_background(const std::string& text) {
-  if (text == "none") return INFINITY;
-  double number = 0;
-  const char* begin = text.data() + (text[0] == '+' ? 1 : 0);
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    fail(ExitCode::usage, "--background '{}' is neither a number nor none", text);
-  }
-  return number;
-}
-
 CameraValues typed_values(const RenderOptions& o) {
   CameraValues typed;
   typed.focal_length_mm = o.focal_length;
@@ -202,17 +180,6 @@ RenderSettings to_settings(const RenderOptions& o) {
   s.max_coc_px = o.max_coc.value_or(0);
   if (s.method.method != Method::tiltshift) read_lens(o, s);
   return s;
-}
-
-std::array<std::size_t, 2> parse_work_group(const std::string& text) {
-  if (text.empty()) return {0, 0};
-  static const std::regex form(R"(([1-9]\d{0,5})(?:x([1-9]\d{0,5}))?)");
-  std::smatch match;
-  if (!std::regex_match(text, match, form)) {
-    fail(ExitCode::usage, "--work-group '{}': write it as 64 or 64x1", text);
-  }
-  const std::size_t y = match[2].matched ? std::stoul(match[2]) : 1;
-  return {std::stoul(match[1]), y};
 }
 
 }  // namespace defray::cli

@@ -1,55 +1,12 @@
 #include "camera.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "error.h"
 #include "text.h"
 
 namespace defray {
 namespace {
-
-using nlohmann::json;
-
-json parse_file(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream || !std::filesystem::is_regular_file(path)) {
-    fail(ExitCode::input, "{}: cannot open the camera file", path);
-  }
-  try {
-    return json::parse(stream);
-  } catch (const json::exception& error) {
-    fail(ExitCode::input, "{}: not valid JSON: {}", path, error.what());
-  }
-}
-
-std::optional<double> number(const std::string& path, const json& object, const char* key) {
-  if (!object.is_object() || !object.contains(key)) return std::nullopt;
-  if (!object[key].is_number()) fail(ExitCode::input, "{}: '{}' is not a number", path, key);
-  return object[key].get<double>();
-}
-
-/// The focus setting asked for, or the only one there is.
-json choose_setting(const std::string& path, const json& root, const std::string& setting) {
-  // A file without settings may state focus and aperture beside the focal length.
-  if (!root.contains("focus_settings")) return root;
-  const json& settings = root["focus_settings"];
-  if (!settings.is_object()) fail(ExitCode::input, "{}: 'focus_settings' is no object", path);
-  std::vector<std::string> names;
-  for (const auto& item : settings.items()) names.push_back(item.key());
-  if (!setting.empty()) {
-    if (settings.contains(setting)) return settings[setting];
-    fail(ExitCode::input, "{}: no focus setting '{}'.{} It has: {}", path, setting,
-         did_you_mean(setting, names), join(names, " "));
-  }
-  if (names.size() > 1) {
-    fail(ExitCode::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
-         join(names, " "));
-  }
-  return names.empty() ? json::object() : settings[names.front()];
-}
 
 std::optional<double> scaled(std::optional<double> value, double factor) {
   if (value) *value *= factor;
@@ -95,23 +52,6 @@ CameraValues eye_values(Eye eye, double display_distance_m, double display_px_pe
   values.focal_length_mm = eye == Eye::retina ? 17 : 24;
   const double magnification = display_distance_m / (*values.focal_length_mm / 1000);
   values.pixels_per_metre = eye == Eye::retina ? 28000 : display_px_per_metre * magnification;
-  return values;
-}
-
-CameraValues read_camera_json(const std::string& path, const std::string& setting,
-                              double metres_per_unit) {
-  const json root = parse_file(path);
-  if (!root.is_object()) fail(ExitCode::input, "{}: not a JSON object", path);
-  const json focus = choose_setting(path, root, setting);
-  CameraValues values;
-  values.source = path;
-  values.focal_length_mm = number(path, root, "focal_length_mm");
-  values.sensor_width_mm = number(path, root, "sensor_width_mm");
-  values.focus_distance_units =
-      scaled(number(path, focus, "focus_distance_m"), 1 / metres_per_unit);
-  // Renderers trace with the diameter; an f-number beside it is rounded or derived.
-  values.aperture_diameter_mm = scaled(number(path, focus, "aperture_diameter_m"), 1000);
-  if (!values.aperture_diameter_mm) values.fstop = number(path, focus, "f_stop");
   return values;
 }
 

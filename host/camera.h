@@ -43,6 +43,10 @@ CameraValues eye_values(Eye eye, double display_distance_m, double display_px_pe
 CameraValues read_camera_json(const std::string& path, const std::string& setting,
                               double metres_per_unit);
 
+/// The same of a text; `path` is what messages call it.
+CameraValues parse_camera_json(const std::string& text, const std::string& path,
+                               const std::string& setting, double metres_per_unit);
+
 /// Lens values among an image's metadata (standard EXR, Nuke and V-Ray keys). Empty where absent.
 CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit);
 

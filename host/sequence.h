@@ -1,15 +1,16 @@
 #pragma once
-// Frame sequences: patterns and ranges in OpenImageIO's notation.
+// Frame sequences: patterns and ranges, in OpenImageIO's notation but for "####".
 #include <string>
 #include <vector>
 
 namespace defray {
 
 /// True where a name holds a frame pattern: "####" (a digit each; a single # is four), "@@",
-/// "%04d".
+/// "%04d". Throws Error(usage) on two patterns, or on more than 32 digits.
 bool has_frame_pattern(const std::string& path);
 
-/// Frame numbers of "1-8", "1-10x2", "1,5,9-12". Throws Error(usage) on anything else.
+/// Frame numbers of "1-8", "1-10x2", "1,5,9-12", each once; "1-10y2" are those that x2 leaves out.
+/// Throws Error(usage) on anything else, and on more than a million.
 std::vector<int> parse_frames(const std::string& text);
 
 /// Numbers of the files that match a pattern, ascending. Throws Error(input) when none does.

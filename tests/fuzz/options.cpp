@@ -1,0 +1,20 @@
+// Option values: lines are --unit, --background and --work-group.
+#include <cmath>
+
+#include "fuzz.h"
+#include "parse.h"
+
+using namespace defray;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Bytes bytes(data, size);
+  const std::string unit = bytes.line(), background = bytes.line(), group = bytes.line();
+  fuzz::run_parser([&] { fuzz::require(cli::parse_unit(unit) > 0); });
+  fuzz::run_parser([&] { fuzz::require(!std::isnan(cli::parse_background(background))); });
+  fuzz::run_parser([&] {
+    const auto [x, y] = cli::parse_work_group(group);
+    fuzz::require(group.empty() ? x == 0 && y == 0 : x > 0 && y > 0);
+    fuzz::require(x < 1000000 && y < 1000000);
+  });
+  return 0;
+}
