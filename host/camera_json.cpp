@@ -25,8 +25,9 @@ std::optional<double> number(const std::string& path, const json& object, const 
   return object[key].get<double>();
 }
 
-/// The focus setting asked for, or the only one there is.
-json choose_setting(const std::string& path, const json& root, const std::string& setting) {
+/// The focus setting asked for, or the only one there is. No copy: the JSON library copies one call
+/// deep a level, and a file may have more levels than the stack.
+const json& choose_setting(const std::string& path, const json& root, const std::string& setting) {
   // A file without settings may state focus and aperture beside the focal length.
   if (!root.contains("focus_settings")) return root;
   const json& settings = root["focus_settings"];
@@ -42,7 +43,8 @@ json choose_setting(const std::string& path, const json& root, const std::string
     fail(ExitCode::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
          join(names, " "));
   }
-  return names.empty() ? json::object() : settings[names.front()];
+  static const json nothing = json::object();
+  return names.empty() ? nothing : settings[names.front()];
 }
 
 std::optional<double> times(std::optional<double> value, double factor) {

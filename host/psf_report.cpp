@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/core/utility.hpp>
 
 #include "error.h"
 #include "image/safe_output.h"
+#include "parallel.h"
 #include "psf.h"
 
 namespace defray {
@@ -52,11 +52,9 @@ std::vector<double> sample_radii_px(const PointImage& image, double shortest_m, 
 /// Each radius for itself, so that threads change nothing but the time.
 std::vector<double> sample(const DiffractionPsf& psf, const PsfReport& report, double pixel_m) {
   std::vector<double> density(report.radii_px.size());
-  cv::parallel_for_(cv::Range(0, static_cast<int>(density.size())), [&](const cv::Range& part) {
-    for (auto i = static_cast<std::size_t>(part.start); i < static_cast<std::size_t>(part.end);
-         ++i) {
-      density[i] = psf.density_per_m2(report.radii_px[i] * pixel_m) * pixel_m * pixel_m;
-    }
+  parallel_for(static_cast<int>(density.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    density[at] = psf.density_per_m2(report.radii_px[at] * pixel_m) * pixel_m * pixel_m;
   });
   return density;
 }

@@ -1,12 +1,11 @@
 #include "scenes/render.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include "error.h"
+#include "parallel.h"
 #include "random.h"
 #include "scenes/bvh.h"
 
@@ -95,19 +94,13 @@ Vec3 lens_pixel(const Tracer& tracer, const Lens& lens, int x, int y, int sample
 /// Calls pixel(x, y, index) for every pixel, on every core.
 template <typename Pixel>
 void for_each_pixel(const Scene& scene, const Progress& progress, const Pixel& pixel) {
-  std::atomic<int> next = 0;
-  const auto work = [&](bool reports) {
-    for (int y = next++; y < scene.height; y = next++) {
-      const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width);
-      for (int x = 0; x < scene.width; ++x) pixel(x, y, row + static_cast<std::size_t>(x));
-      if (reports && progress) progress(static_cast<double>(y + 1) / scene.height);
-    }
-  };
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
-    helpers.emplace_back(work, false);
-  }
-  work(true);
+  parallel_for(
+      scene.height,
+      [&](int y) {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width);
+        for (int x = 0; x < scene.width; ++x) pixel(x, y, row + static_cast<std::size_t>(x));
+      },
+      progress);
 }
 
 std::vector<Plane> empty_planes(const Scene& scene) {

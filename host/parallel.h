@@ -1,0 +1,28 @@
+#pragma once
+// Loops over all cores.
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace defray {
+
+/// Calls task(i) for every i from 0 to count - 1, once, on every core, this thread included. Tasks
+/// must not throw. `progress` gets the share done, 0 to 1, on this thread.
+template <typename Task>
+void parallel_for(int count, const Task& task, const std::function<void(double)>& progress = {}) {
+  std::atomic<int> next = 0;
+  const auto work = [&](bool reports) {
+    for (int i = next++; i < count; i = next++) {
+      task(i);
+      if (reports && progress) progress(static_cast<double>(i + 1) / count);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
+    helpers.emplace_back(work, false);
+  }
+  work(true);
+}
+
+}  // namespace defray
