@@ -104,7 +104,12 @@ TEST_F(BadInput, OptionValues) {
   expect_render_refused(base + "--nonfinite zreo", 2, {"Did you mean 'zero'?"});
   expect_render_refused(base + "--lens-model gc", 2, {"cg"});
   expect_render_refused(base + "--unit furlong", 2, {"'furlong'", "cm"});
-  expect_render_refused(base + "--unit 0", 2, {"scene unit is 0"});
+  for (const std::string unit : {"0", "-1", "inf", "nan"}) {
+    expect_render_refused(base + "--unit=" + unit, 2, {"scene unit is " + unit});
+  }
+  for (const std::string bad : {"nan", "+-1"}) {
+    expect_render_refused(base + "--background " + bad, 2, {"'" + bad + "'"});
+  }
   expect_render_refused(base + "--background blue", 2, {"'blue'"});
   expect_render_refused(base + "--memory 0", 2, {"--memory is 0"});
   expect_render_refused(base + "--memory 0.001", 2, {"--memory", "one row"});

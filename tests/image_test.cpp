@@ -193,6 +193,12 @@ TEST(Metrics, KnownDifferences) {
   EXPECT_TRUE(std::isinf(compare({a, a, a}, {a, a, a}, 10).psnr_srgb_db));
 }
 
+TEST(Text, JoinUndoesSplit) {
+  for (const std::string text : {"a.b", ".a", "a..b", "..a", "a"}) {
+    EXPECT_EQ(join(split(text, '.'), "."), text);
+  }
+}
+
 TEST(Text, NearestSpelling) {
   const std::vector<std::string> words{"--focus", "--fstop", "--focal-length"};
   EXPECT_EQ(nearest_spelling("--focsu", words), "--focus");
