@@ -35,10 +35,11 @@ class Bytes {
   /// 0 when nothing is left.
   unsigned next() { return at_ < text_.size() ? static_cast<unsigned char>(text_[at_++]) : 0u; }
 
-  /// Everything up to a line's end, or the end.
+  /// Everything up to a line's end, or the end; without zeros, which no argument can hold.
   std::string line() {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    const std::string line = text_.substr(at_, end - at_);
+    std::string line = text_.substr(at_, end - at_);
+    std::erase(line, '\0');
     at_ = std::min(end + 1, text_.size());
     return line;
   }
