@@ -141,7 +141,7 @@ void add_picture(Session& session, const KernelCheck& check, const KernelResult&
 }
 
 KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,
-                       Level level, DeviceResult& device,
+                       Level level, OclgrindLog& log, DeviceResult& device,
                        const std::function<void(double)>& progress) {
   const auto start = Clock::now();
   const std::vector<Case> cases = settings.only_case.empty()
@@ -151,6 +151,8 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
   for (std::size_t i = 0; i < cases.size(); ++i) {
     try {
       run.run(cases[i]);
+      const std::string found = log.take();
+      if (!found.empty()) fail(ExitCode::device, "Oclgrind: {}", found);
     } catch (const Error& error) {
       if (error.code() == ExitCode::usage) throw;
       run.stop_at(cases[i], error);
@@ -212,10 +214,7 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
     };
     share(0);
     Session& own = checks[i]->needs_two_passes ? two_pass : session;
-    result.kernels.push_back(run_check(own, *checks[i], settings, level, result, share));
-    if (const std::string found = log.take(); !found.empty()) {
-      result.kernels.back().error = "Oclgrind: " + found;
-    }
+    result.kernels.push_back(run_check(own, *checks[i], settings, level, log, result, share));
     if (!settings.stops_at_first) add_picture(own, *checks[i], result.kernels.back(), result);
   }
   return result;
