@@ -175,9 +175,9 @@ const std::vector<Variant>& variants() {
       {"fast", "-cl-fast-relaxed-math, contraction on (--math fast)", fast()},
       {"denormals flushed", "-cl-denorms-are-zero", with("-cl-denorms-are-zero")},
       {"native", "native_divide and native_sqrt",
-       with(std::string("-Dsqrt=native_sqrt ") + no_pragma, native_divisions())},
+       with("-w -Dsqrt=native_sqrt", native_divisions())},
       {"half storage", "colour and depth kept as half floats, computed in float",
-       with("", half_reads(), true)}};
+       with("-w", half_reads(), true)}};
   return all;
 }
 

@@ -80,8 +80,11 @@ Values twin_rdb_scatter(const Case& c, const Input& in) {
 }
 
 double rdb_work(const Case& c) {
+  // A launch costs some devices most of a millisecond: passes count like ten thousand operations.
+  const double passes = c.band_rows > 0 ? std::ceil(c.height / double(c.band_rows)) : 1;
   const double side = c.jitter ? 2 * (c.coc_px / c.cells + 1) + 1 : 1;
-  return 4 * pixels(c) * c.cells * c.cells * (1 + std::min(square(side), pixels(c)));
+  const double rays = pixels(c) * c.cells * c.cells;
+  return 4 * rays * (1 + std::min(square(side), pixels(c))) + 1e4 * passes * c.cells * c.cells;
 }
 
 Values run_rdb_merge(Session& session, const Case& c, const Input& in) {
