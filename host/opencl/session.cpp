@@ -135,8 +135,11 @@ cl::Buffer Session::buffer(std::size_t bytes) {
     fail(ExitCode::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory",
          bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
   }
-  return checked(info_, "clCreateBuffer",
-                 [&] { return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes); });
+  return checked(info_, "clCreateBuffer", [&] {
+    cl::Buffer made(context_, CL_MEM_READ_WRITE, bytes);
+    if (fill_) queue_.enqueueFillBuffer(made, *fill_, 0, bytes);
+    return made;
+  });
 }
 
 cl::Buffer Session::view(const void* data, std::size_t bytes) {

@@ -2,6 +2,7 @@
 // One device, made ready: context, queue and the kernels, built once.
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ class Session {
 
   cl::Buffer buffer(std::size_t bytes);
 
+  /// From here on new buffers are filled with this byte, where OpenCL leaves them undefined: what a
+  /// kernel reads before anyone wrote it shows in its result.
+  void fill_buffers(unsigned char byte) { fill_ = byte; }
+
   /// A read-only view of host memory; no copy where the device shares it. The memory must stay
   /// alive and unchanged as long as the buffer.
   cl::Buffer view(const void* data, std::size_t bytes);
@@ -92,6 +97,7 @@ class Session {
 
   DeviceInfo info_;
   bool int64_atomics_, half_planes_, measures_;
+  std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;
   std::size_t group_x_ = 0;
   std::size_t group_y_ = 0;

@@ -25,7 +25,7 @@ Sizes sizes(Level level) {
 double most_work(Level level) {
   switch (level) {
     case Level::tiny:
-      return 2e5;
+      return 1e6;
     case Level::quick:
       return 1e7;
     case Level::full:

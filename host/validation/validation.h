@@ -18,7 +18,8 @@ struct KernelResult {
   std::string worst_case;    ///< Of the largest difference; empty where there is none.
   std::string first_wrong;   ///< The first case beyond the rule.
   std::string error;         ///< An OpenCL error, with its case; the rest was not run.
-  std::size_t unstable = 0;  ///< Cases whose second run gave other bits.
+  std::size_t unstable = 0;  ///< Cases whose second run, in buffers filled with other bytes, gave
+                             ///< other bits.
   std::uint64_t hash = 0;    ///< Of all results of the device, equal where devices agree.
   double seconds = 0;
   bool passed() const { return verdict.wrong == 0 && unstable == 0 && error.empty(); }
