@@ -73,7 +73,7 @@ void print_device(const DeviceResult& d) {
   for (const KernelResult& k : d.kernels) {
     const Verdict& v = k.verdict;
     fmt::print(
-        "  {}  {:15} {:4} cases, {:9} values, {} differing, {} beyond the rule, {} unstable\n",
+        "  {}  {:20} {:4} cases, {:9} values, {} differing, {} beyond the rule, {} unstable\n",
         k.passed() ? "PASS" : "FAIL", k.kernel, k.cases, v.compared, v.differing, v.wrong,
         k.unstable);
     if (!k.first_wrong.empty()) fmt::print("        {}\n", command_of(d, k.kernel, k.first_wrong));
@@ -168,7 +168,8 @@ Run add_validate(CLI::App& app) {
   command->add_flag("--full", o->full, "Every pattern with every size; some minutes")
       ->excludes(quick);
   auto* kernel = command->add_option("--kernel", o->kernels, "Only this kernel; may be repeated");
-  auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it");
+  auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it")
+                   ->check(no_empty_path);
   auto* math = command->add_option("--math", o->math, "strict or fast, as in 'defray render'");
   command
       ->add_flag("--arithmetic", o->arithmetic,

@@ -120,6 +120,7 @@ std::string to_string(const Case& c) {
 }
 
 Case parse_case(const std::string& text) {
+  if (text.empty()) fail(ExitCode::usage, "--case is empty");
   Case c;
   for (const std::string& word : split(text, ',')) read_word(c, word);
   if (std::int64_t{c.width} * c.height > 1 << 22) {

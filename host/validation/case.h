@@ -46,8 +46,8 @@ struct Case {
 /// "257x89,ties,coc=8,wild,channels=3,cells=4,samples=8,jitter,band=5,group=7x3,focus=3,seed=3".
 std::string to_string(const Case& c);
 
-/// The reverse; what is not said keeps its default. Throws Error(usage) on unknown words, values
-/// out of range, and frames above 2^22 pixels.
+/// The reverse; what is not said keeps its default. Throws Error(usage) on an empty text, unknown
+/// words, values out of range, and frames above 2^22 pixels.
 Case parse_case(const std::string& text);
 
 }  // namespace defray::validation
