@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "plot.h"
 
 namespace defray::validation {
 namespace {
+
+/// What has to stand before a command that shall see the device.
+const char* way_to(const DeviceResult& device) {
+  if (device.platform == "rusticl") return "RUSTICL_ENABLE=llvmpipe ";
+  return device.platform == "Oclgrind" ? "oclgrind " : "";
+}
 
 const char* pass_word(bool passed) { return passed ? "PASS" : "FAIL"; }
 
@@ -91,7 +98,8 @@ Table histogram_table(const DeviceResult& device) {
 }
 
 /// Measured rounding over the number of terms, below the bound's line.
-void add_bound_plot(const DeviceResult& device, const std::string& folder, Section& section) {
+void add_bound_plot(const DeviceResult& device, std::size_t index, const std::string& folder,
+                    Section& section) {
   Plot plot{"Rounding of float sums against exact ones", "roundings that the derived bound allows",
             "largest error, in roundings of the largest input"};
   plot.x_log = plot.y_log = true;
@@ -99,7 +107,7 @@ void add_bound_plot(const DeviceResult& device, const std::string& folder, Secti
   for (const char* kernel : {"rdb_merge", "linear_psf"}) {
     Series series{kernel, {}, false, true};
     for (const ExactPoint& p : device.exact) {
-      if (p.kernel != kernel || p.share <= 0) continue;
+      if (p.kernel != kernel || p.share <= 0 || std::isinf(p.share)) continue;
       series.points.push_back({p.roundings, p.share * p.roundings});
       bound.points.push_back({p.roundings, p.roundings});
     }
@@ -107,13 +115,14 @@ void add_bound_plot(const DeviceResult& device, const std::string& folder, Secti
   }
   if (bound.points.empty()) return;
   plot.series.push_back(bound);
-  const std::string file = fmt::format("bounds-{}.png", section.figures.size());
+  const std::string file = fmt::format("bounds-{}.png", index);
   write_plot(folder + "/" + file, plot);
   section.figures.push_back(
       {file, "Every point is a case: sums of floats stay below their bound."});
 }
 
-Section device_section(const DeviceResult& device, const std::string& folder) {
+/// `index`: among the devices; files of two must not meet.
+Section device_section(const DeviceResult& device, std::size_t index, const std::string& folder) {
   Section section{device.device, "", {}, {}, {}};
   section.findings.push_back(fmt::format("{}, {}; {} arithmetic. {}", device.platform,
                                          device.version, device.math,
@@ -123,12 +132,12 @@ Section device_section(const DeviceResult& device, const std::string& folder) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   for (const Picture& picture : device.pictures) {
-    const std::string file = picture.kernel + "-worst.png";
+    const std::string file = fmt::format("{}-worst-{}.png", picture.kernel, index);
     write_sheet(folder + "/" + file, picture.panels, picture.width, picture.height);
     section.figures.push_back(
         {file, picture.kernel + ", largest difference: " + picture.case_text});
   }
-  add_bound_plot(device, folder, section);
+  add_bound_plot(device, index, folder, section);
   return section;
 }
 
@@ -136,8 +145,8 @@ Section device_section(const DeviceResult& device, const std::string& folder) {
 
 std::string command_of(const DeviceResult& device, const std::string& kernel,
                        const std::string& case_text) {
-  return fmt::format("defray validate --device '{}' --math {} --kernel {} --case {} -o case",
-                     device.device, device.math, kernel, case_text);
+  return fmt::format("{}defray validate --device '{}' --math {} --kernel {} --case {} -o case",
+                     way_to(device), device.device, device.math, kernel, case_text);
 }
 
 std::vector<Section> to_sections(const std::vector<DeviceResult>& devices,
@@ -145,8 +154,8 @@ std::vector<Section> to_sections(const std::vector<DeviceResult>& devices,
   Section top{"Summary", "Does this machine compute what the mathematics says?", notes, {}, {}};
   top.tables.push_back(summary(devices));
   std::vector<Section> sections{top};
-  for (const DeviceResult& device : devices) {
-    sections.push_back(device_section(device, folder));
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    sections.push_back(device_section(devices[i], i, folder));
   }
   return sections;
 }

@@ -129,7 +129,7 @@ void add_picture(Session& session, const KernelCheck& check, const KernelResult&
   Plane difference;
   for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
   Picture picture{result.kernel, result.worst_case, c.width, c.height, {}};
-  const int scale = std::max(1, 240 / c.width);
+  const int scale = std::max(1, 240 / std::max(c.width, c.height));
   picture.width *= scale;
   picture.height *= scale;
   const auto add = [&](const std::string& caption, const Plane& plane) {
