@@ -17,12 +17,14 @@ constexpr const char* head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <style>
 body { font: 16px/1.5 sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem }
-table { border-collapse: collapse; margin: .5rem 0 1.5rem; font-size: 14px }
-caption { text-align: left; font-weight: bold }
-td, th { border: 1px solid #bbb; padding: .2rem .6rem; text-align: right }
-td:first-child, th:first-child { text-align: left }
+.wide { overflow-x: auto; margin: .5rem 0 1.5rem }
+table { border-collapse: collapse; font-size: 14px }
+caption { text-align: left; font-weight: bold; white-space: nowrap }
+td, th { border: 1px solid #bbb; padding: .2rem .6rem; text-align: right; vertical-align: top }
+td:first-child, th:first-child, .text { text-align: left }
+.text { min-width: 13em }
 td.pass { background: #d7f0d7 } td.fail { background: #ffd0d0; font-weight: bold }
-td.command { text-align: left; font-family: monospace; font-size: 12px }
+td.command { font-family: monospace; font-size: 12px; min-width: 30em }
 img { max-width: 100%; border: 1px solid #ccc } figure { margin: 1rem 0 2rem }
 .claim { border-left: .3rem solid #888; padding-left: 1rem; color: #444 }
 </style>
@@ -60,25 +62,41 @@ std::string csv_line(const std::vector<std::string>& fields) {
 }
 
 const char* class_of(const std::string& field) {
-  if (field.rfind("defray ", 0) == 0) return " class=\"command\"";
-  if (field == "PASS") return " class=\"pass\"";
-  return field == "FAIL" ? " class=\"fail\"" : "";
+  if (field.find("defray ") != std::string::npos) return "command";
+  if (field == "PASS") return "pass";
+  return field == "FAIL" ? "fail" : "";
+}
+
+/// Columns of sentences; the others hold numbers or a word.
+std::vector<bool> text_columns(const Table& table) {
+  constexpr std::size_t longest_figure = 16;
+  std::vector<bool> is_text(table.columns.size());
+  for (const auto& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (row[c].size() > longest_figure) is_text[c] = true;
+    }
+  }
+  return is_text;
+}
+
+std::string cell(const char* tag, const std::string& field, bool is_text) {
+  const std::string kind = fmt::format("{} {}", class_of(field), is_text ? "text" : "");
+  return kind == " " ? fmt::format("<{}>{}</{}>", tag, escaped(field), tag)
+                     : fmt::format("<{} class=\"{}\">{}</{}>", tag, kind, escaped(field), tag);
 }
 
 std::string html_table(const Table& table) {
-  std::string html = "<table><caption>" + escaped(table.caption);
+  const std::vector<bool> is_text = text_columns(table);
+  const auto line = [&](const char* tag, const std::vector<std::string>& fields) {
+    std::string html = "<tr>";
+    for (std::size_t c = 0; c < fields.size(); ++c) html += cell(tag, fields[c], is_text[c]);
+    return html + "</tr>\n";
+  };
+  std::string html = "<div class=\"wide\"><table><caption>" + escaped(table.caption);
   if (!table.file.empty()) html += " (<a href=\"" + table.file + ".csv\">CSV</a>)";
-  html += "</caption>\n<tr>";
-  for (const std::string& column : table.columns) html += "<th>" + escaped(column) + "</th>";
-  html += "</tr>\n";
-  for (const auto& row : table.rows) {
-    html += "<tr>";
-    for (const std::string& field : row) {
-      html += std::string("<td") + class_of(field) + ">" + escaped(field) + "</td>";
-    }
-    html += "</tr>\n";
-  }
-  return html + "</table>\n";
+  html += "</caption>\n" + line("th", table.columns);
+  for (const auto& row : table.rows) html += line("td", row);
+  return html + "</table></div>\n";
 }
 
 /// Where the page finds a picture: its name, or its bytes.
