@@ -1,6 +1,9 @@
 // OpenCL errors say what failed, where and why.
 #include "opencl/session.h"
 
+#include <Imath/half.h>
+
+#include "coc.h"
 #include "support.h"
 
 namespace defray::test {
@@ -22,6 +25,75 @@ TEST(Session, WorkGroupsBeyondTheDevicesLimitAreRefused) {
   Session own(device_under_test());
   expect_error(2, {"work-items", "allows at most"},
                [&] { own.set_work_group(own.info().max_work_group, 2); });
+}
+
+Session with_substitution(const Substitution& substitution) {
+  SessionOptions options;
+  options.substitutions = {substitution};
+  return Session(device_under_test(), options);
+}
+
+TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {
+  expect_error(70, {"'no such text'", "0 times"}, [] { with_substitution({"no such text", ""}); });
+  expect_error(70, {"'__kernel void'", "times in the kernels"}, [] {
+    with_substitution({"__kernel void", "kernel void"});
+  });
+  EXPECT_EQ(with_substitution({"__kernel void", "kernel void", true}).kernel_names(),
+            session().kernel_names());
+}
+
+TEST(Session, SubstitutionsReachTheCompiler) {
+  expect_error(5, {"clBuildProgram", "defray_nonsense"}, [] {
+    with_substitution({"__kernel void coc(", "defray_nonsense __kernel void coc("});
+  });
+}
+
+TEST(Session, PicturesAreFloatsOrHalves) {
+  const Plane plane{0, -1.5f, 65504, 1.0f / 3, 1e-7f};
+  Plane floats(plane.size());
+  session().read(session().picture(plane.data(), plane.size()), floats.data(),
+                 plane.size() * sizeof(float));
+  EXPECT_EQ(floats, plane);
+  SessionOptions options;
+  options.half_planes = true;
+  Session own(device_under_test(), options);
+  std::vector<Imath::half> halves(plane.size());
+  own.read(own.picture(plane.data(), plane.size()), halves.data(),
+           plane.size() * sizeof(Imath::half));
+  for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_EQ(halves[i], Imath::half(plane[i]));
+}
+
+TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
+  SessionOptions options;
+  options.measures = true;
+  Session own(device_under_test(), options);
+  EXPECT_TRUE(own.take_kernel_seconds().empty());
+  const Plane depth(1000, 2);
+  coc_on_device(own, Lens(), 100, depth);
+  const auto seconds = own.take_kernel_seconds();
+  ASSERT_EQ(seconds.size(), 1u);
+  EXPECT_EQ(seconds.begin()->first, "coc");
+  EXPECT_GE(seconds.begin()->second, 0);
+  EXPECT_TRUE(own.take_kernel_seconds().empty());
+  coc_on_device(session(), Lens(), 100, depth);
+  EXPECT_TRUE(session().take_kernel_seconds().empty());
+}
+
+TEST(Session, FastArithmeticBuildsAndStaysNear) {
+  SessionOptions options;
+  options.math = Math::fast;
+  Session fast(device_under_test(), options);
+  EXPECT_EQ(fast.kernel_names(), session().kernel_names());
+  Lens lens;
+  lens.focus_distance_units = 3;
+  lens.aperture_diameter_mm = 100;
+  const Plane depth = random_depth({64, 16}, 1);
+  const auto strict_coc = coc_on_device(session(), lens, 64, depth);
+  const auto fast_coc = coc_on_device(fast, lens, 64, depth);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (std::isinf(depth[i])) continue;  // -cl-fast-relaxed-math leaves open what Inf gives
+    EXPECT_NEAR(fast_coc[i], strict_coc[i], 1) << depth[i];
+  }
 }
 
 TEST(Session, ErrorNames) {
