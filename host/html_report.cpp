@@ -26,6 +26,7 @@ td:first-child, th:first-child, .text { text-align: left }
 td.pass { background: #d7f0d7 } td.fail { background: #ffd0d0; font-weight: bold }
 td.command { font-family: monospace; font-size: 12px; min-width: 30em }
 img { max-width: 100%; border: 1px solid #ccc } figure { margin: 1rem 0 2rem }
+figcaption { overflow-wrap: anywhere }
 .claim { border-left: .3rem solid #888; padding-left: 1rem; color: #444 }
 </style>
 )";

@@ -149,7 +149,8 @@ MethodFigures figures_of(Trial& trial, const Subject& subject, const NamedMethod
   return f;
 }
 
-VariantResult open_trial(const DeviceInfo& info, const Variant& variant, Trial& trial) {
+VariantResult open_trial(const DeviceInfo& info, const Variant& variant, Level level,
+                         Trial& trial) {
   VariantResult result;
   result.name = variant.name;
   result.about = variant.about;
@@ -158,6 +159,7 @@ VariantResult open_trial(const DeviceInfo& info, const Variant& variant, Trial& 
     trial.session = std::make_unique<Session>(info, variant.options);
     Settings settings;
     settings.session = variant.options;
+    settings.level = level;
     result.kernels = validate_device(info, settings);
   } catch (const Error& error) {
     result.error = error.what();
@@ -182,7 +184,7 @@ const std::vector<Variant>& variants() {
 }
 
 std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width, int height,
-                                              int rounds,
+                                              int rounds, Level level,
                                               const std::function<void(double)>& progress) {
   std::vector<VariantResult> results;
   std::vector<Trial> trials(variants().size());
@@ -192,7 +194,7 @@ std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width,
     if (progress) progress(++done / steps);
   };
   for (std::size_t i = 0; i < trials.size(); ++i, step()) {
-    results.push_back(open_trial(info, variants()[i], trials[i]));
+    results.push_back(open_trial(info, variants()[i], level, trials[i]));
   }
   if (!trials[0].session) fail(ExitCode::device, "{}", results[0].error);
   const Subject subject =

@@ -40,9 +40,10 @@ struct VariantResult {
 };
 
 /// Renders the built-in fence at this size with every method and variant, in `rounds` rounds that
-/// take the variants in turn, and runs the kernels' checks. `progress` gets the share done.
+/// take the variants in turn, and runs the kernels' checks on the grid of this level. `progress`
+/// gets the share done.
 std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width, int height,
-                                              int rounds,
+                                              int rounds, Level level = Level::quick,
                                               const std::function<void(double)>& progress = {});
 
 /// Tables and plots of the trade. Pictures go to `folder`.

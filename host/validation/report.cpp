@@ -101,6 +101,7 @@ Table histogram_table(const DeviceResult& device) {
 /// Measured rounding over the number of terms, below the bound's line.
 void add_bound_plot(const DeviceResult& device, std::size_t index, const std::string& folder,
                     Section& section) {
+  constexpr double least_drawn = 0.001;
   Plot plot{"Rounding of float sums against exact ones", "roundings that the derived bound allows",
             "largest error, in roundings of the largest input"};
   plot.x_log = plot.y_log = true;
@@ -109,7 +110,7 @@ void add_bound_plot(const DeviceResult& device, std::size_t index, const std::st
     Series series{kernel, {}, false, true};
     for (const ExactPoint& p : device.exact) {
       if (p.kernel != kernel || p.share <= 0 || std::isinf(p.share)) continue;
-      series.points.push_back({p.roundings, p.share * p.roundings});
+      series.points.push_back({p.roundings, std::max(p.share * p.roundings, least_drawn)});
       bound.points.push_back({p.roundings, p.roundings});
     }
     if (!series.points.empty()) plot.series.push_back(series);
@@ -119,7 +120,7 @@ void add_bound_plot(const DeviceResult& device, std::size_t index, const std::st
   const std::string file = fmt::format("bounds-{}.png", index);
   write_plot(folder + "/" + file, plot);
   section.figures.push_back(
-      {file, "Every point is a case: sums of floats stay below their bound."});
+      {file, "Every point is a case. Right sums stay below the line; below 0.001 is drawn there."});
 }
 
 /// `index`: among the devices; files of two must not meet.

@@ -97,12 +97,14 @@ Plane stretched(const Plane& plane) {
   return out;
 }
 
-/// Each pixel as a square of `scale` pixels a side.
-Plane enlarged(const Plane& plane, int width, int scale) {
+/// Each pixel as a square of `scale` pixels a side, white to the right of them up to `padded_px`.
+Plane enlarged(const Plane& plane, int width, int scale, int padded_px) {
   const auto w = static_cast<std::size_t>(width), s = static_cast<std::size_t>(scale);
-  Plane out(plane.size() * s * s);
+  const auto padded = static_cast<std::size_t>(padded_px);
+  Plane out(plane.size() / w * s * padded, 1.0f);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i] = plane[i / (w * s) / s * w + i % (w * s) / s];
+    const std::size_t x = i % padded / s, y = i / padded / s;
+    if (x < w) out[i] = plane[y * w + x];
   }
   return out;
 }
@@ -130,11 +132,12 @@ void add_picture(Session& session, const KernelCheck& check, const KernelResult&
   for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
   Picture picture{result.kernel, result.worst_case, c.width, c.height, {}};
   const int scale = std::max(1, 240 / std::max(c.width, c.height));
-  picture.width *= scale;
+  constexpr int caption_px = 110;
+  picture.width = std::max(c.width * scale, caption_px);
   picture.height *= scale;
   const auto add = [&](const std::string& caption, const Plane& plane) {
-    picture.panels.push_back(
-        {caption, std::vector<Plane>(3, enlarged(stretched(plane), c.width, scale))});
+    picture.panels.push_back({caption, std::vector<Plane>(3, enlarged(stretched(plane), c.width,
+                                                                      scale, picture.width))});
   };
   add("kernel", kernel);
   add("twin", twin);
