@@ -1,4 +1,6 @@
 // defray render --method: every option changes the picture, every wrong use is said.
+#include <cmath>
+
 #include "program.h"
 
 namespace defray::test {
@@ -48,6 +50,35 @@ TEST_F(MethodCommand, ReferenceGivesTheKernelsBits) {
   }
   EXPECT_EQ(rendered(folder, "--method tiltshift"),
             rendered(folder, "--method tiltshift --device reference"));
+}
+
+TEST_F(MethodCommand, FastArithmeticRunsAndSaysSo) {
+  for (const std::string method : {"rdb", "linear", "gather", "gather --gather literal"}) {
+    const std::string options = lens + "--method " + method;
+    rendered(folder, options);
+    const Plane strict = ImageFile::read(folder / "out.exr").plane(0, 0);
+    const Result result = defray(folder, "render in.exr -o out.exr --math fast " + options);
+    expect_ok(result);
+    EXPECT_NE(result.out.find("(fast arithmetic)"), std::string::npos) << result.out;
+    const Plane fast = ImageFile::read(folder / "out.exr").plane(0, 0);
+    double squares = 0;
+    for (std::size_t i = 0; i < strict.size(); ++i) {
+      squares += (fast[i] - strict[i]) * (fast[i] - strict[i]);
+    }
+    // A ray on a pixel's border may go the other way: single pixels differ.
+    EXPECT_LT(std::sqrt(squares / static_cast<double>(strict.size())), 0.02) << method;
+  }
+  EXPECT_EQ(rendered(folder, lens + "--math strict"), rendered(folder, lens));
+  EXPECT_EQ(defray(folder, "render in.exr -o out.exr " + lens).out.find("arithmetic"),
+            std::string::npos);
+}
+
+TEST_F(MethodCommand, ReferenceRefusesWhatOnlyKernelsHave) {
+  expect_refused(lens + "--math fats", {"--math", "fats", "Did you mean 'fast'"});
+  const std::string reference = lens + "--device reference ";
+  expect_refused(reference + "--math fast", {"--math", "means nothing to --device reference"});
+  expect_refused(reference + "--work-group 8x8", {"--work-group", "--device reference"});
+  expect_refused(reference + "--memory 64", {"--memory", "--device reference"});
 }
 
 TEST_F(MethodCommand, TiltshiftNeedsNeitherDepthNorLens) {
