@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "error.h"
 #include "text.h"
 #include "validation/oclgrind_log.h"
+#include "validation/worst_picture.h"
 
 namespace defray::validation {
 namespace {
@@ -84,65 +84,15 @@ std::vector<const KernelCheck*> chosen_checks(const Settings& settings) {
   return chosen;
 }
 
-/// A plane for the eye: its finite values from 0 to 1.
-Plane stretched(const Plane& plane) {
-  float low = 0, high = 0;
-  for (const float v : plane) {
-    if (!std::isfinite(v)) continue;
-    low = std::min(low, v);
-    high = std::max(high, v);
-  }
-  Plane out;
-  for (const float v : plane) out.push_back(high > low ? v / (high - low) - low / (high - low) : 0);
-  return out;
-}
-
-/// Each pixel as a square of `scale` pixels a side, white to the right of them up to `padded_px`.
-Plane enlarged(const Plane& plane, int width, int scale, int padded_px) {
-  const auto w = static_cast<std::size_t>(width), s = static_cast<std::size_t>(scale);
-  const auto padded = static_cast<std::size_t>(padded_px);
-  Plane out(plane.size() / w * s * padded, 1.0f);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const std::size_t x = i % padded / s, y = i / padded / s;
-    if (x < w) out[i] = plane[y * w + x];
-  }
-  return out;
-}
-
-/// The plane that holds the value `at`, whole numbers as floats; empty where the values are no
-/// picture (tiles).
-Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
-  if (!values.planes.empty()) return values.planes[at / pixels];
-  const std::size_t first = at / pixels * pixels;
-  if (first + pixels > values.integers.size()) return {};
-  const auto begin = values.integers.begin() + static_cast<std::int64_t>(first);
-  return {begin, begin + static_cast<std::int64_t>(pixels)};
-}
-
+/// Shows a kernel's largest difference, where there is one.
 void add_picture(Session& session, const KernelCheck& check, const KernelResult& result,
                  DeviceResult& device) {
   if (result.worst_case.empty()) return;
   const Case c = parse_case(result.worst_case);
-  const Run run = run_case(session, check, c);
-  const std::size_t pixels = static_cast<std::size_t>(c.width) * static_cast<std::size_t>(c.height);
-  const Plane kernel = plane_of(run.kernel, result.verdict.worst_at, pixels);
-  const Plane twin = plane_of(run.twin, result.verdict.worst_at, pixels);
-  if (kernel.empty()) return;
-  Plane difference;
-  for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
-  Picture picture{result.kernel, result.worst_case, c.width, c.height, {}};
-  const int scale = std::max(1, 240 / std::max(c.width, c.height));
-  constexpr int caption_px = 110;
-  picture.width = std::max(c.width * scale, caption_px);
-  picture.height *= scale;
-  const auto add = [&](const std::string& caption, const Plane& plane) {
-    picture.panels.push_back({caption, std::vector<Plane>(3, enlarged(stretched(plane), c.width,
-                                                                      scale, picture.width))});
-  };
-  add("kernel", kernel);
-  add("twin", twin);
-  add("difference", difference);
-  device.pictures.push_back(picture);
+  const auto picture = worst_picture(c, run_case(session, check, c), result.verdict.worst_at);
+  if (!picture) return;
+  device.pictures.push_back(*picture);
+  device.pictures.back().kernel = result.kernel;
 }
 
 KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,

@@ -1,0 +1,65 @@
+#include "validation/worst_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace defray::validation {
+namespace {
+
+/// A plane for the eye: its finite values from 0 to 1.
+Plane stretched(const Plane& plane) {
+  float low = 0, high = 0;
+  for (const float v : plane) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  Plane out;
+  for (const float v : plane) out.push_back(high > low ? v / (high - low) - low / (high - low) : 0);
+  return out;
+}
+
+/// Each pixel as a square of `scale` pixels a side, white to the right of them up to `padded_px`.
+Plane enlarged(const Plane& plane, int width, int scale, int padded_px) {
+  const auto w = static_cast<std::size_t>(width), s = static_cast<std::size_t>(scale);
+  const auto padded = static_cast<std::size_t>(padded_px);
+  Plane out(plane.size() / w * s * padded, 1.0f);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t x = i % padded / s, y = i / padded / s;
+    if (x < w) out[i] = plane[y * w + x];
+  }
+  return out;
+}
+
+/// The plane that holds the value `at`, whole numbers as floats; empty where the values are no
+/// picture (tiles).
+Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
+  if (!values.planes.empty()) return values.planes[at / pixels];
+  const std::size_t first = at / pixels * pixels;
+  if (first + pixels > values.integers.size()) return {};
+  const auto begin = values.integers.begin() + static_cast<std::int64_t>(first);
+  return {begin, begin + static_cast<std::int64_t>(pixels)};
+}
+
+}  // namespace
+
+std::optional<Picture> worst_picture(const Case& c, const Run& run, std::size_t at) {
+  const std::size_t pixels = static_cast<std::size_t>(c.width) * static_cast<std::size_t>(c.height);
+  const Plane kernel = plane_of(run.kernel, at, pixels), twin = plane_of(run.twin, at, pixels);
+  if (kernel.empty()) return {};
+  Plane difference;
+  for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
+  const int scale = std::max(1, 240 / std::max(c.width, c.height));
+  constexpr int caption_px = 110;
+  Picture picture{"", to_string(c), std::max(c.width * scale, caption_px), c.height * scale, {}};
+  const auto add = [&](const std::string& caption, const Plane& plane) {
+    const Plane large = enlarged(stretched(plane), c.width, scale, picture.width);
+    picture.panels.push_back({caption, std::vector<Plane>(3, large)});
+  };
+  add("kernel", kernel);
+  add("twin", twin);
+  add("difference", difference);
+  return picture;
+}
+
+}  // namespace defray::validation
