@@ -115,7 +115,7 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
   expect_refused("-o none --case 64x", 2, {"64x"});
   expect_refused("-o none --case ''", 2, {"--case", "empty"});
   expect_refused("-o none --math fats", 2, {"fats", "Did you mean 'fast'"});
-  expect_refused("-o none --quick --full", 2, {"--quick", "--full"});
+  expect_refused("-o none --kernel coc --quick --full", 2, {"--quick", "--full"});
   expect_refused("-o none --all --device 0", 2, {"--all", "--device"});
   expect_refused("-o none --arithmetic --all", 2, {"--arithmetic", "--all"});
   expect_refused("-o none --arithmetic --kernel coc", 2, {"--arithmetic", "--kernel"});
@@ -126,9 +126,9 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
 
 TEST_F(ValidateCommand, AFolderThatCannotBeWrittenIsSaidAtOnce) {
   std::ofstream(folder / "file") << "no folder";
-  expect_refused("-o file --full", 4, {"file/report.html"});
-  expect_refused("-o file/report --full", 4, {"file/report"});
-  expect_refused("-o /proc/none --full", 4, {"/proc/none"});
+  expect_refused("-o file --kernel coc", 4, {"file/report.html"});
+  expect_refused("-o file/report --kernel coc", 4, {"file/report"});
+  expect_refused("-o /proc/none --kernel coc", 4, {"/proc/none"});
 }
 
 /// OCL_ICD_VENDORS=…: a folder with PoCL's entry alone.
