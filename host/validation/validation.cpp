@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "error.h"
 #include "text.h"
@@ -78,8 +79,12 @@ class CheckRun {
 std::vector<const KernelCheck*> chosen_checks(const Settings& settings) {
   std::vector<const KernelCheck*> chosen;
   for (const std::string& name : settings.kernels) chosen.push_back(&find_check(name));
-  if (chosen.empty()) {
-    for (const KernelCheck& check : kernel_checks()) chosen.push_back(&check);
+  if (!chosen.empty()) return chosen;
+  for (const KernelCheck& check : kernel_checks()) {
+    // One case for all kernels: some take no such CoC.
+    const bool takes_it =
+        settings.only_case.empty() || std::isfinite(check.work(parse_case(settings.only_case)));
+    if (takes_it) chosen.push_back(&check);
   }
   return chosen;
 }
