@@ -1,7 +1,9 @@
 // defray validate: every kernel against its scalar twin, on this machine's devices.
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <set>
 
@@ -70,6 +72,7 @@ Settings settings_of(const Options& o) {
 
 void print_device(const DeviceResult& d) {
   fmt::print("{} ({}), {} arithmetic\n", d.device, d.platform, d.math);
+  if (!d.watch.empty()) fmt::print("  {}\n", d.watch);
   for (const KernelResult& k : d.kernels) {
     const Verdict& v = k.verdict;
     fmt::print(
@@ -87,6 +90,11 @@ DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& sett
                          [&](double share, const std::string&) { bar.update(0, share); });
 }
 
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
+}
+
 void write_report(const Options& o, const Page& page, const TemporaryFolder& pictures,
                   const std::string& json) {
   write_single_file(o.folder + "/report.html", page, pictures.path());
@@ -100,7 +108,6 @@ void write_report(const Options& o, const Page& page, const TemporaryFolder& pic
 
 int run_arithmetic(const Options& o) {
   const DeviceInfo info = select_device(o.device);
-  const TemporaryFolder pictures("defray-report");
   const auto results = [&] {
     ProgressBar bar(1, "arithmetic", true);
     const int width = o.full ? 1280 : 640;
@@ -110,17 +117,49 @@ int run_arithmetic(const Options& o) {
   if (!o.json) {
     for (const VariantResult& r : results) {
       for (const MethodFigures& m : r.methods) {
-        fmt::print("{:18} {:24} x {:.2f}, {:6.1f} dB, {:6.2f} % of the values changed{}\n", r.name,
-                   m.method, m.time_ratio, m.psnr_db, 100 * m.changed,
-                   m.is_stable ? "" : ", differs with the work-group");
+        fmt::print(
+            "{:18} {:24} x {:.2f} of strict's time, {:6.1f} dB, {:6.2f} % of values changed{}\n",
+            r.name, m.method, m.time_ratio, m.psnr_db, 100 * m.changed,
+            m.is_stable ? "" : ", differs with the work-group");
       }
     }
   }
-  const Page page{"defray: arithmetic on " + info.name,
-                  info.platform + ", " + info.version,
-                  {to_section(results, pictures.path())}};
+  const TemporaryFolder pictures("defray-report");
+  const Page page{
+      "defray: arithmetic on " + info.name,
+      fmt::format("{}, {}; defray {}, {}", info.platform, info.version, DEFRAY_VERSION, today()),
+      {to_section(results, pictures.path())}};
   write_report(o, page, pictures, to_json(results));
   return 0;
+}
+
+const char* level_of(const Options& o) {
+  if (!o.only_case.empty()) return "case";
+  return o.full ? "full" : "quick";
+}
+
+std::string title_of(const std::vector<DeviceResult>& results) {
+  std::size_t checks = 0, failed = 0, cases = 0;
+  for (const DeviceResult& d : results) {
+    for (const KernelResult& k : d.kernels) {
+      ++checks;
+      failed += k.passed() ? 0 : 1;
+      cases += k.cases;
+    }
+  }
+  return failed == 0 ? fmt::format("defray: {} of {} checks pass, {} cases", checks, checks, cases)
+                     : fmt::format("defray: {} of {} checks FAIL, {} cases", failed, checks, cases);
+}
+
+std::string intro_of(const Options& o) {
+  const std::string input = o.only_case.empty()
+                                ? fmt::format(
+                                      "a grid ({}) of sizes, circles of confusion, depth "
+                                      "patterns, colours, work-groups and bands",
+                                      level_of(o))
+                                : "one case, " + o.only_case;
+  return fmt::format("OpenCL kernels against their scalar C++ twins, over {}. defray {}, {}.",
+                     input, DEFRAY_VERSION, today());
 }
 
 int run(const Options& o) {
@@ -142,12 +181,8 @@ int run(const Options& o) {
     for (const std::string& note : notes) fmt::print("{}\n", note);
   }
   const TemporaryFolder pictures("defray-report");
-  const Page page{
-      passed ? "defray: all kernels pass" : "defray: some kernels FAIL",
-      "Every OpenCL kernel against its scalar C++ twin, over a grid of sizes, circles of "
-      "confusion, depth patterns, colours, work-groups and bands.",
-      to_sections(results, notes, pictures.path())};
-  write_report(o, page, pictures, to_json(results, notes, o.full ? "full" : "quick"));
+  const Page page{title_of(results), intro_of(o), to_sections(results, notes, pictures.path())};
+  write_report(o, page, pictures, to_json(results, notes, level_of(o)));
   return passed ? 0 : static_cast<int>(ExitCode::failed);
 }
 
@@ -167,13 +202,16 @@ Run add_validate(CLI::App& app) {
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
   command->add_flag("--full", o->full, "Every pattern with every size; some minutes")
       ->excludes(quick);
-  auto* kernel = command->add_option("--kernel", o->kernels, "Only this kernel; may be repeated");
+  auto* kernel =
+      command->add_option("--kernel", o->kernels, "Only these kernels, comma-separated or repeated")
+          ->delimiter(',');
   auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it")
                    ->check(no_empty_path);
-  auto* math = command->add_option("--math", o->math, "strict or fast, as in 'defray render'");
+  auto* math =
+      command->add_option("--math", o->math, "strict, or fast to see which rules it breaks");
   command
       ->add_flag("--arithmetic", o->arithmetic,
-                 "Measure instead what relaxed arithmetic buys and costs")
+                 "Measure instead what relaxed arithmetic buys and costs: minutes")
       ->excludes(all)
       ->excludes(kernel)
       ->excludes(only)

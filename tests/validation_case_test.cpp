@@ -24,8 +24,8 @@ Case any_case(std::mt19937& random) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
   Case c;
-  c.width = whole(1, 2048);
-  c.height = whole(1, 2048);
+  c.width = whole(1, 128);
+  c.height = whole(1, 128);
   c.pattern = static_cast<Pattern>(whole(0, static_cast<int>(Pattern::sparse)));
   c.colours = static_cast<Colours>(whole(0, static_cast<int>(Colours::nonfinite)));
   c.coc_px = whole(0, 3) == 0 ? whole(0, 4194303) : std::exp(real(-300, 15));
@@ -118,6 +118,12 @@ TEST(Case, RefusesWhatItDoesNotKnow) {
                                  "focus=nan",    "focus=-inf", "seed=-1",     "seed=4294967296"}) {
     refused("64x48," + word, {word, "must be a number from"});
   }
+  refused("64x48,coc", {"'coc'", "needs a value"});
+  refused("64x48,jitter=2", {"'jitter=2'", "takes no value"});
+  for (const std::string words : {"64x48,5x5", "seed=3,seed=4", "ties,random", "wild,plain"}) {
+    refused(words, {"for the second time"});
+  }
+  refused("65536x1,cells=64", {"64x64 cells", "2^26"});
   refused("4096x4096", {"4096x4096", "2^22"});
   EXPECT_NO_THROW(parse_case("4096x1024"));
   refused("4096x1025", {"2^22"});

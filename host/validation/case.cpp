@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "error.h"
 #include "text.h"
@@ -93,9 +94,20 @@ void read_word(Case& c, const std::string& word) {
     for (const auto& [name, kind] : colours) known.push_back(name);
     for (const auto& [name, read] : fields) known.push_back(name);
     const std::string name = word.substr(0, equals);
+    if (fields.count(word)) fail(ExitCode::usage, "--case: '{0}' needs a value: {0}=...", word);
+    if (name == "jitter")
+      fail(ExitCode::usage, "--case: jitter takes no value, '{}' has one", word);
     fail(ExitCode::usage, "--case: '{}' is not known.{} Known are WIDTHxHEIGHT and {}", word,
          did_you_mean(name, known), join(known, " "));
   }
+}
+
+/// What a word is about: no case says one thing twice.
+std::string subject_of(const std::string& word) {
+  if (patterns.count(word)) return "a pattern";
+  if (colours.count(word)) return "colours";
+  if (!word.empty() && word[0] >= '0' && word[0] <= '9') return "a size";
+  return word.substr(0, word.find('='));
 }
 
 }  // namespace
@@ -122,10 +134,21 @@ std::string to_string(const Case& c) {
 Case parse_case(const std::string& text) {
   if (text.empty()) fail(ExitCode::usage, "--case is empty");
   Case c;
-  for (const std::string& word : split(text, ',')) read_word(c, word);
+  std::set<std::string> said;
+  for (const std::string& word : split(text, ',')) {
+    read_word(c, word);
+    if (!said.insert(subject_of(word)).second) {
+      fail(ExitCode::usage, "--case: '{}' says {} for the second time", word, subject_of(word));
+    }
+  }
   if (std::int64_t{c.width} * c.height > 1 << 22) {
     fail(ExitCode::usage, "--case: {}x{} has more than 2^22 pixels: the twins would take too long",
          c.width, c.height);
+  }
+  if (std::int64_t{c.width} * c.height * c.cells * c.cells > 1 << 26) {
+    fail(ExitCode::usage,
+         "--case: {}x{} with {}x{} cells has more than 2^26 of them: too much memory", c.width,
+         c.height, c.cells, c.cells);
   }
   return c;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // What the simulator Oclgrind reports: races, memory outside buffers.
+#include <cstdint>
 #include <string>
 
 #include "opencl/device.h"
@@ -16,8 +17,8 @@ class OclgrindLog {
   std::string take();
 
  private:
-  std::string path_;
-  std::size_t read_ = 0;
+  int file_ = -1;
+  std::int64_t read_ = 0;
 };
 
 /// Whether a device is simulated: a thousand times slower than others.

@@ -123,12 +123,17 @@ void add_bound_plot(const DeviceResult& device, std::size_t index, const std::st
       {file, "Every point is a case. Right sums stay below the line; below 0.001 is drawn there."});
 }
 
+constexpr const char* fast_note =
+    "Fast arithmetic is not made to keep the strict rules: FAIL tells where it does not.";
+
 /// `index`: among the devices; files of two must not meet.
 Section device_section(const DeviceResult& device, std::size_t index, const std::string& folder) {
   Section section{device.device, "", {}, {}, {}};
   section.findings.push_back(fmt::format("{}, {}; {} arithmetic. {}", device.platform,
                                          device.version, device.math,
                                          device.passed() ? "All kernels pass." : "NOT all pass."));
+  if (!device.watch.empty()) section.findings.push_back(device.watch);
+  if (device.math == "fast") section.findings.push_back(fast_note);
   section.tables = {kernel_table(device)};
   for (Table& table : std::vector<Table>{case_table(device), histogram_table(device)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
@@ -204,6 +209,7 @@ std::string to_json(const std::vector<DeviceResult>& devices, const std::vector<
                     {"platform", d.platform},
                     {"version", d.version},
                     {"math", d.math},
+                    {"watch", d.watch},
                     {"passed", d.passed()},
                     {"kernels", kernels}});
   }

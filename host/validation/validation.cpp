@@ -78,7 +78,10 @@ class CheckRun {
 
 std::vector<const KernelCheck*> chosen_checks(const Settings& settings) {
   std::vector<const KernelCheck*> chosen;
-  for (const std::string& name : settings.kernels) chosen.push_back(&find_check(name));
+  for (const std::string& name : settings.kernels) {
+    const KernelCheck* check = &find_check(name);
+    if (std::find(chosen.begin(), chosen.end(), check) == chosen.end()) chosen.push_back(check);
+  }
   if (!chosen.empty()) return chosen;
   for (const KernelCheck& check : kernel_checks()) {
     // One case for all kernels: some take no such CoC.
@@ -163,6 +166,9 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
   result.device = info.name;
   result.platform = info.platform;
   result.version = info.version;
+  if (is_simulator(info)) {
+    result.watch = "Oclgrind looked for data races and accesses outside buffers: they FAIL too.";
+  }
   result.math = settings.session.math == Math::fast ? "fast" : "strict";
   const auto checks = chosen_checks(settings);
   for (std::size_t i = 0; i < checks.size(); ++i) {

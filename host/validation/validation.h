@@ -42,6 +42,7 @@ struct ExactPoint {
 struct DeviceResult {
   std::string device, platform, version;
   std::string math;
+  std::string watch;  ///< What a simulator looked for beside values; empty: nothing.
   std::vector<KernelResult> kernels;
   std::vector<ExactPoint> exact;
   std::vector<Picture> pictures;  ///< Of kernels with differences.
