@@ -196,7 +196,8 @@ Run add_validate(CLI::App& app) {
       ->required()
       ->check(no_empty_path);
   auto* device =
-      command->add_option("--device", o->device, "OpenCL device: an index or a part of its name");
+      command->add_option("--device", o->device, "OpenCL device: an index or a part of its name")
+          ->check(no_empty_path);
   auto* all = command->add_flag("--all", o->all, "Every device of every implementation");
   all->excludes(device);
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
