@@ -1,9 +1,9 @@
 // defray validate: every kernel against its scalar twin, on this machine's devices.
-#include <fmt/chrono.h>
+#include "validate.h"
+
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <set>
 
@@ -12,20 +12,12 @@
 #include "image/safe_output.h"
 #include "options.h"
 #include "progress.h"
-#include "temporary_folder.h"
-#include "validation/arithmetic.h"
 #include "validation/report.h"
 
 namespace defray::cli {
 namespace {
 
 using namespace defray::validation;
-
-struct Options {
-  std::string device, folder, only_case, math = "strict";
-  std::vector<std::string> kernels;
-  bool all = false, quick = false, full = false, arithmetic = false, json = false;
-};
 
 /// An OpenCL implementation that Debian has.
 struct Implementation {
@@ -49,7 +41,7 @@ std::vector<std::string> missing_implementations(const std::vector<DeviceInfo>& 
   return notes;
 }
 
-std::vector<DeviceInfo> chosen_devices(const Options& o, std::vector<std::string>& notes) {
+std::vector<DeviceInfo> chosen_devices(const ValidateOptions& o, std::vector<std::string>& notes) {
   if (!o.all) return {select_device(o.device)};
   // Mesa hides its CPU device unless asked for it.
   setenv("RUSTICL_ENABLE", "llvmpipe", 0);
@@ -59,7 +51,7 @@ std::vector<DeviceInfo> chosen_devices(const Options& o, std::vector<std::string
   return devices;
 }
 
-Settings settings_of(const Options& o) {
+Settings settings_of(const ValidateOptions& o) {
   Settings s;
   s.level = o.full ? Level::full : Level::quick;
   s.kernels = o.kernels;
@@ -90,50 +82,7 @@ DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& sett
                          [&](double share, const std::string&) { bar.update(0, share); });
 }
 
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(now));
-}
-
-void write_report(const Options& o, const Page& page, const TemporaryFolder& pictures,
-                  const std::string& json) {
-  write_single_file(o.folder + "/report.html", page, pictures.path());
-  write_text(o.folder + "/report.json", json);
-  if (o.json) {
-    fmt::print("{}", json);
-  } else {
-    fmt::print("{}/report.html\n{}/report.json\n", o.folder, o.folder);
-  }
-}
-
-int run_arithmetic(const Options& o) {
-  const DeviceInfo info = select_device(o.device);
-  const auto results = [&] {
-    ProgressBar bar(1, "arithmetic", true);
-    const int width = o.full ? 1280 : 640;
-    return measure_arithmetic(info, width, width * 3 / 4, o.full ? 9 : 5, Level::quick,
-                              [&](double share) { bar.update(0, share); });
-  }();
-  if (!o.json) {
-    for (const VariantResult& r : results) {
-      for (const MethodFigures& m : r.methods) {
-        fmt::print(
-            "{:18} {:24} x {:.2f} of strict's time, {:6.1f} dB, {:6.2f} % of values changed{}\n",
-            r.name, m.method, m.time_ratio, m.psnr_db, 100 * m.changed,
-            m.is_stable ? "" : ", differs with the work-group");
-      }
-    }
-  }
-  const TemporaryFolder pictures("defray-report");
-  const Page page{
-      "defray: arithmetic on " + info.name,
-      fmt::format("{}, {}; defray {}, {}", info.platform, info.version, DEFRAY_VERSION, today()),
-      {to_section(results, pictures.path())}};
-  write_report(o, page, pictures, to_json(results));
-  return 0;
-}
-
-const char* level_of(const Options& o) {
+const char* level_of(const ValidateOptions& o) {
   if (!o.only_case.empty()) return "case";
   return o.full ? "full" : "quick";
 }
@@ -151,18 +100,18 @@ std::string title_of(const std::vector<DeviceResult>& results) {
                      : fmt::format("defray: {} of {} checks FAIL, {} cases", failed, checks, cases);
 }
 
-std::string intro_of(const Options& o) {
+std::string intro_of(const ValidateOptions& o) {
   const std::string input = o.only_case.empty()
                                 ? fmt::format(
                                       "a grid ({}) of sizes, circles of confusion, depth "
                                       "patterns, colours, work-groups and bands",
                                       level_of(o))
                                 : "one case, " + o.only_case;
-  return fmt::format("OpenCL kernels against their scalar C++ twins, over {}. defray {}, {}.",
-                     input, DEFRAY_VERSION, today());
+  return fmt::format("OpenCL kernels against their scalar C++ twins, over {}. {}.", input,
+                     version_and_date());
 }
 
-int run(const Options& o) {
+int run(const ValidateOptions& o) {
   const Settings settings = settings_of(o);
   std::error_code ignored;
   std::filesystem::create_directories(o.folder, ignored);
@@ -182,7 +131,7 @@ int run(const Options& o) {
   }
   const TemporaryFolder pictures("defray-report");
   const Page page{title_of(results), intro_of(o), to_sections(results, notes, pictures.path())};
-  write_report(o, page, pictures, to_json(results, notes, level_of(o)));
+  write_reports(o, page, pictures, to_json(results, notes, level_of(o)));
   return passed ? 0 : static_cast<int>(ExitCode::failed);
 }
 
@@ -191,7 +140,7 @@ int run(const Options& o) {
 Run add_validate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "validate", "Check every kernel against its scalar twin on this machine's devices");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ValidateOptions>();
   command->add_option("-o,--output", o->folder, "Folder for report.html and report.json")
       ->required()
       ->check(no_empty_path);
