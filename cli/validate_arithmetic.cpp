@@ -34,7 +34,7 @@ int run_arithmetic(const ValidateOptions& o) {
   const auto results = [&] {
     ProgressBar bar(1, "arithmetic", true);
     const int width = o.full ? 1280 : 640;
-    return measure_arithmetic(info, width, width * 3 / 4, o.full ? 9 : 5, Level::quick,
+    return measure_arithmetic(info, width, width * 3 / 4, o.full ? 21 : 9, Level::quick,
                               [&](double share) { bar.update(0, share); });
   }();
   if (!o.json) {

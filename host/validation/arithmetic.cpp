@@ -117,16 +117,27 @@ struct Trial {
   std::map<std::string, std::vector<double>> kernel_seconds;
 };
 
-void time_round(Trial& trial, const Subject& subject, const std::vector<NamedMethod>& all) {
-  trial.method_seconds.resize(all.size());
-  trial.session->take_kernel_seconds();
-  for (std::size_t m = 0; m < all.size(); ++m) {
-    const auto start = Clock::now();
-    render(*trial.session, subject, all[m].settings);
-    trial.method_seconds[m].push_back(std::chrono::duration<double>(Clock::now() - start).count());
+/// Each method in all variants, one right after the other: a busy machine is busy for all of them.
+void time_round(std::vector<Trial>& trials, const Subject& subject,
+                const std::vector<NamedMethod>& all) {
+  for (Trial& trial : trials) {
+    if (trial.session) trial.session->take_kernel_seconds();  // of what was run before
   }
-  for (const auto& [kernel, seconds] : trial.session->take_kernel_seconds()) {
-    trial.kernel_seconds[kernel].push_back(seconds);
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    for (Trial& trial : trials) {
+      if (!trial.session) continue;
+      trial.method_seconds.resize(all.size());
+      const auto start = Clock::now();
+      render(*trial.session, subject, all[m].settings);
+      trial.method_seconds[m].push_back(
+          std::chrono::duration<double>(Clock::now() - start).count());
+    }
+  }
+  for (Trial& trial : trials) {
+    if (!trial.session) continue;
+    for (const auto& [kernel, seconds] : trial.session->take_kernel_seconds()) {
+      trial.kernel_seconds[kernel].push_back(seconds);
+    }
   }
 }
 
@@ -210,9 +221,7 @@ std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width,
     }
   }
   for (int round = 0; round < rounds; ++round, step()) {
-    for (Trial& trial : trials) {
-      if (trial.session) time_round(trial, subject, all);
-    }
+    time_round(trials, subject, all);
   }
   for (std::size_t i = 0; i < trials.size(); ++i) {
     for (std::size_t m = 0; m < results[i].methods.size(); ++m) {
