@@ -63,12 +63,13 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
 }
 
 TEST(Rdb, SameBitsForEveryMemoryBudget) {
-  const Input in = make_input({131, 37}, 9, 31);
+  const Size size = is_slow_device() ? Size{31, 37} : Size{131, 37};
+  const Input in = make_input(size, 9, 31);
   for (const bool jitter : {false, true}) {
     RdbSettings settings = small_settings(jitter);
     settings.cells_per_side = 3;
     const std::uint64_t whole = hash_of(render(session(), in, settings));
-    const std::size_t row = 131 * 32;  // one row of one cell with its sums
+    const std::size_t row = size.width * 32;  // one row of one cell with its sums
     for (const std::size_t bytes : {row, 2 * row, 3 * row + 100, 17 * row, 36 * row}) {
       settings.memory_bytes = bytes;
       EXPECT_EQ(hash_of(render(session(), in, settings)), whole) << bytes << " bytes";
