@@ -61,7 +61,9 @@ class SequenceRun {
       device_ = "the scalar reference";
       return;
     }
-    session_ = std::make_unique<Session>(select_device(options.device), session);
+    session_ = std::make_unique<Session>(
+        select_device(options.device, "; or use --device reference, the slow scalar twin"),
+        session);
     session_->set_work_group(group[0], group[1]);
     device_ = session_->info().name;
     if (session.math == Math::fast) device_ += " (fast arithmetic)";

@@ -60,12 +60,6 @@ std::string to_text(const Timing& t) {
 
 std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
-std::vector<Plane> render(Session& session, const Subject& s, const MethodSettings& settings) {
-  const auto coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
-  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
-                      settings, &session);
-}
-
 Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings) {
   check_against_twin(bench.session, subject, settings);
   std::vector<Plane> first;

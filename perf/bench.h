@@ -39,9 +39,6 @@ std::string to_text(const Timing& timing);
 /// A number with so many digits behind the point.
 std::string fixed(double value, int digits = 2);
 
-/// The CoC kernel and the method, as `defray render` runs them.
-std::vector<Plane> render(Session& session, const Subject& subject, const MethodSettings& settings);
-
 /// Times `render` after a check that the picture's middle (96 x 64 pixels) equals the scalar twin's
 /// within the RDB's bound, bit for bit elsewhere, and that every run gives the same picture.
 /// Throws Error(internal) where it does not.

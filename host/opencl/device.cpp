@@ -74,12 +74,12 @@ std::vector<DeviceInfo> list_devices() {
   return found;
 }
 
-DeviceInfo select_device(const std::string& wanted) {
+DeviceInfo select_device(const std::string& wanted, const std::string& otherwise) {
   const std::vector<DeviceInfo> devices = list_devices();
   if (devices.empty()) {
     fail(ExitCode::device,
-         "no OpenCL device found: install one (Debian: apt-get install pocl-opencl-icd), or use "
-         "--device reference for the slow scalar twin");
+         "no OpenCL device found: install one (Debian: apt-get install pocl-opencl-icd){}",
+         otherwise);
   }
   if (wanted.empty()) {
     const auto pocl = std::find_if(devices.begin(), devices.end(), is_pocl);
@@ -95,8 +95,8 @@ DeviceInfo select_device(const std::string& wanted) {
     if (contains_ignoring_case(info.platform + " " + info.name, wanted)) matches.push_back(info);
   }
   if (matches.empty()) {
-    fail(ExitCode::device, "no OpenCL device is called '{}'; found: {}; or use 'reference'", wanted,
-         listing(devices));
+    fail(ExitCode::device, "no OpenCL device is called '{}'; found: {}{}", wanted, listing(devices),
+         otherwise);
   }
   if (matches.size() > 1) {
     fail(ExitCode::device, "'{}' names more than one OpenCL device: {}", wanted, listing(matches));

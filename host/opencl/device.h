@@ -32,7 +32,8 @@ std::vector<DeviceInfo> list_devices();
 
 /// The device with this index, or the one whose "platform device" names contain `wanted`
 /// (any case); an empty `wanted` is the first device, PoCL's before others.
-/// Throws Error(device) when there is none, none matches, or several do.
-DeviceInfo select_device(const std::string& wanted);
+/// Throws Error(device) when there is none, none matches, or several do; the message of the first
+/// two ends in `otherwise`, what the user could do instead.
+DeviceInfo select_device(const std::string& wanted, const std::string& otherwise = "");
 
 }  // namespace defray

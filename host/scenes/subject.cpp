@@ -15,4 +15,10 @@ Subject make_subject(Session& session, Scene scene, const std::string& setting) 
   return s;
 }
 
+std::vector<Plane> render(Session& session, const Subject& s, const MethodSettings& settings) {
+  const auto coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
+  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
+                      settings, &session);
+}
+
 }  // namespace defray

@@ -24,4 +24,7 @@ struct Subject {
 /// Throws Error(usage) where the scene has no such focus setting.
 Subject make_subject(Session& session, Scene scene, const std::string& setting);
 
+/// The CoC kernel and the method, as `defray render` runs them.
+std::vector<Plane> render(Session& session, const Subject& subject, const MethodSettings& settings);
+
 }  // namespace defray

@@ -72,12 +72,6 @@ std::vector<NamedMethod> methods() {
           {"gather aware, 32 x 2", aware}};
 }
 
-std::vector<Plane> render(Session& session, const Subject& s, const MethodSettings& settings) {
-  const auto coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
-  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
-                      settings, &session);
-}
-
 double share_changed(const std::vector<Plane>& a, const std::vector<Plane>& b) {
   double changed = 0, all = 0;
   for (std::size_t c = 0; c < a.size(); ++c) {
