@@ -13,24 +13,24 @@ std::size_t pixels(int width, int rows) {
 
 }  // namespace
 
-RdbRun::RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
-               const Plane& depth, const std::vector<Plane>& channels, const RdbSettings& settings)
-    : session_(session),
-      width_(width),
-      coc_(coc_quanta),
-      depth_(depth),
-      channels_(channels),
-      seed_(settings.seed),
-      cells_(make_lens_cells(settings.cells_per_side, settings.jitter)) {
+LensCells lens_cells(const RdbSettings& settings) {
+  if (!settings.samples.centres.empty()) return settings.samples;
+  return make_lens_cells(settings.cells_per_side, settings.jitter);
+}
+
+RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings)
+    : session_(session), fragments_(fragments), settings_(settings), cells_(lens_cells(settings)) {
   const int cells = static_cast<int>(cells_.centres.size());
   const std::size_t budget = std::min(settings.memory_bytes, session.info().max_buffer_bytes);
-  passes_ = plan_rdb_passes(width, height, cells, rdb_reach(largest_coc(coc_quanta)), budget);
+  const int reach = rdb_reach(largest_coc(fragments.coc_quanta));
+  passes_ = plan_rdb_passes(fragments.width, fragments.height, cells, reach, budget);
   const RdbPass& largest = passes_.front();
-  const std::size_t band = pixels(width, largest.band_rows);
+  const std::size_t band = pixels(fragments.width, largest.band_rows);
   lens_ = session.view(cells_.centres);
   winner_ = session.buffer(band * static_cast<std::size_t>(largest.cell_count) * sizeof(RdbWinner));
   sum_ = session.buffer(band * sizeof(cl_float4));
   filled_ = session.buffer(band * sizeof(cl_uint2));
+  seen_ = session.buffer(band * sizeof(cl_uint));
 }
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
@@ -39,7 +39,7 @@ bool RdbRun::is_last_of_band(const RdbPass& pass) const {
 
 DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   DefrayRdbParams p{};
-  p.width = static_cast<std::uint32_t>(width_);
+  p.width = static_cast<std::uint32_t>(fragments_.width);
   p.window_y = static_cast<std::uint32_t>(pass.window_y);
   p.window_rows = static_cast<std::uint32_t>(pass.window_rows);
   p.band_y = static_cast<std::uint32_t>(pass.band_y);
@@ -49,32 +49,43 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   p.is_first_pass = pass.first_cell == 0;
   p.is_last_pass = is_last_of_band(pass);
   p.jitter_lens = cells_.jitter;
-  p.seed = seed_;
+  p.seed = settings_.seed;
+  p.layers = static_cast<std::uint32_t>(fragments_.layers);
+  p.has_coverage = fragments_.coverage != nullptr;
+  p.origin_x = settings_.origin_x;
+  p.origin_y = settings_.origin_y;
   return p;
 }
 
 void RdbRun::view_window(const RdbPass& pass) {
   if (window_.band_y == pass.band_y) return;
-  const std::size_t first = pixels(width_, pass.window_y);
-  const std::size_t count = pixels(width_, pass.window_rows);
-  const auto view = [&](const Plane& plane) { return session_.picture(&plane[first], count); };
-  window_ = {pass.band_y, session_.view(&coc_[first], count * sizeof(coc_[0])), view(depth_), {}};
+  const int stride = fragments_.width * fragments_.layers;
+  const std::size_t first = pixels(stride, pass.window_y);
+  const std::size_t count = pixels(stride, pass.window_rows);
+  const auto picture = [&](const Plane& plane) { return session_.picture(&plane[first], count); };
+  const auto words = [&](const auto& plane) {
+    return session_.view(&plane[first], count * sizeof(plane[0]));
+  };
+  window_ = {pass.band_y, words(fragments_.coc_quanta), picture(fragments_.depth), lens_, {}};
+  if (fragments_.coverage) window_.coverage = words(*fragments_.coverage);
   // The kernel always sums four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
-    window_.channel[c] = c < channels_.size() ? view(channels_[c]) : window_.channel[c - 1];
+    window_.channel[c] =
+        c < fragments_.channels.size() ? picture(fragments_.channels[c]) : window_.channel[c - 1];
   }
 }
 
 void RdbRun::scatter(const RdbPass& pass) {
   view_window(pass);
   DefrayRdbParams p = params_of(pass);
-  const std::size_t cells = pixels(width_, pass.band_rows) * p.cell_count;
+  const std::size_t cells = pixels(fragments_.width, pass.band_rows) * p.cell_count;
   session_.launch("rdb_clear", DEFRAY_RDB_CLEAR_GROUP, {cells}, p, winner_);
   const int scatters = session_.has_int64_atomics() ? 1 : 2;
   for (int i = 0; i < scatters; ++i) {
     p.is_index_pass = i == 1;
-    session_.launch("rdb_scatter", DEFRAY_RDB_SCATTER_GROUP, {p.width, p.window_rows, p.cell_count},
-                    p, window_.coc, window_.depth, lens_, winner_);
+    session_.launch("rdb_scatter", DEFRAY_RDB_SCATTER_GROUP,
+                    {p.width, std::size_t{p.window_rows} * p.layers, p.cell_count}, p, window_.coc,
+                    window_.depth, window_.coverage, lens_, winner_);
   }
 }
 
@@ -83,31 +94,34 @@ void RdbRun::merge(const RdbPass& pass) {
   const DefrayRdbParams p = params_of(pass);
   const cl::Buffer(&channel)[4] = window_.channel;
   session_.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner_,
-                  channel[0], channel[1], channel[2], channel[3], sum_, filled_);
+                  window_.coverage, channel[0], channel[1], channel[2], channel[3], sum_, filled_,
+                  seen_);
 }
 
-void RdbRun::read_band(const RdbPass& pass, std::vector<Plane>& out) {
-  std::vector<cl_float4> means(pixels(width_, pass.band_rows));
+void RdbRun::read_band(const RdbPass& pass, RdbResult& out) {
+  std::vector<cl_float4> means(pixels(fragments_.width, pass.band_rows));
   session_.read(sum_, means.data(), means.size() * sizeof(cl_float4));
-  const std::size_t first = pixels(width_, pass.band_y);
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    for (std::size_t i = 0; i < means.size(); ++i) out[c][first + i] = means[i].s[c];
+  const std::size_t first = pixels(fragments_.width, pass.band_y);
+  for (std::size_t c = 0; c < out.means.size(); ++c) {
+    for (std::size_t i = 0; i < means.size(); ++i) out.means[c][first + i] = means[i].s[c];
   }
+  session_.read(seen_, &out.seen[first], means.size() * sizeof(cl_uint));
 }
 
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
-  std::vector<RdbWinner> result(pixels(width_, pass.band_rows) *
+  std::vector<RdbWinner> result(pixels(fragments_.width, pass.band_rows) *
                                 static_cast<std::size_t>(pass.cell_count));
   session_.read(winner_, result.data(), result.size() * sizeof(RdbWinner));
   return result;
 }
 
-std::vector<Plane> render_rdb(Session& session, int width, int height,
-                              const std::vector<std::int32_t>& coc_quanta, const Plane& depth,
-                              const std::vector<Plane>& channels, const RdbSettings& settings,
-                              const std::function<void(double)>& progress) {
-  RdbRun run(session, width, height, coc_quanta, depth, channels, settings);
-  std::vector<Plane> out(channels.size(), Plane(depth.size()));
+RdbResult distribute_rays(Session& session, const FragmentView& fragments,
+                          const RdbSettings& settings,
+                          const std::function<void(double)>& progress) {
+  RdbRun run(session, fragments, settings);
+  const std::size_t count = pixels(fragments.width, fragments.height);
+  RdbResult out{std::vector<Plane>(fragments.channels.size(), Plane(count)),
+                std::vector<std::uint32_t>(count)};
   double done = 0;
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
@@ -118,6 +132,14 @@ std::vector<Plane> render_rdb(Session& session, int width, int height,
     if (progress) progress(done / static_cast<double>(run.passes().size()));
   }
   return out;
+}
+
+std::vector<Plane> render_rdb(Session& session, int width, int height,
+                              const std::vector<std::int32_t>& coc_quanta, const Plane& depth,
+                              const std::vector<Plane>& channels, const RdbSettings& settings,
+                              const std::function<void(double)>& progress) {
+  const FragmentView pixels(width, height, coc_quanta, depth, channels);
+  return distribute_rays(session, pixels, settings, progress).means;
 }
 
 }  // namespace defray

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coc.h"
+#include "fragments.h"
 #include "lens_cells.h"
 #include "opencl/session.h"
 #include "rdb_plan.h"
@@ -17,15 +18,24 @@ struct RdbSettings {
   bool jitter = false;
   std::uint32_t seed = 0;
   std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
+  LensCells samples = {};          ///< Points of the lens to use instead of a grid of cells.
+  int origin_x = 0, origin_y = 0;  ///< Of the frame in the display window: jitter follows it.
+};
+
+/// The lens points of these settings.
+LensCells lens_cells(const RdbSettings& settings);
+
+/// What the ray distribution buffers give.
+struct RdbResult {
+  std::vector<Plane> means;         ///< As many as there are channels.
+  std::vector<std::uint32_t> seen;  ///< Cells of each pixel won by a fragment that was seen.
 };
 
 /// A frame on its way through the ray distribution buffers. The frame's planes must stay alive and
 /// unchanged meanwhile. Passes go through scatter and merge in order.
 class RdbRun {
  public:
-  /// `channels`: 1 to 4 colour planes.
-  RdbRun(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
-         const Plane& depth, const std::vector<Plane>& channels, const RdbSettings& settings);
+  RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings);
 
   const std::vector<RdbPass>& passes() const { return passes_; }
 
@@ -35,8 +45,8 @@ class RdbRun {
   /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
   void merge(const RdbPass& pass);
 
-  /// Copies a finished band's means into `out`, as many planes as there are channels.
-  void read_band(const RdbPass& pass, std::vector<Plane>& out);
+  /// Copies a finished band's part of the result.
+  void read_band(const RdbPass& pass, RdbResult& out);
 
   /// Winners of the last scatter, [cell][band row][x].
   std::vector<RdbWinner> winners(const RdbPass& pass);
@@ -48,24 +58,26 @@ class RdbRun {
   /// The source rows that can reach a band, on the device.
   struct Window {
     int band_y = -1;
-    cl::Buffer coc, depth, channel[4];
+    cl::Buffer coc, depth, coverage, channel[4];
   };
   void view_window(const RdbPass& pass);
   DefrayRdbParams params_of(const RdbPass& pass) const;
 
   Session& session_;
-  int width_;
-  const std::vector<std::int32_t>& coc_;
-  const Plane& depth_;
-  const std::vector<Plane>& channels_;
-  std::uint32_t seed_;
+  FragmentView fragments_;
+  RdbSettings settings_;
   LensCells cells_;
   std::vector<RdbPass> passes_;
   Window window_;
-  cl::Buffer lens_, winner_, sum_, filled_;
+  cl::Buffer lens_, winner_, sum_, filled_, seen_;
 };
 
-/// The lens picture: 1 to 4 channels in, as many out. `progress` gets the share done, 0 to 1.
+/// All passes. `progress` gets the share done, 0 to 1.
+RdbResult distribute_rays(Session& session, const FragmentView& fragments,
+                          const RdbSettings& settings,
+                          const std::function<void(double)>& progress = {});
+
+/// The lens picture of whole pixels: 1 to 4 channels in, as many out (Shinya's method itself).
 std::vector<Plane> render_rdb(Session& session, int width, int height,
                               const std::vector<std::int32_t>& coc_quanta, const Plane& depth,
                               const std::vector<Plane>& channels, const RdbSettings& settings,

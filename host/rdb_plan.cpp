@@ -8,8 +8,6 @@
 namespace defray {
 namespace {
 
-constexpr std::size_t bytes_per_cell = sizeof(RdbWinner);
-constexpr std::size_t bytes_per_sum = 4 * sizeof(float) + 2 * sizeof(std::uint32_t);
 /// A pass that stays in the last-level cache scatters twice as fast as one that does not; below a
 /// band height of a few reaches, rows that two bands share cost more than that.
 constexpr std::size_t pass_bytes_in_cache = std::size_t{16} << 20;
@@ -23,7 +21,8 @@ int rdb_reach(std::int32_t largest_coc_quanta) {
 
 std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
                                      std::size_t memory_bytes) {
-  const std::size_t row_bytes = static_cast<std::size_t>(width) * (bytes_per_cell + bytes_per_sum);
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
   if (memory_bytes < row_bytes) {
     fail(ExitCode::usage,
          "--memory is {} bytes: one row of {} pixels needs at least {} bytes (1 MiB will do)",
@@ -36,9 +35,9 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
   const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
                                           row_bytes * static_cast<std::size_t>(rows));
-  const std::size_t for_cells = pass_bytes - band * bytes_per_sum;
+  const std::size_t for_cells = pass_bytes - band * rdb_bytes_a_sum;
   const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
-                                                           for_cells / (band * bytes_per_cell)));
+                                                           for_cells / (band * rdb_bytes_a_cell)));
   std::vector<RdbPass> passes;
   for (int y = 0; y < height; y += rows) {
     RdbPass pass{};

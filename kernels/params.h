@@ -23,14 +23,31 @@
 /// Largest CoC radius in quanta: 2^22 px. A frame is at most 2^16 px wide and the smallest lens
 /// coordinate of a 64x64 RDB is 1/64, so rays off the lens centre have left the frame before it.
 #define DEFRAY_COC_LIMIT_QUANTA (1 << 30)
-/// A cell that no ray has reached: both halves of its (depth, source) key.
+/// A cell that no ray has reached: both halves of its (depth, source) key. As depth: no fragment.
 #define DEFRAY_EMPTY 0xffffffffu
+/// A fragment that covers its whole pixel.
+#define DEFRAY_WHOLE 65536u
+/// Flag in a fragment's coverage: the picture did not show it, it was made up.
+#define DEFRAY_SYNTHESISED 0x80000000u
+
+/// A step of the CoC from one pixel to the next that parts their rays by more than a pixel: one
+/// surface ends there and another goes on behind it.
+#define DEFRAY_JUMP_QUANTA 256
+/// CoC radii count as no larger than this where differences are taken: 2^20 px.
+#define DEFRAY_TAME_QUANTA (1 << 28)
+/// Side of the square tiles in which `fill` may have something to do, in pixels.
+#define DEFRAY_FILL_TILE 16
+/// Directions in which `fill` looks for what goes on behind.
+#define DEFRAY_FILL_DIRECTIONS 16
+/// Most samples a side of the square over which `soften` averages.
+#define DEFRAY_SOFTEN_TAPS 7
 
 /// Default work-groups (x, all other dimensions 1); any other size gives the same bits.
 #define DEFRAY_COC_GROUP 64
 #define DEFRAY_RDB_CLEAR_GROUP 256
 #define DEFRAY_RDB_SCATTER_GROUP 64
 #define DEFRAY_RDB_MERGE_GROUP 64
+#define DEFRAY_STAGE_GROUP 64  ///< repair, edges, fill, split, soften.
 #define DEFRAY_LINEAR_GROUP 16
 #define DEFRAY_TILTSHIFT_GROUP 64
 #define DEFRAY_GATHER_GROUP 64
@@ -69,7 +86,33 @@ typedef struct {
   DEFRAY_UINT is_index_pass;  ///< 1: second of two scatters, without 64-bit atomics.
   DEFRAY_INT jitter_lens;     ///< Largest jitter offset, lens units; 0: no jitter.
   DEFRAY_UINT seed;
+  DEFRAY_UINT layers;        ///< Fragments a pixel: planes of sources are [row][layer][width].
+  DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
+  DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
+  DEFRAY_INT origin_y;
 } DefrayRdbParams;
+
+/// A whole frame: `repair`, `edges`, `split`.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+} DefrayFrameParams;
+
+/// What lies behind: `fill`.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+  DEFRAY_UINT tiles_x;
+  DEFRAY_INT farthest_quanta;  ///< Largest signed CoC of the frame.
+} DefrayFillParams;
+
+/// Colours averaged over what one lens cell sees: `soften`.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+  DEFRAY_UINT layers;
+  float cells_a_side;  ///< Of a square grid around the lens as dense as its samples.
+} DefraySoftenParams;
 
 /// One band of target rows of `linear`. Its source planes hold the band and everything in reach,
 /// the frame's edge pixels repeated outside it.
@@ -116,12 +159,15 @@ typedef struct {
 } DefrayTileParams;
 
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DefrayFrameParams) == 8);
+static_assert(sizeof(DefrayFillParams) == 16);
+static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
-static_assert(sizeof(DefrayRdbParams) == 48);
+static_assert(sizeof(DefrayRdbParams) == 64);
 #endif
 
 #endif

@@ -8,31 +8,35 @@
 // one result, bit for bit, for every band height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
-// channel0..3     [window_rows][width]             colour planes of the source window
+// coverage        [window_rows][layers][width]     only its flag matters here; if has_coverage
+// channel0..3     [window_rows][layers][width]     colour planes of the source window
 // sum             [band_rows][width]               colours' sums; after the last pass the means
 // filled          [band_rows][width]               (x: cells that a ray has reached so far; bits 16
 //                                                   to 19: whether each channel has varied,
 //                                                   y: source of the first of them)
+// seen            [band_rows][width]               cells won by what the picture shows
 // Global size: (width, band_rows).
 #include "colour.h"
 #include "params.h"
 
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
+                        __global const uint* restrict coverage,
                         __global const float* restrict channel0,
                         __global const float* restrict channel1,
                         __global const float* restrict channel2,
                         __global const float* restrict channel3, __global float4* restrict sum,
-                        __global uint2* restrict filled) {
+                        __global uint2* restrict filled, __global uint* restrict seen) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
 
   const size_t target = (size_t)row * p.width + x;
-  const size_t own = (size_t)(p.band_y - p.window_y + row) * p.width + x;
+  const size_t own = (size_t)(p.band_y - p.window_y + row) * p.layers * p.width + x;
   const size_t cell_stride = (size_t)p.band_rows * p.width;
   float4 total = p.is_first_pass ? (float4)(0.0f) : sum[target];
   const uint2 state = p.is_first_pass ? (uint2)(0u, (uint)own) : filled[target];
   uint count = state.x & 0xffffu;
+  uint seen_count = p.is_first_pass ? 0u : seen[target];
   uint f = state.y;  // the pixel itself while no ray has arrived
   float4 first = colour_at(channel0, channel1, channel2, channel3, f);
   int4 varies = (int4)((int)(state.x >> 16)) << (int4)(31, 30, 29, 28);  // in the sign bits
@@ -48,10 +52,12 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
     if (s != f) varies |= colour != first;  // a NaN differs from itself
     total += colour;
     ++count;
+    seen_count += p.has_coverage ? 1u - (coverage[s] >> 31) : 1u;
   }
 
   if (p.is_last_pass) total = select(first, total / (float)max(count, 1u), varies);
   sum[target] = total;
+  seen[target] = seen_count;
   const uint4 flags = as_uint4(varies) >> (uint4)(31u);
   filled[target] =
       (uint2)(count | flags.x << 16 | flags.y << 17 | flags.z << 18 | flags.w << 19, f);

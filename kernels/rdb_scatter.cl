@@ -6,8 +6,13 @@
 // go to the smaller source index, so the result does not depend on the order of arrival.
 // All arithmetic is on integers: the same cells win on every device.
 //
-// coc_quanta  [window_rows][width]              signed radius, 1/256 px
-// depth_bits  [window_rows][width]              bits of a float > 0: they order as the float does
+// A pixel may hold several fragments. One that covers only a share of its pixel sends that share of
+// its rays, spread evenly over the lens.
+//
+// coc_quanta  [window_rows][layers][width]      signed radius, 1/256 px
+// depth_bits  [window_rows][layers][width]      bits of a float > 0: they order as the float does;
+//                                               all ones where there is no fragment
+// coverage    [window_rows][layers][width]      2^-16 of the pixel, bit 31 apart; if has_coverage
 // lens        [cells]                           u_k, 2^-16 of the aperture radius
 // winner      [cell_count][band_rows][width]    (x: source index in the window, y: depth bits),
 //                                               all ones where no ray has arrived
@@ -16,7 +21,8 @@
 //
 // Build with -DDEFRAY_INT64_ATOMICS where the device has cl_khr_int64_extended_atomics: the pair
 // is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
-// of the indices that have this depth. Global size: (width, window_rows, cell_count).
+// of the indices that have this depth. Global size: (width, window_rows x layers,
+// cell_count).
 #include "params.h"
 #include "pcg3d.h"
 
@@ -39,10 +45,18 @@ int2 jitter_offset(const uint x, const uint y, const uint seed, const int larges
   return (int2)((int)mul_hi(v.x, range) - largest, (int)mul_hi(v.y, range) - largest);
 }
 
+// Whether a fragment sends its ray to a cell: an even share of them, as Kronecker sequences give it
+// (the factor is 2^16 / 1.3247..., the plastic number: no relation to the spiral's golden angle).
+bool sends(const uint coverage, const uint cell, const uint x, const uint y) {
+  const uint turn = pcg3d((uint3)(x, y, 0u)).z;
+  return ((cell * 49471u + turn) & 0xffffu) < (coverage & ~DEFRAY_SYNTHESISED);
+}
+
 // Whether jittered cell u of pixel x is hit from pixel p: its sample may have left the aperture.
-bool arrives(const int2 x, const int2 p, const long r, const long2 u, const uint seed,
-             const int jitter) {
-  const long2 v = u + convert_long2(jitter_offset((uint)x.x, (uint)x.y, seed, jitter));
+bool arrives(const int2 x, const int2 p, const int2 origin, const long r, const long2 u,
+             const uint seed, const int jitter) {
+  const uint2 at = as_uint2(x + origin);
+  const long2 v = u + convert_long2(jitter_offset(at.x, at.y, seed, jitter));
   return v.x * v.x + v.y * v.y <= 1L << (2 * DEFRAY_LENS_FRACTION_BITS) &&
          landing(r * v.x) == x.x - p.x && landing(r * v.y) == x.y - p.y;
 }
@@ -70,19 +84,24 @@ __kernel void rdb_clear(const DefrayRdbParams p, __global uint2* winner) {
 
 __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict coc_quanta,
                           __global const uint* restrict depth_bits,
+                          __global const uint* restrict coverage,
                           __global const int2* restrict lens, __global uint2* winner) {
   const uint sx = get_global_id(0);
   const uint row = get_global_id(1);
   const uint cell = get_global_id(2);
-  if (sx >= p.width || row >= p.window_rows || cell >= p.cell_count) return;
+  if (sx >= p.width || row >= p.window_rows * p.layers || cell >= p.cell_count) return;
 
   const uint source = row * p.width + sx;
   const uint depth = depth_bits[source];
+  if (depth == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
   const long r = radius;
   const long2 u = convert_long2(lens[p.first_cell + cell]);
   const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
-  const int2 from = (int2)((int)sx, (int)(p.window_y + row));
+  const int2 from = (int2)((int)sx, (int)(p.window_y + row / p.layers));
+  const int2 origin = (int2)(p.origin_x, p.origin_y);
+  const uint2 at = as_uint2(from + origin);
+  if (p.has_coverage && !sends(coverage[source], p.first_cell + cell, at.x, at.y)) return;
   const int left = max(from.x + landing(r * u.x - spread), 0);
   const int right = min(from.x + landing(r * u.x + spread), (int)p.width - 1);
   const int top = max(from.y + landing(r * u.y - spread), (int)p.band_y);
@@ -90,7 +109,7 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
 
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
-      if (p.jitter_lens == 0 || arrives((int2)(x, y), from, r, u, p.seed, p.jitter_lens)) {
+      if (p.jitter_lens == 0 || arrives((int2)(x, y), from, origin, r, u, p.seed, p.jitter_lens)) {
         const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
         deposit(winner, target, depth, source, p.is_index_pass);
       }

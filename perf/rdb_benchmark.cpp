@@ -87,7 +87,7 @@ void coc(benchmark::State& state) {
 /// Clears and scatters every pass of a frame.
 void rdb_scatter(benchmark::State& state) {
   const Frame f = frame_of(state);
-  RdbRun run(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+  RdbRun run(session(), {f.width, f.height, f.coc, f.depth, f.colour}, settings());
   for (auto _ : state) {
     for (const RdbPass& pass : run.passes()) run.scatter(pass);
     run.finish();
@@ -99,7 +99,7 @@ void rdb_scatter(benchmark::State& state) {
 void rdb_merge(benchmark::State& state) {
   using Clock = std::chrono::steady_clock;
   const Frame f = frame_of(state);
-  RdbRun run(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+  RdbRun run(session(), {f.width, f.height, f.coc, f.depth, f.colour}, settings());
   for (auto _ : state) {
     Clock::duration merging{};
     for (const RdbPass& pass : run.passes()) {

@@ -40,7 +40,7 @@ TEST(ExtremeSums, MeansOfLightAreWithinARoundingACell) {
           reference::render_rdb(size.width, size.height, coc, depth, {colour}, settings);
       EXPECT_EQ(hash_of(kernel), hash_of(twin));
       const auto exact =
-          reference::exact_rdb(size.width, size.height, coc, depth, {colour}, settings)[0];
+          reference::exact_rdb({size.width, size.height, coc, depth, {colour}}, settings)[0];
       for (std::size_t i = 0; i < exact.size(); ++i) {
         const double error = std::fabs(kernel[0][i] - exact[i]) / exact[i];
         ASSERT_LE(error, (cells + division) * 0x1p-24) << "pixel " << i << ", seed " << seed;

@@ -17,7 +17,8 @@ namespace {
 std::vector<std::uint32_t> winners(const Frame& frame, int cells_per_side) {
   RdbSettings settings;
   settings.cells_per_side = cells_per_side;
-  RdbRun run(session(), frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels,
+  RdbRun run(session(),
+             {frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels},
              settings);
   RC_ASSERT(run.passes().size() == 1u);
   run.scatter(run.passes()[0]);

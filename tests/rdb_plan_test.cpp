@@ -10,7 +10,7 @@ namespace {
 TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
   for (const int height : {1, 2, 97, 480}) {
     for (const std::size_t rows : {1, 2, 5, 1000}) {
-      const std::size_t budget = rows * 100 * 32;
+      const std::size_t budget = rows * 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
       const auto passes = plan_rdb_passes(100, height, 69, 12, budget);
       std::vector<int> seen(static_cast<std::size_t>(height));
       for (const RdbPass& p : passes) {
@@ -28,7 +28,9 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
 }
 
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
-  expect_error(2, {"--memory", "3200"}, [] { plan_rdb_passes(100, 10, 69, 1, 3199); });
+  const std::size_t row = 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+  expect_error(2, {"--memory", std::to_string(row)},
+               [&] { plan_rdb_passes(100, 10, 69, 1, row - 1); });
 }
 
 TEST(LensCells, RoundApertureOfThePaper) {

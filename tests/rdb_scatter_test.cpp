@@ -40,7 +40,7 @@ using CellWinners = std::vector<std::vector<std::int64_t>>;
 CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings,
                               const std::vector<std::int32_t>& coc, const Plane& depth) {
   const std::vector<Plane> channels{depth};
-  RdbRun run(s, size.width, size.height, coc, depth, channels, settings);
+  RdbRun run(s, {size.width, size.height, coc, depth, channels}, settings);
   CellWinners all(make_lens_cells(settings.cells_per_side, settings.jitter).centres.size(),
                   std::vector<std::int64_t>(depth.size(), -2));
   for (const RdbPass& pass : run.passes()) {
@@ -75,7 +75,7 @@ std::size_t differing_winners(Session& s, Size size, const RdbSettings& settings
   std::size_t differing = 0;
   for (std::size_t cell = 0; cell < kernel.size(); ++cell) {
     const auto twin =
-        reference::rdb_scatter(size.width, size.height, cells, cell, settings.seed, coc, depth);
+        reference::rdb_scatter({size.width, size.height, coc, depth, {}}, settings, cells, cell);
     for (std::size_t i = 0; i < twin.size(); ++i) differing += kernel[cell][i] != twin[i];
   }
   return differing;
@@ -116,7 +116,7 @@ TEST(RdbScatter, TwinIsTheDefinition) {
       const Plane depth = random_depth(size, ++seed);
       for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
         const auto twin =
-            reference::rdb_scatter(size.width, size.height, cells, cell, 0, coc, depth);
+            reference::rdb_scatter({size.width, size.height, coc, depth, {}}, {}, cells, cell);
         for (std::size_t i = 0; i < twin.size(); ++i) {
           const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
           ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc, depth))
@@ -154,7 +154,7 @@ TEST(RdbScatter, BandsKeepTheWinners) {
   RdbSettings settings;
   settings.cells_per_side = 3;
   for (const std::size_t rows : {1, 2, 5, 46}) {
-    settings.memory_bytes = rows * 61 * 32;
+    settings.memory_bytes = rows * 61 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
     EXPECT_EQ(differing_winners(session(), size, settings, coc, depth), 0u) << rows << " rows";
   }
 }

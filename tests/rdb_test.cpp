@@ -46,7 +46,7 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
     const auto kernel = render(session(), in, settings);
     const auto twin = reference::render_rdb(67, 41, in.coc, in.depth, in.channels, settings);
     EXPECT_EQ(hash_of(kernel), hash_of(twin));
-    const auto exact = reference::exact_rdb(67, 41, in.coc, in.depth, in.channels, settings);
+    const auto exact = reference::exact_rdb({67, 41, in.coc, in.depth, in.channels}, settings);
     const double cells =
         static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
     for (std::size_t c = 0; c < 4; ++c) {
@@ -69,7 +69,8 @@ TEST(Rdb, SameBitsForEveryMemoryBudget) {
     RdbSettings settings = small_settings(jitter);
     settings.cells_per_side = 3;
     const std::uint64_t whole = hash_of(render(session(), in, settings));
-    const std::size_t row = size.width * 32;  // one row of one cell with its sums
+    const std::size_t row =
+        size.width * (rdb_bytes_a_cell + rdb_bytes_a_sum);  // one row of one cell with its sums
     for (const std::size_t bytes : {row, 2 * row, 3 * row + 100, 17 * row, 36 * row}) {
       settings.memory_bytes = bytes;
       EXPECT_EQ(hash_of(render(session(), in, settings)), whole) << bytes << " bytes";

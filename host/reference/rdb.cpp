@@ -15,8 +15,8 @@ struct Offset {
 };
 
 /// Offset of a target pixel's lens samples: uniform in [-half, half)^2 in steps of the lens unit.
-Offset jitter_offset(int x, int y, std::uint32_t seed, std::int32_t half) {
-  const auto hash = pcg3d(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), seed);
+Offset jitter_offset(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::int32_t half) {
+  const auto hash = pcg3d(x, y, seed);
   const double unit = std::ldexp(1.0, -DEFRAY_LENS_FRACTION_BITS);
   const auto offset = [&](std::uint32_t h) {
     return (std::floor(std::ldexp(static_cast<double>(h), -32) * 2 * half) - half) * unit;
@@ -27,11 +27,22 @@ Offset jitter_offset(int x, int y, std::uint32_t seed, std::int32_t half) {
 /// A ray displaced by `ray` pixels arrives at a pixel `step` away if the step is in its square.
 bool arrives(double step, double ray) { return step - ray >= -0.5 && step - ray < 0.5; }
 
+std::size_t pixel_count(const FragmentView& f) {
+  return static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height);
+}
+
 /// One lens cell's scatter over a frame.
 class CellScatter {
  public:
-  CellScatter(int width, int height, const LensCells& cells, std::size_t cell, std::uint32_t seed)
-      : width_(width), height_(height), jitter_(cells.jitter), seed_(seed) {
+  CellScatter(const FragmentView& f, const RdbSettings& settings, const LensCells& cells,
+              std::size_t cell)
+      : width_(f.width),
+        height_(f.height),
+        jitter_(cells.jitter),
+        seed_(settings.seed),
+        origin_x_(settings.origin_x),
+        origin_y_(settings.origin_y),
+        cell_(cell) {
     u_ = std::ldexp(static_cast<double>(cells.centres[cell][0]), -DEFRAY_LENS_FRACTION_BITS);
     v_ = std::ldexp(static_cast<double>(cells.centres[cell][1]), -DEFRAY_LENS_FRACTION_BITS);
     half_ = std::ldexp(static_cast<double>(cells.jitter), -DEFRAY_LENS_FRACTION_BITS);
@@ -50,7 +61,17 @@ class CellScatter {
     }
   }
 
+  /// Whether a fragment that covers this share of its pixel sends a ray: the fractions of
+  /// k rho + h, h a pixel's own, fill 0 to 1 evenly (rho: 1 / the plastic number, 16 bits of it).
+  bool sends(int px, int py, double share) const {
+    const double turn = (pcg3d(absolute_x(px), absolute_y(py), 0)[2] % 65536) / 65536.0;
+    const double at = static_cast<double>(cell_) * (49471.0 / 65536) + turn;
+    return at - std::floor(at) < share;
+  }
+
  private:
+  std::uint32_t absolute_x(int x) const { return static_cast<std::uint32_t>(x + origin_x_); }
+  std::uint32_t absolute_y(int y) const { return static_cast<std::uint32_t>(y + origin_y_); }
   static std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
   std::size_t width() const { return as_size(width_); }
   static int first(double at, int size) {
@@ -62,7 +83,7 @@ class CellScatter {
 
   bool reaches(int x, int y, int px, int py, double r) const {
     Offset delta{0, 0};
-    if (jitter_ != 0) delta = jitter_offset(x, y, seed_, jitter_);
+    if (jitter_ != 0) delta = jitter_offset(absolute_x(x), absolute_y(y), seed_, jitter_);
     const double u = u_ + delta.u, v = v_ + delta.v;
     return u * u + v * v <= 1 && arrives(x - px, r * u) && arrives(y - py, r * v);
   }
@@ -70,30 +91,34 @@ class CellScatter {
   int width_, height_;
   std::int32_t jitter_;
   std::uint32_t seed_;
+  int origin_x_, origin_y_;
+  std::size_t cell_;
   double u_, v_, half_;
 };
 
 }  // namespace
 
-std::vector<std::int64_t> rdb_scatter(int width, int height, const LensCells& cells,
-                                      std::size_t cell, std::uint32_t seed,
-                                      const std::vector<std::int32_t>& coc_quanta,
-                                      const Plane& depth) {
-  const CellScatter scatter(width, height, cells, cell, seed);
-  std::vector<std::int64_t> winner(depth.size(), -1);
-  std::size_t source = 0;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x, ++source) {
-      const double r =
-          std::ldexp(static_cast<double>(coc_quanta[source]), -DEFRAY_COC_FRACTION_BITS);
-      scatter.for_each_target(x, y, r, [&](std::size_t target) {
-        // Sources come in index order: an equal depth never replaces an earlier one.
-        const std::int64_t held = winner[target];
-        if (held < 0 || depth[source] < depth[static_cast<std::size_t>(held)]) {
-          winner[target] = static_cast<std::int64_t>(source);
-        }
-      });
+std::vector<std::int64_t> rdb_scatter(const FragmentView& f, const RdbSettings& settings,
+                                      const LensCells& cells, std::size_t cell) {
+  const CellScatter scatter(f, settings, cells, cell);
+  std::vector<std::int64_t> winner(pixel_count(f), -1);
+  for (std::size_t source = 0; source < f.depth.size(); ++source) {
+    if (!is_fragment(f.depth[source])) continue;
+    const auto width = static_cast<std::size_t>(f.width);
+    const int x = static_cast<int>(source % width);
+    const int y = static_cast<int>(source / width / static_cast<std::size_t>(f.layers));
+    if (f.coverage && !scatter.sends(x, y, ((*f.coverage)[source] & 0x7fffffffu) / 65536.0)) {
+      continue;
     }
+    const double r =
+        std::ldexp(static_cast<double>(f.coc_quanta[source]), -DEFRAY_COC_FRACTION_BITS);
+    scatter.for_each_target(x, y, r, [&](std::size_t target) {
+      // Sources come in index order: an equal depth never replaces an earlier one.
+      const std::int64_t held = winner[target];
+      if (held < 0 || f.depth[source] < f.depth[static_cast<std::size_t>(held)]) {
+        winner[target] = static_cast<std::int64_t>(source);
+      }
+    });
   }
   return winner;
 }
@@ -102,13 +127,12 @@ namespace {
 
 /// Calls visit(target, source) for every ray that wins a cell, cell by cell in lens order.
 template <typename Visit>
-void for_each_winner(int width, int height, const std::vector<std::int32_t>& coc_quanta,
-                     const Plane& depth, const RdbSettings& settings, const Visit& visit,
+void for_each_winner(const FragmentView& f, const RdbSettings& settings, const Visit& visit,
                      const std::function<void(double)>& progress) {
-  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
+  const LensCells cells = lens_cells(settings);
   const std::size_t count = cells.centres.size();
   for (std::size_t cell = 0; cell < count; ++cell) {
-    const auto winner = rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
+    const auto winner = rdb_scatter(f, settings, cells, cell);
     for (std::size_t i = 0; i < winner.size(); ++i) {
       if (winner[i] >= 0) visit(i, static_cast<std::size_t>(winner[i]));
     }
@@ -116,51 +140,64 @@ void for_each_winner(int width, int height, const std::vector<std::int32_t>& coc
   }
 }
 
+/// The fragment in front at a pixel.
+std::size_t front(const FragmentView& f, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(f.width);
+  return pixel / width * static_cast<std::size_t>(f.layers) * width + pixel % width;
+}
+
 }  // namespace
 
-std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
-                              const Plane& depth, const std::vector<Plane>& channels,
-                              const RdbSettings& settings,
-                              const std::function<void(double)>& progress) {
-  std::vector<Plane> sum(channels.size(), Plane(depth.size()));
-  std::vector<std::vector<bool>> varies(channels.size(), std::vector<bool>(depth.size()));
-  std::vector<std::size_t> first(depth.size()), filled(depth.size());
+RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
+                          const std::function<void(double)>& progress) {
+  const std::size_t pixels = pixel_count(f), channels = f.channels.size();
+  std::vector<Plane> sum(channels, Plane(pixels));
+  std::vector<std::vector<bool>> varies(channels, std::vector<bool>(pixels));
+  std::vector<std::size_t> first(pixels), filled(pixels);
+  RdbResult out{sum, std::vector<std::uint32_t>(pixels)};
   const auto add = [&](std::size_t target, std::size_t source) {
     if (filled[target]++ == 0) first[target] = source;
-    for (std::size_t c = 0; c < sum.size(); ++c) {
-      sum[c][target] += channels[c][source];
-      if (source != first[target] && channels[c][source] != channels[c][first[target]]) {
+    if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
+    for (std::size_t c = 0; c < channels; ++c) {
+      sum[c][target] += f.channels[c][source];
+      if (source != first[target] && f.channels[c][source] != f.channels[c][first[target]]) {
         varies[c][target] = true;
       }
     }
   };
-  for_each_winner(width, height, coc_quanta, depth, settings, add, progress);
-  std::vector<Plane> out(channels);  // a pixel that no ray reached keeps its own colour
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    for (std::size_t i = 0; i < out[c].size(); ++i) {
-      if (filled[i] == 0) continue;
-      out[c][i] = varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : channels[c][first[i]];
+  for_each_winner(f, settings, add, progress);
+  for (std::size_t c = 0; c < channels; ++c) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const std::size_t one = filled[i] == 0 ? front(f, i) : first[i];  // without a ray: its own
+      out.means[c][i] =
+          varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][one];
     }
   }
   return out;
 }
 
-std::vector<std::vector<double>> exact_rdb(int width, int height,
-                                           const std::vector<std::int32_t>& coc_quanta,
-                                           const Plane& depth, const std::vector<Plane>& channels,
-                                           const RdbSettings& settings) {
-  std::vector<std::vector<double>> mean(channels.size(), std::vector<double>(depth.size()));
-  std::vector<int> filled(depth.size());
+std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
+                              const Plane& depth, const std::vector<Plane>& channels,
+                              const RdbSettings& settings,
+                              const std::function<void(double)>& progress) {
+  const FragmentView pixels(width, height, coc_quanta, depth, channels);
+  return distribute_rays(pixels, settings, progress).means;
+}
+
+std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSettings& settings) {
+  std::vector<std::vector<double>> mean(f.channels.size(), std::vector<double>(pixel_count(f)));
+  std::vector<int> filled(pixel_count(f));
   const auto add = [&](std::size_t target, std::size_t source) {
     ++filled[target];
     for (std::size_t c = 0; c < mean.size(); ++c) {
-      mean[c][target] += static_cast<double>(channels[c][source]);
+      mean[c][target] += static_cast<double>(f.channels[c][source]);
     }
   };
-  for_each_winner(width, height, coc_quanta, depth, settings, add, {});
+  for_each_winner(f, settings, add, {});
   for (std::size_t c = 0; c < mean.size(); ++c) {
     for (std::size_t i = 0; i < filled.size(); ++i) {
-      mean[c][i] = filled[i] == 0 ? static_cast<double>(channels[c][i]) : mean[c][i] / filled[i];
+      mean[c][i] =
+          filled[i] == 0 ? static_cast<double>(f.channels[c][front(f, i)]) : mean[c][i] / filled[i];
     }
   }
   return mean;

@@ -19,15 +19,16 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units);
 /// Twin of kernel `coc`: radii limited and rounded to quanta of 1/256 px.
 std::vector<std::int32_t> coc(const Lens& lens, int display_width_px, const Plane& depth);
 
-/// Twin of kernel `rdb_scatter` for one lens cell over the whole frame: index of the nearest source
-/// pixel whose ray arrives at each target pixel, or -1.
-std::vector<std::int64_t> rdb_scatter(int width, int height, const LensCells& cells,
-                                      std::size_t cell, std::uint32_t seed,
-                                      const std::vector<std::int32_t>& coc_quanta,
-                                      const Plane& depth);
+/// Twin of kernel `rdb_scatter` for one lens cell over the whole frame: index of the nearest
+/// fragment whose ray arrives at each target pixel, or -1.
+std::vector<std::int64_t> rdb_scatter(const FragmentView& fragments, const RdbSettings& settings,
+                                      const LensCells& cells, std::size_t cell);
 
-/// Twins of `rdb_scatter` and `rdb_merge`: the lens picture, summed in float and in the kernel's
-/// order: equal bits.
+/// Twins of `rdb_scatter` and `rdb_merge`, summed in float and in the kernel's order: equal bits.
+RdbResult distribute_rays(const FragmentView& fragments, const RdbSettings& settings,
+                          const std::function<void(double)>& progress = {});
+
+/// The lens picture of whole pixels.
 std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
                               const Plane& depth, const std::vector<Plane>& channels,
                               const RdbSettings& settings,
@@ -35,9 +36,7 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
 
 /// The same means without float's rounding, cells simply added up: what rounding is measured
 /// against.
-std::vector<std::vector<double>> exact_rdb(int width, int height,
-                                           const std::vector<std::int32_t>& coc_quanta,
-                                           const Plane& depth, const std::vector<Plane>& channels,
+std::vector<std::vector<double>> exact_rdb(const FragmentView& fragments,
                                            const RdbSettings& settings);
 
 /// Twin of kernel `linear_psf` with its preparation, edge pixels repeated outside the frame. Real

@@ -95,6 +95,39 @@ Lens lens_of(const Case& c) {
   return lens;
 }
 
+/// Shares of a pixel: mostly whole or even, some none at all.
+std::uint32_t any_coverage(Random& random) {
+  constexpr std::array shares{0u, 1u, 655u, 32768u, 65535u};
+  const double choice = random.next();
+  const std::uint32_t share =
+      choice < 0.5 ? DEFRAY_WHOLE : shares[static_cast<std::size_t>((choice - 0.5) * 10)];
+  return share | (random.next() < 0.5 ? DEFRAY_SYNTHESISED : 0);
+}
+
+/// Behind each pixel one of its neighbours along the row, further away, or nothing.
+Fragments make_fragments(const Case& c, const Input& in) {
+  Fragments f{c.width, c.height, c.seed % 3 == 0 ? 1 : 2, {}, {}, {}, {}};
+  f.channels.resize(in.channels.size());
+  for (int y = 0; y < c.height; ++y) {
+    for (int layer = 0; layer < f.layers; ++layer) {
+      for (int x = 0; x < c.width; ++x) {
+        Random random(x, y + layer * c.height, c.seed);
+        const int from = layer == 0 ? x : static_cast<int>(random.next() * c.width);
+        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) +
+                               static_cast<std::size_t>(from);
+        const bool is_there = layer == 0 || random.next() < 0.5;
+        f.coc_quanta.push_back(in.coc_quanta[at]);
+        f.depth.push_back(is_there ? in.depth[at] : no_fragment());
+        if (f.layers > 1) f.coverage.push_back(any_coverage(random));
+        for (std::size_t k = 0; k < f.channels.size(); ++k) {
+          f.channels[k].push_back(in.channels[k][at]);
+        }
+      }
+    }
+  }
+  return f;
+}
+
 }  // namespace
 
 Input make_input(const Case& c) {
@@ -111,6 +144,7 @@ Input make_input(const Case& c) {
       for (Plane& plane : in.channels) plane.push_back(colour(c.colours, random));
     }
   }
+  in.fragments = make_fragments(c, in);
   return in;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "coc.h"
+#include "fragments.h"
 #include "lens.h"
 #include "validation/case.h"
 
@@ -15,6 +15,9 @@ struct Input {
   std::vector<std::int32_t> coc_quanta;  ///< |coc| <= the case's largest.
   Plane depth;                           ///< > 0, some +inf.
   std::vector<Plane> channels;
+  /// The same, with a second surface behind some pixels and shares of them in others; whole pixels
+  /// only for every third seed.
+  Fragments fragments;
   Lens lens;  ///< Its background CoC is the case's largest (for focus at infinity: at depth 1).
 };
 

@@ -52,10 +52,11 @@ RdbSettings rdb_settings(const Case& c) {
   s.cells_per_side = c.cells;
   s.jitter = c.jitter;
   s.seed = c.seed;
-  constexpr std::size_t bytes_a_pixel = 32;  // a cell and the sums
+  s.origin_x = static_cast<int>(c.seed % 5) - 2;
+  s.origin_y = static_cast<int>(c.seed % 3);
   if (c.band_rows > 0) {
-    s.memory_bytes =
-        static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) * bytes_a_pixel;
+    s.memory_bytes = static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) *
+                     (rdb_bytes_a_cell + rdb_bytes_a_sum);
   }
   return s;
 }
@@ -71,12 +72,11 @@ Values twin_rdb_clear(const Case& c, const Input&) {
 double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
 
 Values run_rdb_scatter(Session& session, const Case& c, const Input& in) {
-  return {winners_on_device(session, c.width, c.height, in.coc_quanta, in.depth, rdb_settings(c)),
-          {}};
+  return {winners_on_device(session, FragmentView(in.fragments), rdb_settings(c)), {}};
 }
 
 Values twin_rdb_scatter(const Case& c, const Input& in) {
-  return {winners_of_twin(c.width, c.height, in.coc_quanta, in.depth, rdb_settings(c)), {}};
+  return {winners_of_twin(FragmentView(in.fragments), rdb_settings(c)), {}};
 }
 
 double rdb_work(const Case& c) {
@@ -88,24 +88,26 @@ double rdb_work(const Case& c) {
 }
 
 Values run_rdb_merge(Session& session, const Case& c, const Input& in) {
-  return {{},
-          render_rdb(session, c.width, c.height, in.coc_quanta, in.depth, in.channels,
-                     rdb_settings(c))};
+  return {{}, distribute_rays(session, FragmentView(in.fragments), rdb_settings(c)).means};
 }
 
 Values twin_rdb_merge(const Case& c, const Input& in) {
-  return {{},
-          reference::render_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
-                                rdb_settings(c))};
+  return {{}, reference::distribute_rays(FragmentView(in.fragments), rdb_settings(c)).means};
+}
+
+Values run_rdb_seen(Session& session, const Case& c, const Input& in) {
+  return integers(distribute_rays(session, FragmentView(in.fragments), rdb_settings(c)).seen);
+}
+
+Values twin_rdb_seen(const Case& c, const Input& in) {
+  return integers(reference::distribute_rays(FragmentView(in.fragments), rdb_settings(c)).seen);
 }
 
 /// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
 /// (n n L u) / n + 5 L u.
 Exact exact_rdb(const Case& c, const Input& in) {
   const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
-  return {reference::exact_rdb(c.width, c.height, in.coc_quanta, in.depth, in.channels,
-                               rdb_settings(c)),
-          cells + 5};
+  return {reference::exact_rdb(FragmentView(in.fragments), rdb_settings(c)), cells + 5};
 }
 
 /// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
@@ -241,6 +243,7 @@ const std::vector<KernelCheck>& kernel_checks() {
        exact_linear},
       {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear, clear_work},
       {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, one_division, exact_rdb},
+      {"rdb_merge_seen", integer_rule, run_rdb_seen, twin_rdb_seen, rdb_work},
       {"rdb_scatter", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work},
       {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work, nullptr,
        nullptr, true},

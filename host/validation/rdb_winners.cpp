@@ -26,36 +26,31 @@ std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Plane
 
 }  // namespace
 
-std::vector<std::int64_t> winners_on_device(Session& session, int width, int height,
-                                            const std::vector<std::int32_t>& coc_quanta,
-                                            const Plane& depth, const RdbSettings& settings) {
-  const std::vector<Plane> channels{depth};
-  RdbRun run(session, width, height, coc_quanta, depth, channels, settings);
-  const std::size_t cells =
-      make_lens_cells(settings.cells_per_side, settings.jitter).centres.size();
-  std::vector<std::int64_t> all(cells * depth.size(), -2);
+std::vector<std::int64_t> winners_on_device(Session& session, const FragmentView& fragments,
+                                            const RdbSettings& settings) {
+  RdbRun run(session, fragments, settings);
+  const std::size_t pixels = fragments.depth.size() / static_cast<std::size_t>(fragments.layers);
+  std::vector<std::int64_t> all(lens_cells(settings).centres.size() * pixels, -2);
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     const std::vector<RdbWinner> winners = run.winners(pass);
     const std::size_t band = winners.size() / static_cast<std::size_t>(pass.cell_count);
-    const std::int64_t window = std::int64_t{pass.window_y} * width;
-    const auto first = static_cast<std::size_t>(std::int64_t{pass.band_y} * width);
+    const std::int64_t window = std::int64_t{pass.window_y} * fragments.layers * fragments.width;
+    const auto first = static_cast<std::size_t>(std::int64_t{pass.band_y} * fragments.width);
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const std::size_t cell = i / band + static_cast<std::size_t>(pass.first_cell);
-      all[cell * depth.size() + first + i % band] = index_in_frame(winners[i], window, depth);
+      all[cell * pixels + first + i % band] = index_in_frame(winners[i], window, fragments.depth);
     }
   }
   return all;
 }
 
-std::vector<std::int64_t> winners_of_twin(int width, int height,
-                                          const std::vector<std::int32_t>& coc_quanta,
-                                          const Plane& depth, const RdbSettings& settings) {
-  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
+std::vector<std::int64_t> winners_of_twin(const FragmentView& fragments,
+                                          const RdbSettings& settings) {
+  const LensCells cells = lens_cells(settings);
   std::vector<std::int64_t> all;
   for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const auto winners =
-        reference::rdb_scatter(width, height, cells, cell, settings.seed, coc_quanta, depth);
+    const auto winners = reference::rdb_scatter(fragments, settings, cells, cell);
     all.insert(all.end(), winners.begin(), winners.end());
   }
   return all;

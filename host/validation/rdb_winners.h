@@ -7,14 +7,12 @@
 
 namespace defray::validation {
 
-/// Every cell's winner, [cell][pixel]: the source's index in the frame, or -1 where no ray arrives.
-/// -2 where the depth beside a winner is not its own.
-std::vector<std::int64_t> winners_on_device(Session& session, int width, int height,
-                                            const std::vector<std::int32_t>& coc_quanta,
-                                            const Plane& depth, const RdbSettings& settings);
-std::vector<std::int64_t> winners_of_twin(int width, int height,
-                                          const std::vector<std::int32_t>& coc_quanta,
-                                          const Plane& depth, const RdbSettings& settings);
+/// Every cell's winner, [cell][pixel]: the fragment's index in the frame, or -1 where no ray
+/// arrives. -2 where the depth beside a winner is not its own.
+std::vector<std::int64_t> winners_on_device(Session& session, const FragmentView& fragments,
+                                            const RdbSettings& settings);
+std::vector<std::int64_t> winners_of_twin(const FragmentView& fragments,
+                                          const RdbSettings& settings);
 
 /// Words of a buffer of `cells`^2 cells a pixel that held 7s before kernel `rdb_clear`, and some
 /// beyond its end, which it must leave alone.

@@ -1,0 +1,65 @@
+// repair, edges: where one surface ends before another.
+//
+// The signed CoC orders surfaces as depth does, and a step of it says by how many pixels the lens
+// parts the two: only steps above a pixel (DEFRAY_JUMP_QUANTA) matter, whatever the scene's scale.
+//
+// coc_quanta  [height][width]  signed radius, 1/256 px
+// source      [height][width]  repair: index of the pixel whose depth a pixel should have: its own,
+//                              or, where depth was anti-aliased, one of the two surfaces' that it
+//                              lies between
+// mixed       [height][width]  edges: 1 where a neighbour lies on another surface: anti-aliased
+//                              colour holds both there
+// Global size of both: (width, height).
+#include "frame.h"
+
+// A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat.
+// Returns -1 or 1, the end of it that is nearer in CoC, or 0 where there is none.
+int ramp(const int before, const int low, const int middle, const int high, const int after) {
+  const int rise = high - low;
+  const int from_low = middle - low, to_high = high - middle;
+  const bool is_steep = abs(rise) > 2 * DEFRAY_JUMP_QUANTA;
+  const bool is_between = (rise > 0) == (from_low > 0) && (rise > 0) == (to_high > 0) &&
+                          abs(from_low) > DEFRAY_JUMP_QUANTA / 4 &&
+                          abs(to_high) > DEFRAY_JUMP_QUANTA / 4;
+  const bool is_flat = abs(low - before) < abs(rise) / 8 && abs(after - high) < abs(rise) / 8;
+  if (!is_steep || !is_between || !is_flat) return 0;
+  return abs(from_low) <= abs(to_high) ? -1 : 1;
+}
+
+__kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                     __global uint* restrict source) {
+  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
+  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const int2 directions[4] = {(int2)(1, 0), (int2)(0, 1), (int2)(1, 1), (int2)(1, -1)};
+  uint found = pixel_at(p.width, p.height, at);
+  const int own = coc_of(coc_quanta, found);
+  bool done = false;
+  // A ramp may be one or two pixels wide: its ends are looked for one and two pixels away.
+  for (int i = 0; i < 16 && !done; ++i) {
+    const int2 d = directions[i % 4];
+    const int back = 1 + i / 4 % 2, ahead = 1 + i / 8;
+    const uint low = pixel_at(p.width, p.height, at - back * d);
+    const uint high = pixel_at(p.width, p.height, at + ahead * d);
+    const int side = ramp(coc_of(coc_quanta, pixel_at(p.width, p.height, at - (back + 1) * d)),
+                          coc_of(coc_quanta, low), own, coc_of(coc_quanta, high),
+                          coc_of(coc_quanta, pixel_at(p.width, p.height, at + (ahead + 1) * d)));
+    if (side != 0) found = side < 0 ? low : high;
+    done = side != 0;
+  }
+  source[pixel_at(p.width, p.height, at)] = found;
+}
+
+__kernel void edges(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                    __global uint* restrict mixed) {
+  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
+  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const uint own = pixel_at(p.width, p.height, at);
+  int largest = 0;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      const uint q = pixel_at(p.width, p.height, at + (int2)(i, j));
+      largest = max(largest, (int)abs_diff(coc_of(coc_quanta, q), coc_of(coc_quanta, own)));
+    }
+  }
+  mixed[own] = largest > DEFRAY_JUMP_QUANTA;
+}

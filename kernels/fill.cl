@@ -1,0 +1,159 @@
+// fill: what lies behind the surfaces in front, as far as the lens can uncover it.
+//
+// From each pixel rays go out over the picture in 16 directions until they leave its surface over a
+// jump in CoC and meet a farther one, close enough for the lens to look there past the edge: closer
+// than the step in CoC. The found pixels that lie on the surface of the nearest give colour (far
+// brighter ones than the median do not: highlights do not smear) and, continued along their slant,
+// CoC and depth: both are linear in the picture for a plane (depth as 1/z), and weighed alike.
+//
+// coc_quanta   [height][width]    signed radius, 1/256 px
+// inverse      [height][width]    1/depth; 0: background
+// mixed        [height][width]    from `edges`: their colour is two surfaces'
+// active       [tiles_y][tiles_x] 0: nothing to do
+// channel0..3  [height][width]
+// behind_coc   [height][width]    signed radius; as given where nothing was found
+// behind_inverse [height][width]  1/depth; negative where nothing was found
+// behind       [height][width]    colour
+// Global size: (width, height).
+#include "colour.h"
+#include "frame.h"
+
+// What a ray over the picture has found.
+typedef struct {
+  uint source;
+  float distance;  // in pixels; 0: nothing
+  float coc;       // quanta, and
+  float inverse;   // 1/depth: continued to where the ray began
+} Found;
+
+// Direction i of 16: (cos, sin) of i / 16 of a turn.
+float2 fill_direction(const uint i) {
+  const float c[5] = {1.0f, 0.923879533f, 0.707106781f, 0.382683432f, 0.0f};
+  const uint quarter = i / 4u, part = i % 4u;
+  const float2 d = (float2)(c[part], c[4u - part]);
+  const float2 turned = quarter % 2u ? (float2)(-d.y, d.x) : d;
+  return quarter < 2u ? turned : -turned;
+}
+
+bool is_inside(const DefrayFillParams p, const int2 at) {
+  return at.x >= 0 && at.y >= 0 && at.x < (int)p.width && at.y < (int)p.height;
+}
+
+// CoC and depth of the surface at q, continued back along the ray. Its slant is taken from four
+// pixels further on, if they are still the same surface; the result keeps half the step.
+Found continue_back(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                    __global const float* restrict inverse, __global const uint* restrict mixed,
+                    const int2 start, const float2 direction, const int t, const int own) {
+  const uint q = pixel_at(p.width, p.height, start + convert_int2(rint((float)t * direction)));
+  const int2 beyond = start + convert_int2(rint((float)(t + 4) * direction));
+  Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q]};
+  if (!is_inside(p, beyond)) return found;
+  const uint b = pixel_at(p.width, p.height, beyond);
+  const float slant = (float)(coc_of(coc_quanta, q) - coc_of(coc_quanta, b));
+  const float most = 0.5f * (float)(coc_of(coc_quanta, q) - own);
+  if (mixed[b] || fabs(slant) > 4.0f * DEFRAY_JUMP_QUANTA) return found;
+  const float steps = 0.25f * (float)t;
+  const float change = slant * steps;
+  const float kept = clamp(change, -most, most);
+  const float share = change != 0.0f ? kept / change : 0.0f;
+  found.coc += kept;
+  found.inverse = fmax(found.inverse + (inverse[q] - inverse[b]) * steps * share, 0.0f);
+  return found;
+}
+
+// Walks over the picture; steps grow with the distance. `own` is the CoC of the surface in front.
+Found look_behind(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                  __global const float* restrict inverse, __global const uint* restrict mixed,
+                  const int2 start, const float2 direction, const int own) {
+  const Found nothing = {0u, 0.0f, 0.0f, 0.0f};
+  const int reach = (p.farthest_quanta - own) / 256 + 2;
+  int before = own;
+  for (int t = 1, step = 1; t <= reach; t += step) {
+    const int2 at = start + convert_int2(rint((float)t * direction));
+    if (!is_inside(p, at)) return nothing;
+    const uint q = pixel_at(p.width, p.height, at);
+    const int coc = coc_of(coc_quanta, q);
+    const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
+    if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= (coc - own) / 256 + 2) {
+      // The surface begins here; its first pixels may be mixed.
+      for (int i = t; i <= t + 3; ++i) {
+        const int2 further = start + convert_int2(rint((float)i * direction));
+        if (!is_inside(p, further)) return nothing;
+        const uint f = pixel_at(p.width, p.height, further);
+        if (!mixed[f] && coc_of(coc_quanta, f) - own > DEFRAY_JUMP_QUANTA) {
+          return continue_back(p, coc_quanta, inverse, mixed, start, direction, i, own);
+        }
+      }
+    }
+    before = coc;
+    step = 1 + t / 16;
+  }
+  return nothing;
+}
+
+float brightness(const float4 c) { return c.x + c.y + c.z; }
+
+__kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                   __global const float* restrict inverse, __global const uint* restrict mixed,
+                   __global const uint* restrict active, __global const float* restrict channel0,
+                   __global const float* restrict channel1, __global const float* restrict channel2,
+                   __global const float* restrict channel3, __global int* restrict behind_coc,
+                   __global float* restrict behind_inverse, __global float4* restrict behind) {
+  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
+  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const uint pixel = pixel_at(p.width, p.height, at);
+  behind_inverse[pixel] = -1.0f;
+  behind_coc[pixel] = coc_quanta[pixel];
+  behind[pixel] = 0.0f;
+  const uint tile = (uint)at.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)at.x / DEFRAY_FILL_TILE;
+  if (!active[tile]) return;
+
+  // A mixed pixel has the nearest surface around it in front.
+  int own = coc_of(coc_quanta, pixel);
+  float own_inverse = inverse[pixel];
+  for (int i = 0; i < 9 && mixed[pixel]; ++i) {
+    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
+    own = min(own, coc_of(coc_quanta, q));
+    own_inverse = fmax(own_inverse, inverse[q]);
+  }
+
+  Found found[DEFRAY_FILL_DIRECTIONS];
+  float bright[DEFRAY_FILL_DIRECTIONS];
+  uint count = 0u, nearest = 0u;
+  for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
+    const Found f = look_behind(p, coc_quanta, inverse, mixed, at, fill_direction(i), own);
+    if (f.distance == 0.0f) continue;
+    found[count] = f;
+    bright[count] = brightness(colour_at(channel0, channel1, channel2, channel3, f.source));
+    if (f.distance < found[nearest].distance) nearest = count;
+    ++count;
+  }
+  if (count == 0u) return;
+
+  float median = 0.0f;
+  for (uint i = 0; i < count; ++i) {
+    uint rank = 0u;
+    for (uint k = 0; k < count; ++k) {
+      rank += bright[k] < bright[i] || (bright[k] == bright[i] && k < i) ? 1u : 0u;
+    }
+    if (rank == count / 2u) median = bright[i];
+  }
+  const float same = DEFRAY_JUMP_QUANTA + 0.125f * (found[nearest].coc - (float)own);
+  float weights = 0.0f, coc = 0.0f, inverse_sum = 0.0f, colour_weights = 0.0f;
+  float4 colour = 0.0f;
+  for (uint i = 0; i < count; ++i) {
+    const Found f = found[i];
+    if (fabs(f.coc - found[nearest].coc) > same) continue;
+    const float weight = 1.0f / (f.distance * f.distance);
+    weights += weight;
+    coc += weight * f.coc;
+    inverse_sum += weight * f.inverse;
+    if (bright[i] > 3.0f * fabs(median)) continue;
+    colour_weights += weight;
+    colour += weight * colour_at(channel0, channel1, channel2, channel3, f.source);
+  }
+  if (!(colour_weights > 0.0f)) return;
+  behind_coc[pixel] = convert_int_rte(coc / weights);
+  behind_inverse[pixel] = fmin(inverse_sum / weights, own_inverse * 0.99999f);
+  behind[pixel] = colour / colour_weights;
+}

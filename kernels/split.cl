@@ -1,0 +1,139 @@
+// split: a mixed pixel's colour taken apart into the surface in front and the one behind it.
+//
+// With F the colour of the surface in front (pure pixels nearby), B that behind it (`fill`), the
+// pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha counts
+// like a colour). What the two colours do not explain goes to the surface that the depth sample
+// saw, so that both together still give C.
+//
+// coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
+// behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
+// behind_coc      [height][width]  in and out
+// behind          [height][width]  colour, in and out
+// behind_flags    [height][width]  coverage of the fragment behind
+// front_coc       [height][width]
+// front_inverse   [height][width]
+// front           [height][width]  colour
+// front_coverage  [height][width]  2^-16 of the pixel
+// Global size: (width, height).
+#include "colour.h"
+#include "frame.h"
+
+// Coverages that are as good as none or all; and bounds, beyond which differences grow too much.
+#define LEAST_COVERAGE 0.03f
+#define MOST_OF_BEHIND 0.75f
+#define LEAST_OF_FRONT 0.25f
+
+// The surface in front, from the pixels around.
+typedef struct {
+  float4 colour;
+  uint source;  // whose depth it has
+  bool is_found;
+} Front;
+
+Front front_nearby(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                   __global const uint* restrict mixed, __global const float* restrict channel0,
+                   __global const float* restrict channel1, __global const float* restrict channel2,
+                   __global const float* restrict channel3, const int2 at, const int middle,
+                   const float4 back) {
+  Front front = {0.0f, 0u, false};
+  float weights = 0.0f, nearest = 0.0f, farthest_colour = -1.0f;
+  for (int i = 0; i < 49; ++i) {
+    const int2 d = (int2)(i % 7 - 3, i / 7 - 3);
+    const uint q = pixel_at(p.width, p.height, at + d);
+    if (mixed[q] || coc_of(coc_quanta, q) >= middle) continue;
+    const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
+    front.colour += weight * colour_at(channel0, channel1, channel2, channel3, q);
+    weights += weight;
+    if (weight > nearest) front.source = q;
+    nearest = fmax(nearest, weight);
+  }
+  front.is_found = weights > 0.0f;
+  if (front.is_found) {
+    front.colour /= weights;
+    return front;
+  }
+  // Too thin for a pure pixel: the one least like what lies behind.
+  for (int i = 0; i < 49; ++i) {
+    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
+    if (coc_of(coc_quanta, q) >= middle) continue;
+    const float4 c = colour_at(channel0, channel1, channel2, channel3, q);
+    const float4 d = c - back;
+    const float far = d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w;
+    if (!(far > farthest_colour)) continue;
+    farthest_colour = far;
+    front.colour = c;
+    front.source = q;
+    front.is_found = true;
+  }
+  return front;
+}
+
+// Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
+// sample decides: it most likely saw the larger share.
+float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
+  const float4 from_b = c - b, all = f - b;
+  const float4 products = from_b * all, squares = all * all, sizes = f * f + b * b;
+  const float along = products.x + products.y + products.z + products.w;
+  const float length2 = squares.x + squares.y + squares.z + squares.w;
+  const float size2 = sizes.x + sizes.y + sizes.z + sizes.w;
+  const float unsure = 1e-3f * size2;
+  const float likely = saw_front ? 0.75f : 0.25f;
+  if (!(length2 + unsure > 0.0f)) return likely;
+  const float share = clamp(length2 > 0.0f ? along / length2 : 0.0f, 0.0f, 1.0f);
+  return (share * length2 + likely * unsure) / (length2 + unsure);
+}
+
+__kernel void split(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                    __global const float* restrict inverse, __global const uint* restrict mixed,
+                    __global const float* restrict channel0,
+                    __global const float* restrict channel1,
+                    __global const float* restrict channel2,
+                    __global const float* restrict channel3, __global int* restrict behind_coc,
+                    __global float* restrict behind_inverse, __global float4* restrict behind,
+                    __global uint* restrict behind_flags, __global int* restrict front_coc,
+                    __global float* restrict front_inverse, __global float4* restrict front,
+                    __global uint* restrict front_coverage) {
+  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
+  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const uint pixel = pixel_at(p.width, p.height, at);
+  const float4 c = colour_at(channel0, channel1, channel2, channel3, pixel);
+  front_coc[pixel] = coc_quanta[pixel];
+  front_inverse[pixel] = inverse[pixel];
+  front[pixel] = c;
+  front_coverage[pixel] = DEFRAY_WHOLE;
+  behind_flags[pixel] = DEFRAY_WHOLE | DEFRAY_SYNTHESISED;
+  if (!mixed[pixel] || behind_inverse[pixel] < 0.0f) return;
+
+  int nearest = coc_of(coc_quanta, pixel), farthest = nearest;
+  for (int i = 0; i < 9; ++i) {
+    const int coc =
+        coc_of(coc_quanta, pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1)));
+    nearest = min(nearest, coc);
+    farthest = max(farthest, coc);
+  }
+  const int middle = nearest + (farthest - nearest) / 2;
+  const bool saw_front = coc_of(coc_quanta, pixel) < middle;
+  const float4 b = behind[pixel];
+  const Front f =
+      front_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at, middle, b);
+  const float share =
+      f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
+  if (saw_front) {
+    if (share > 1.0f - LEAST_COVERAGE) return;
+    const float kept = fmax(share, LEAST_OF_FRONT);
+    front[pixel] = fmax((c - (1.0f - kept) * b) / kept, fmin(c, 0.0f));
+    front_coverage[pixel] = convert_uint_rte(kept * 65536.0f);
+  } else if (share < LEAST_COVERAGE) {
+    behind_inverse[pixel] = -1.0f;
+  } else {
+    const float kept = fmin(share, MOST_OF_BEHIND);
+    front[pixel] = f.colour;
+    front_coc[pixel] = coc_quanta[f.source];
+    front_inverse[pixel] = inverse[f.source];
+    front_coverage[pixel] = convert_uint_rte(kept * 65536.0f);
+    behind[pixel] = fmax((c - kept * f.colour) / (1.0f - kept), fmin(c, 0.0f));
+    behind_coc[pixel] = coc_quanta[pixel];
+    behind_inverse[pixel] = inverse[pixel];
+    behind_flags[pixel] = DEFRAY_WHOLE;
+  }
+}
