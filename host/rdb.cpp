@@ -18,12 +18,17 @@ LensCells lens_cells(const RdbSettings& settings) {
   return make_lens_cells(settings.cells_per_side, settings.jitter);
 }
 
-RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings)
-    : session_(session), fragments_(fragments), settings_(settings), cells_(lens_cells(settings)) {
+RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings,
+               const LightSources* lights)
+    : session_(session),
+      fragments_(fragments),
+      settings_(settings),
+      cells_(lens_cells(settings)),
+      lights_(lights && !lights->empty() ? lights : nullptr) {
   const int cells = static_cast<int>(cells_.centres.size());
   const std::size_t budget = std::min(settings.memory_bytes, session.info().max_buffer_bytes);
   const int reach = rdb_reach(largest_coc(fragments.coc_quanta));
-  passes_ = plan_rdb_passes(fragments.width, fragments.height, cells, reach, budget);
+  passes_ = plan_rdb_passes(fragments.width, fragments.height, cells, reach, budget, lights_);
   const RdbPass& largest = passes_.front();
   const std::size_t band = pixels(fragments.width, largest.band_rows);
   lens_ = session.view(cells_.centres);
@@ -31,6 +36,10 @@ RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSetting
   sum_ = session.buffer(band * sizeof(cl_float4));
   filled_ = session.buffer(band * sizeof(cl_uint2));
   seen_ = session.buffer(band * sizeof(cl_uint));
+  if (!lights_) return;
+  light_ = {session.view(lights_->first),  session.view(lights_->list),
+            session.view(lights_->where),  session.view(lights_->excess),
+            session.view(lights_->table),  session.view(lights_->cell_map)};
 }
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
@@ -98,6 +107,15 @@ void RdbRun::merge(const RdbPass& pass) {
                   seen_);
 }
 
+void RdbRun::add_light(const RdbPass& pass) {
+  if (!lights_) return;
+  const DefrayRdbParams p = params_of(pass);
+  const DefrayLightParams l{static_cast<std::uint32_t>(lights_->tiles_x), lights_->share_of_light};
+  session_.launch("highlights_add", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, l,
+                  light_.first, light_.list, light_.where, light_.excess, light_.table,
+                  light_.cell_map, winner_, window_.coc, sum_);
+}
+
 void RdbRun::read_band(const RdbPass& pass, RdbResult& out) {
   std::vector<cl_float4> means(pixels(fragments_.width, pass.band_rows));
   session_.read(sum_, means.data(), means.size() * sizeof(cl_float4));
@@ -116,9 +134,9 @@ std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
 }
 
 RdbResult distribute_rays(Session& session, const FragmentView& fragments,
-                          const RdbSettings& settings,
+                          const RdbSettings& settings, const LightSources* lights,
                           const std::function<void(double)>& progress) {
-  RdbRun run(session, fragments, settings);
+  RdbRun run(session, fragments, settings, lights);
   const std::size_t count = pixels(fragments.width, fragments.height);
   RdbResult out{std::vector<Plane>(fragments.channels.size(), Plane(count)),
                 std::vector<std::uint32_t>(count)};
@@ -126,6 +144,7 @@ RdbResult distribute_rays(Session& session, const FragmentView& fragments,
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     run.merge(pass);
+    if (run.is_last_of_band(pass)) run.add_light(pass);
     run.finish();
     if (run.is_last_of_band(pass)) run.read_band(pass, out);
     done += 1;
@@ -139,7 +158,7 @@ std::vector<Plane> render_rdb(Session& session, int width, int height,
                               const std::vector<Plane>& channels, const RdbSettings& settings,
                               const std::function<void(double)>& progress) {
   const FragmentView pixels(width, height, coc_quanta, depth, channels);
-  return distribute_rays(session, pixels, settings, progress).means;
+  return distribute_rays(session, pixels, settings, nullptr, progress).means;
 }
 
 }  // namespace defray

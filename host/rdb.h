@@ -7,6 +7,7 @@
 
 #include "coc.h"
 #include "fragments.h"
+#include "highlights.h"
 #include "lens_cells.h"
 #include "opencl/session.h"
 #include "rdb_plan.h"
@@ -35,7 +36,9 @@ struct RdbResult {
 /// unchanged meanwhile. Passes go through scatter and merge in order.
 class RdbRun {
  public:
-  RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings);
+  /// `lights`, if any, must stay alive too: all cells of a band are then in one pass.
+  RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings,
+         const LightSources* lights = nullptr);
 
   const std::vector<RdbPass>& passes() const { return passes_; }
 
@@ -44,6 +47,9 @@ class RdbRun {
 
   /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
   void merge(const RdbPass& pass);
+
+  /// Adds the light sources to the band's means.
+  void add_light(const RdbPass& pass);
 
   /// Copies a finished band's part of the result.
   void read_band(const RdbPass& pass, RdbResult& out);
@@ -60,6 +66,9 @@ class RdbRun {
     int band_y = -1;
     cl::Buffer coc, depth, coverage, channel[4];
   };
+  struct Light {
+    cl::Buffer first, list, where, excess, table, cell_map;
+  };
   void view_window(const RdbPass& pass);
   DefrayRdbParams params_of(const RdbPass& pass) const;
 
@@ -70,11 +79,13 @@ class RdbRun {
   std::vector<RdbPass> passes_;
   Window window_;
   cl::Buffer lens_, winner_, sum_, filled_, seen_;
+  const LightSources* lights_;
+  Light light_;
 };
 
 /// All passes. `progress` gets the share done, 0 to 1.
 RdbResult distribute_rays(Session& session, const FragmentView& fragments,
-                          const RdbSettings& settings,
+                          const RdbSettings& settings, const LightSources* lights = nullptr,
                           const std::function<void(double)>& progress = {});
 
 /// The lens picture of whole pixels: 1 to 4 channels in, as many out (Shinya's method itself).

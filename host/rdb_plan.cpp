@@ -20,13 +20,14 @@ int rdb_reach(std::int32_t largest_coc_quanta) {
 }
 
 std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes) {
+                                     std::size_t memory_bytes, bool whole_lens) {
+  const std::size_t fewest = whole_lens ? static_cast<std::size_t>(cell_count) : 1;
   const std::size_t row_bytes =
-      static_cast<std::size_t>(width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+      static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
   if (memory_bytes < row_bytes) {
     fail(ExitCode::usage,
-         "--memory is {} bytes: one row of {} pixels needs at least {} bytes (1 MiB will do)",
-         memory_bytes, width, row_bytes);
+         "--memory is {} bytes: one row of {} pixels with {} lens cells needs at least {} bytes",
+         memory_bytes, width, fewest, row_bytes);
   }
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);

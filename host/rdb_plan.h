@@ -27,8 +27,9 @@ struct RdbPass {
 int rdb_reach(std::int32_t largest_coc_quanta);
 
 /// Cuts a frame into passes whose cells and sums fit `memory_bytes`: bands from the top, and in
-/// each band all cells in order. Throws Error(usage) when one row of one cell does not fit.
+/// each band all cells in order, if `whole_lens` in one pass. Throws Error(usage) when one row of
+/// the fewest cells does not fit.
 std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes);
+                                     std::size_t memory_bytes, bool whole_lens = false);
 
 }  // namespace defray

@@ -26,15 +26,6 @@ typedef struct {
   float inverse;   // 1/depth: continued to where the ray began
 } Found;
 
-// Direction i of 16: (cos, sin) of i / 16 of a turn.
-float2 fill_direction(const uint i) {
-  const float c[5] = {1.0f, 0.923879533f, 0.707106781f, 0.382683432f, 0.0f};
-  const uint quarter = i / 4u, part = i % 4u;
-  const float2 d = (float2)(c[part], c[4u - part]);
-  const float2 turned = quarter % 2u ? (float2)(-d.y, d.x) : d;
-  return quarter < 2u ? turned : -turned;
-}
-
 bool is_inside(const DefrayFillParams p, const int2 at) {
   return at.x >= 0 && at.y >= 0 && at.x < (int)p.width && at.y < (int)p.height;
 }
@@ -121,7 +112,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-    const Found f = look_behind(p, coc_quanta, inverse, mixed, at, fill_direction(i), own);
+    const Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own);
     if (f.distance == 0.0f) continue;
     found[count] = f;
     bright[count] = brightness(colour_at(channel0, channel1, channel2, channel3, f.source));

@@ -14,4 +14,13 @@ int coc_of(__global const int* restrict coc_quanta, const uint pixel) {
   return clamp(coc_quanta[pixel], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
 }
 
+// Direction i of 16: (cos, sin) of i / 16 of a turn.
+float2 sixteenth(const uint i) {
+  const float c[5] = {1.0f, 0.923879533f, 0.707106781f, 0.382683432f, 0.0f};
+  const uint quarter = i / 4u, part = i % 4u;
+  const float2 d = (float2)(c[part], c[4u - part]);
+  const float2 turned = quarter % 2u ? (float2)(-d.y, d.x) : d;
+  return quarter < 2u ? turned : -turned;
+}
+
 #endif

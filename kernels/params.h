@@ -42,6 +42,17 @@
 /// Most samples a side of the square over which `soften` averages.
 #define DEFRAY_SOFTEN_TAPS 7
 
+/// How much brighter than its surroundings a highlight is. Rays through n cells show a source as
+/// dots of 1/n of its brightness: up to here they are fainter than a hundredth or two.
+#define DEFRAY_HIGHLIGHT 10.0f
+/// Side of the square tiles that highlights are sorted into, in pixels.
+#define DEFRAY_LIGHT_TILE 32
+/// Entries a side of the aperture's summed-area table: one more than texels.
+#define DEFRAY_APERTURE_TABLE 513
+/// Side of the map of lens cells, 2^6.
+#define DEFRAY_CELL_MAP_BITS 6
+#define DEFRAY_CELL_MAP (1 << DEFRAY_CELL_MAP_BITS)
+
 /// Default work-groups (x, all other dimensions 1); any other size gives the same bits.
 #define DEFRAY_COC_GROUP 64
 #define DEFRAY_RDB_CLEAR_GROUP 256
@@ -114,6 +125,20 @@ typedef struct {
   float cells_a_side;  ///< Of a square grid around the lens as dense as its samples.
 } DefraySoftenParams;
 
+/// Which fragments are highlights.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;
+  DEFRAY_UINT layers;
+  DEFRAY_UINT light_channels;  ///< 1 to 4, alpha apart.
+} DefrayHighlightParams;
+
+/// Their light, for a pass of the RDB.
+typedef struct {
+  DEFRAY_UINT tiles_x;
+  float share_of_light;  ///< 1 / the aperture table's total.
+} DefrayLightParams;
+
 /// One band of target rows of `linear`. Its source planes hold the band and everything in reach,
 /// the frame's edge pixels repeated outside it.
 typedef struct {
@@ -159,6 +184,8 @@ typedef struct {
 } DefrayTileParams;
 
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DefrayHighlightParams) == 16);
+static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);

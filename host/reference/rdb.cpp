@@ -125,14 +125,16 @@ std::vector<std::int64_t> rdb_scatter(const FragmentView& f, const RdbSettings& 
 
 namespace {
 
-/// Calls visit(target, source) for every ray that wins a cell, cell by cell in lens order.
-template <typename Visit>
-void for_each_winner(const FragmentView& f, const RdbSettings& settings, const Visit& visit,
-                     const std::function<void(double)>& progress) {
+/// Calls visit(target, source) for every ray that wins a cell, cell by cell in lens order, and
+/// begin() before each cell.
+template <typename Begin, typename Visit>
+void for_each_winner(const FragmentView& f, const RdbSettings& settings, const Begin& begin,
+                     const Visit& visit, const std::function<void(double)>& progress) {
   const LensCells cells = lens_cells(settings);
   const std::size_t count = cells.centres.size();
   for (std::size_t cell = 0; cell < count; ++cell) {
     const auto winner = rdb_scatter(f, settings, cells, cell);
+    begin();
     for (std::size_t i = 0; i < winner.size(); ++i) {
       if (winner[i] >= 0) visit(i, static_cast<std::size_t>(winner[i]));
     }
@@ -149,13 +151,20 @@ std::size_t front(const FragmentView& f, std::size_t pixel) {
 }  // namespace
 
 RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
+                          const LightSources* lights,
                           const std::function<void(double)>& progress) {
   const std::size_t pixels = pixel_count(f), channels = f.channels.size();
   std::vector<Plane> sum(channels, Plane(pixels));
   std::vector<std::vector<bool>> varies(channels, std::vector<bool>(pixels));
   std::vector<std::size_t> first(pixels), filled(pixels);
   RdbResult out{sum, std::vector<std::uint32_t>(pixels)};
+  const bool has_light = lights && !lights->empty();
+  std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
+  const auto begin = [&] {
+    if (has_light) winner.emplace_back(pixels, -1);
+  };
   const auto add = [&](std::size_t target, std::size_t source) {
+    if (has_light) winner.back()[target] = static_cast<std::int32_t>(source);
     if (filled[target]++ == 0) first[target] = source;
     if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
     for (std::size_t c = 0; c < channels; ++c) {
@@ -165,7 +174,7 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
       }
     }
   };
-  for_each_winner(f, settings, add, progress);
+  for_each_winner(f, settings, begin, add, progress);
   for (std::size_t c = 0; c < channels; ++c) {
     for (std::size_t i = 0; i < pixels; ++i) {
       const std::size_t one = filled[i] == 0 ? front(f, i) : first[i];  // without a ray: its own
@@ -173,6 +182,7 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
           varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][one];
     }
   }
+  if (has_light) add_light(*lights, f, winner, out.means);
   return out;
 }
 
@@ -181,7 +191,7 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
                               const RdbSettings& settings,
                               const std::function<void(double)>& progress) {
   const FragmentView pixels(width, height, coc_quanta, depth, channels);
-  return distribute_rays(pixels, settings, progress).means;
+  return distribute_rays(pixels, settings, nullptr, progress).means;
 }
 
 std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSettings& settings) {
@@ -193,7 +203,7 @@ std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSetti
       mean[c][target] += static_cast<double>(f.channels[c][source]);
     }
   };
-  for_each_winner(f, settings, add, {});
+  for_each_winner(f, settings, [] {}, add, {});
   for (std::size_t c = 0; c < mean.size(); ++c) {
     for (std::size_t i = 0; i < filled.size(); ++i) {
       mean[c][i] =

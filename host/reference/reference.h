@@ -25,8 +25,18 @@ std::vector<std::int64_t> rdb_scatter(const FragmentView& fragments, const RdbSe
                                       const LensCells& cells, std::size_t cell);
 
 /// Twins of `rdb_scatter` and `rdb_merge`, summed in float and in the kernel's order: equal bits.
+/// With light sources, the twin of `highlights_add` too.
 RdbResult distribute_rays(const FragmentView& fragments, const RdbSettings& settings,
+                          const LightSources* lights = nullptr,
                           const std::function<void(double)>& progress = {});
+
+/// Twin of kernel `highlights`.
+Plane highlights(const Fragments& fragments, int light_channels);
+
+/// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
+/// winners, [cell][pixel], -1 where no ray arrives.
+void add_light(const LightSources& lights, const FragmentView& fragments,
+               const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means);
 
 /// The lens picture of whole pixels.
 std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,

@@ -1,0 +1,113 @@
+#include "highlights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+
+namespace defray {
+namespace {
+
+std::size_t size(int value) { return static_cast<std::size_t>(value); }
+
+/// Calls visit(tile) for every tile that a source's disc may meet.
+template <typename Visit>
+void for_each_tile(const std::array<std::int32_t, 4>& where, int tiles_x, int tiles_y,
+                   const Visit& visit) {
+  constexpr int side = DEFRAY_LIGHT_TILE;
+  const int reach = (std::abs(where[2]) >> DEFRAY_COC_FRACTION_BITS) + 2;
+  const auto tile = [](std::int64_t px, int count) {
+    return static_cast<int>(std::clamp<std::int64_t>(px / side, 0, count - 1));
+  };
+  const std::int64_t x = where[0], y = where[1];
+  for (int j = tile(y - reach, tiles_y); j <= tile(y + reach, tiles_y); ++j) {
+    for (int i = tile(x - reach, tiles_x); i <= tile(x + reach, tiles_x); ++i) {
+      visit(size(j) * size(tiles_x) + size(i));
+    }
+  }
+}
+
+void sort_into_tiles(LightSources& lights, int width, int height) {
+  lights.tiles_x = (width + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  const int tiles_y = (height + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  std::vector<std::vector<std::uint32_t>> tiles(size(lights.tiles_x) * size(tiles_y));
+  for (std::uint32_t i = 0; i < lights.where.size(); ++i) {
+    for_each_tile(lights.where[i], lights.tiles_x, tiles_y,
+                  [&](std::size_t tile) { tiles[tile].push_back(i); });
+  }
+  lights.first.push_back(0);
+  for (const auto& tile : tiles) {
+    lights.list.insert(lights.list.end(), tile.begin(), tile.end());
+    lights.first.push_back(static_cast<std::uint32_t>(lights.list.size()));
+  }
+}
+
+}  // namespace
+
+Plane highlights(Session& session, const Fragments& f, int light_channels) {
+  const DefrayHighlightParams p{
+      static_cast<std::uint32_t>(f.width), static_cast<std::uint32_t>(f.height),
+      static_cast<std::uint32_t>(f.layers), static_cast<std::uint32_t>(light_channels)};
+  cl::Buffer channel[4];
+  for (std::size_t c = 0; c < 4; ++c) {
+    const bool is_there = c < f.channels.size();
+    channel[c] = is_there ? session.picture(f.channels[c].data(), f.channels[c].size())
+                          : channel[c - 1];
+  }
+  const cl::Buffer coc = session.view(f.coc_quanta), coverage = session.view(f.coverage);
+  const cl::Buffer out = session.buffer(f.depth.size() * sizeof(cl_float));
+  session.launch("highlights", DEFRAY_STAGE_GROUP, {p.width, std::size_t{p.height} * p.layers}, p,
+                 coc, coverage, channel[0], channel[1], channel[2], channel[3], out);
+  Plane kept(f.depth.size());
+  session.read(out, kept.data(), kept.size() * sizeof(float));
+  return kept;
+}
+
+std::vector<std::uint32_t> map_cells(const LensCells& cells) {
+  constexpr int side = DEFRAY_CELL_MAP;
+  constexpr std::int64_t step = (2 << DEFRAY_LENS_FRACTION_BITS) / side;
+  std::vector<std::uint32_t> map;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const auto distance = [&](const std::array<std::int32_t, 2>& cell) {
+        const std::int64_t u = (2 * i + 1 - side) * step / 2 - cell[0];
+        const std::int64_t v = (2 * j + 1 - side) * step / 2 - cell[1];
+        return u * u + v * v;
+      };
+      const auto nearest = std::min_element(
+          cells.centres.begin(), cells.centres.end(),
+          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      map.push_back(static_cast<std::uint32_t>(nearest - cells.centres.begin()));
+    }
+  }
+  return map;
+}
+
+LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
+                        const ApertureTable& aperture, const LensCells& cells) {
+  LightSources lights;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] == 1.0f) continue;
+    const std::size_t row = i / size(f.width);
+    const auto coc = std::clamp(f.coc_quanta[i], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
+    lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
+                            static_cast<std::int32_t>(row / size(f.layers)), coc,
+                            std::bit_cast<std::int32_t>(f.depth[i])});
+    std::array<float, 4> excess{};
+    const float share =
+        static_cast<float>(f.coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
+    for (std::size_t c = 0; c < size(light_channels); ++c) {
+      const float base = f.channels[c][i] * kept[i];
+      excess[c] = (f.channels[c][i] - base) * share;
+      f.channels[c][i] = base;
+    }
+    lights.excess.push_back(excess);
+  }
+  if (lights.empty()) return lights;
+  sort_into_tiles(lights, f.width, f.height);
+  lights.table = aperture.sums;
+  lights.share_of_light = 1.0f / static_cast<float>(aperture.total());
+  lights.cell_map = map_cells(cells);
+  return lights;
+}
+
+}  // namespace defray

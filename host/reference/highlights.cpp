@@ -1,0 +1,128 @@
+// Twins of kernels/highlights.cl.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "reference/reference.h"
+
+namespace defray::reference {
+namespace {
+
+std::int32_t tame(std::int32_t coc) {
+  return std::clamp(coc, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
+}
+
+float light_of(const Fragments& f, std::size_t at, int light_channels) {
+  float most = f.channels[0][at];
+  for (int c = 1; c < light_channels; ++c) {
+    most = std::fmax(most, f.channels[static_cast<std::size_t>(c)][at]);
+  }
+  return most;
+}
+
+/// Light of the front fragments at 32 points around a disc, those within the frame.
+std::vector<float> light_around(const Fragments& f, int x, int y, float radius,
+                                int light_channels) {
+  std::vector<float> light;
+  for (int i = 0; i < 32; ++i) {
+    const double angle = i % 16 * std::numbers::pi / 8;
+    const float distance = std::fmax(radius, 3.0f) * (i < 16 ? 0.5f : 1.0f) + 2.0f;
+    const auto rounded = [&](double direction) {
+      return static_cast<int>(std::rint(distance * static_cast<float>(direction)));
+    };
+    const int qx = x + rounded(std::cos(angle)), qy = y + rounded(std::sin(angle));
+    if (qx < 0 || qy < 0 || qx >= f.width || qy >= f.height) continue;
+    light.push_back(light_of(f, f.index(qx, qy, 0), light_channels));
+  }
+  return light;
+}
+
+/// Share of the aperture's light that a source sends into the pixel at this distance, unscaled.
+std::uint64_t light_at(const ApertureTable& table, int dx, int dy, std::int32_t coc) {
+  const auto border = [&](int i) { return (2 * std::int64_t{i} + 1) * (1 << 23) / coc; };
+  const auto corner = [](std::int64_t a) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(a, -(1 << 30), 1 << 30));
+  };
+  const auto [u0, u1] = std::minmax(border(dx - 1), border(dx));
+  const auto [v0, v1] = std::minmax(border(dy - 1), border(dy));
+  return light_in_box(table, corner(u0), corner(v0), corner(u1), corner(v1));
+}
+
+std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int32_t coc) {
+  const auto entry = [&](int d) {
+    const std::int64_t lens = std::int64_t{d} * (1 << 24) / coc;
+    constexpr std::int64_t radius = 1 << DEFRAY_LENS_FRACTION_BITS;
+    const auto at = static_cast<std::int64_t>(std::floor(
+        static_cast<double>(lens + radius) * DEFRAY_CELL_MAP / static_cast<double>(2 * radius)));
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, DEFRAY_CELL_MAP - 1));
+  };
+  return lights.cell_map[entry(dy) * DEFRAY_CELL_MAP + entry(dx)];
+}
+
+}  // namespace
+
+Plane highlights(const Fragments& f, int light_channels) {
+  Plane kept(f.depth.size(), 1.0f);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const int x = static_cast<int>(i % static_cast<std::size_t>(f.width));
+    const int y = static_cast<int>(i / static_cast<std::size_t>(f.width * f.layers));
+    const float own = light_of(f, i, light_channels);
+    const std::int32_t coc = tame(f.coc_quanta[i]);
+    if ((f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0 || coc == 0) continue;
+    if (!(own > 0) || std::isinf(own)) continue;
+    const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
+    std::vector<float> light = light_around(f, x, y, radius, light_channels);
+    const auto dim = std::count_if(light.begin(), light.end(),
+                                   [&](float v) { return v * DEFRAY_HIGHLIGHT < own; });
+    if (static_cast<std::size_t>(dim) <= light.size() / 2) continue;
+    // NaNs are no surroundings: the kernel's ranks leave the median to the first that has it.
+    float median = 1;
+    bool is_found = false;
+    for (std::size_t k = 0; k < light.size(); ++k) {
+      std::size_t rank = 0;
+      for (std::size_t j = 0; j < light.size(); ++j) {
+        rank += light[j] < light[k] || (light[j] == light[k] && j < k);
+      }
+      if (rank == light.size() / 2) {
+        median = light[k];
+        is_found = true;
+      }
+    }
+    if (is_found) kept[i] = std::fmax(median, 0.0f) / own;
+  }
+  return kept;
+}
+
+void add_light(const LightSources& lights, const FragmentView& f,
+               const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means) {
+  const ApertureTable table{lights.table};
+  std::vector<Plane> added(means.size(), Plane(means[0].size()));
+  for (std::size_t s = 0; s < lights.where.size(); ++s) {
+    const auto& [sx, sy, coc, depth_bits] = lights.where[s];
+    const float depth = std::bit_cast<float>(depth_bits);
+    const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
+    for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
+      for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
+        const std::uint64_t arrives = light_at(table, x - sx, y - sy, coc);
+        if (arrives == 0) continue;
+        const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
+                            static_cast<std::size_t>(x);
+        const std::int32_t held = winner[cell_between(lights, x - sx, y - sy, coc)][target];
+        const auto at = static_cast<std::size_t>(held);
+        if (held >= 0 && f.depth[at] < depth && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA) {
+          continue;
+        }
+        const float share = static_cast<float>(arrives) * lights.share_of_light;
+        for (std::size_t c = 0; c < means.size(); ++c) {
+          added[c][target] += share * lights.excess[s][c];
+        }
+      }
+    }
+  }
+  for (std::size_t c = 0; c < means.size(); ++c) {
+    for (std::size_t i = 0; i < means[c].size(); ++i) means[c][i] += added[c][i];
+  }
+}
+
+}  // namespace defray::reference
