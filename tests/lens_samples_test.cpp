@@ -1,0 +1,174 @@
+// Samples of an aperture: how many, where, how even; that they move nothing.
+#include "lens_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr int side = ApertureMask::side;
+constexpr double radius = 1 << 16;
+
+struct Moments {
+  double u = 0, v = 0, uu = 0, vv = 0, uv = 0;
+};
+
+void add(Moments& m, double u, double v, double weight) {
+  m.u += weight * u, m.v += weight * v;
+  m.uu += weight * u * u, m.vv += weight * v * v, m.uv += weight * u * v;
+}
+
+Moments moments_of(const LensCells& cells) {
+  Moments m;
+  for (const auto& [u, v] : cells.centres) {
+    add(m, u / radius, v / radius, 1.0 / static_cast<double>(cells.centres.size()));
+  }
+  return m;
+}
+
+double centre_of_texel(int i) { return (2 * i + 1 - side) / static_cast<double>(side); }
+
+Moments moments_of(const ApertureMask& mask) {
+  double total = 0;
+  for (const std::uint8_t value : mask.coverage) total += value;
+  Moments m;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      add(m, centre_of_texel(column), centre_of_texel(row), mask.at(column, row) / total);
+    }
+  }
+  return m;
+}
+
+const std::vector<Aperture>& shapes() {
+  static const std::vector<Aperture> all{{},
+                                         {0, 0, 0, 2, "", 0},
+                                         {6, 0, 0, 1, "", 0},
+                                         {4, -1, 10, 1, "", 0},
+                                         {8, 0.5, 20, 0.6, "", 0},
+                                         {3, 0, 40, 1, "", 0},
+                                         {5, 0, 0, 1.5, "", 0},
+                                         {7, -0.5, 0, 1, "", 0}};
+  return all;
+}
+
+TEST(LensSamples, AsManyAsAskedAndWithinTheShape) {
+  for (const Aperture& a : shapes()) {
+    const ApertureMask mask = rasterise(a);
+    for (const int count : {1, 2, 3, 64, 145, 1024}) {
+      const LensCells cells = make_lens_samples(a, count);
+      EXPECT_EQ(cells.jitter, 0);
+      ASSERT_EQ(cells.centres.size(), static_cast<std::size_t>(count));
+      for (const auto& [u, v] : cells.centres) {
+        EXPECT_LE(std::hypot(u, v), radius);
+        // A texel that is open in part, at a corner perhaps in less than 1/256: or its neighbour.
+        int most = 0;
+        for (const int dv : {-128, 0, 128}) {
+          for (const int du : {-128, 0, 128}) {
+            const int column = std::clamp((u + du + 65536) / 256, 0, side - 1);
+            most = std::max<int>(most,
+                                 mask.at(column, std::clamp((v + dv + 65536) / 256, 0, side - 1)));
+          }
+        }
+        EXPECT_GT(most, 0) << u << "," << v << " of " << count;
+      }
+    }
+  }
+}
+
+TEST(LensSamples, MoveNothingThroughAPointSymmetricShape) {
+  for (const Aperture& a : shapes()) {
+    if (a.blades % 2 == 1) continue;
+    for (const int count : {1, 16, 69, 256, 1025}) {
+      const LensCells cells = make_lens_samples(a, count);
+      std::int64_t u = 0, v = 0;
+      for (const auto& [cu, cv] : cells.centres) u += cu, v += cv;
+      // Each half of a pair is rounded on its own.
+      EXPECT_LE(std::max(std::abs(u), std::abs(v)), count / 2) << a.blades << " " << count;
+    }
+  }
+}
+
+// The promise of the header.
+TEST(LensSamples, HaveTheMomentsOfTheShape) {
+  for (const Aperture& a : shapes()) {
+    const Moments shape = moments_of(rasterise(a));
+    for (const int count : {16, 69, 144, 400, 1025}) {
+      const Moments m = moments_of(make_lens_samples(a, count));
+      EXPECT_LE(std::hypot(m.u - shape.u, m.v - shape.v), 0.5 / count) << a.blades << " " << count;
+      const double size = shape.uu + shape.vv;
+      EXPECT_LE(std::fabs(m.uu - shape.uu), 2 * size / count) << a.blades << " " << count;
+      EXPECT_LE(std::fabs(m.vv - shape.vv), 2 * size / count) << a.blades << " " << count;
+      EXPECT_LE(std::fabs(m.uv - shape.uv), 2 * size / count) << a.blades << " " << count;
+    }
+  }
+}
+
+/// Largest error, over half-planes in 24 directions with the axes among them, of the samples' share
+/// against the mask's: what a straight edge's blur is off by.
+double discrepancy(const LensCells& cells, const ApertureMask& mask) {
+  constexpr int bins = 4096, reach = 2;
+  double worst = 0;
+  for (int direction = 0; direction < 24; ++direction) {
+    const double angle = std::numbers::pi * direction / 24;
+    const auto bin = [&](double u, double v) {
+      return static_cast<std::size_t>((u * std::cos(angle) + v * std::sin(angle) + reach) /
+                                      (2 * reach) * bins);
+    };
+    std::vector<double> light(bins), samples(bins);
+    double total = 0;
+    for (int row = 0; row < side; ++row) {
+      for (int column = 0; column < side; ++column) {
+        light[bin(centre_of_texel(column), centre_of_texel(row))] += mask.at(column, row);
+        total += mask.at(column, row);
+      }
+    }
+    for (const auto& [u, v] : cells.centres) {
+      samples[bin(u / radius, v / radius)] += 1.0 / static_cast<double>(cells.centres.size());
+    }
+    double error = 0;
+    for (std::size_t i = 0; i < bins; ++i) {
+      error += light[i] / total;
+      worst = std::fmax(worst, std::fabs(error));
+      error -= samples[i];
+      worst = std::fmax(worst, std::fabs(error));
+    }
+  }
+  return worst;
+}
+
+/// The square grid's cells whose centres are open.
+LensCells grid(const ApertureMask& mask, int cells_per_side) {
+  LensCells open;
+  for (const auto& [u, v] : make_lens_cells(cells_per_side, false).centres) {
+    if (mask.at((u + 65536) / 256, (v + 65536) / 256) >= 128) open.centres.push_back({u, v});
+  }
+  return open;
+}
+
+TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
+  for (const Aperture& a : shapes()) {
+    const ApertureMask mask = rasterise(a);
+    for (const int cells_per_side : {9, 16, 33, 64}) {
+      const LensCells cells = grid(mask, cells_per_side);
+      const int count = static_cast<int>(cells.centres.size());
+      const double of_grid = discrepancy(cells, mask);
+      const double of_samples = discrepancy(make_lens_samples(a, count), mask);
+      EXPECT_LT(of_samples, of_grid) << a.blades << " " << count;
+    }
+  }
+}
+
+TEST(LensSamples, RefuseAbsurdCounts) {
+  for (const int count : {0, -1, 4097}) {
+    expect_error(2, {std::to_string(count), "1 to 4096"}, [&] { make_lens_samples({}, count); });
+  }
+  expect_error(2, {"--blades is 2"}, [&] { make_lens_samples({2, 0, 0, 1, "", 0}, 16); });
+}
+
+}  // namespace
+}  // namespace defray::test
