@@ -16,12 +16,12 @@ inline constexpr int lens_samples_max_count = 4096;
 /// that points come as antipodal pairs (an odd count begins with the centre) and their mean is 0:
 /// pair k at radius sqrt((2 k + 1) / count) and k times half the golden angle. Angles are taken as
 /// shares of the iris's area and radii as shares of the way to its edge, which keeps areas.
-/// The mean is within 1 / (2 count) of the shape's, in aperture radii; through a point-symmetric
-/// shape it is off by rounding alone. Second moments are right to 2 / count of their sum.
+/// Second moments are right to 2 / count of their sum.
 /// A picture: the lattice ((k + 1/2) / count, k times the golden ratio), point-symmetric, through
-/// the light's distribution over columns and, within a column, over its texels. The same holds of
-/// the mean where it is point-symmetric; elsewhere it is off by 1 / count or so (noise: 4 / count
-/// at most).
+/// the light's distribution over columns and, within a column, over its texels.
+///
+/// The mean is the shape's: but for rounding where the shape is point-symmetric; else to
+/// 1 / (2 count) of the aperture radius (blades), 1 / count or so (pictures; noise: to 4 / count).
 LensCells make_lens_samples(const Aperture& aperture, int count);
 
 }  // namespace defray
