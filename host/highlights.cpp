@@ -50,8 +50,8 @@ Plane highlights(Session& session, const Fragments& f, int light_channels) {
   cl::Buffer channel[4];
   for (std::size_t c = 0; c < 4; ++c) {
     const bool is_there = c < f.channels.size();
-    channel[c] = is_there ? session.picture(f.channels[c].data(), f.channels[c].size())
-                          : channel[c - 1];
+    channel[c] =
+        is_there ? session.picture(f.channels[c].data(), f.channels[c].size()) : channel[c - 1];
   }
   const cl::Buffer coc = session.view(f.coc_quanta), coverage = session.view(f.coverage);
   const cl::Buffer out = session.buffer(f.depth.size() * sizeof(cl_float));
@@ -73,9 +73,9 @@ std::vector<std::uint32_t> map_cells(const LensCells& cells) {
         const std::int64_t v = (2 * j + 1 - side) * step / 2 - cell[1];
         return u * u + v * v;
       };
-      const auto nearest = std::min_element(
-          cells.centres.begin(), cells.centres.end(),
-          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      const auto nearest =
+          std::min_element(cells.centres.begin(), cells.centres.end(),
+                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
       map.push_back(static_cast<std::uint32_t>(nearest - cells.centres.begin()));
     }
   }

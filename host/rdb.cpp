@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cats_eye.h"
 #include "error.h"
 
 namespace defray {
@@ -18,6 +19,15 @@ LensCells lens_cells(const RdbSettings& settings) {
   return make_lens_cells(settings.cells_per_side, settings.jitter);
 }
 
+std::size_t open_cells(const RdbSettings& settings, const LensCells& cells, std::size_t x,
+                       std::size_t y) {
+  if (settings.rim_x.empty()) return cells.centres.size();
+  const RimCentre rim{settings.rim_x[x], settings.rim_y[y]};
+  return static_cast<std::size_t>(
+      std::count_if(cells.centres.begin(), cells.centres.end(),
+                    [&](const auto& u) { return passes_rim(rim, u[0], u[1]); }));
+}
+
 RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings,
                const LightSources* lights)
     : session_(session),
@@ -32,14 +42,16 @@ RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSetting
   const RdbPass& largest = passes_.front();
   const std::size_t band = pixels(fragments.width, largest.band_rows);
   lens_ = session.view(cells_.centres);
+  rim_x_ = settings_.rim_x.empty() ? lens_ : session.view(settings_.rim_x);
+  rim_y_ = settings_.rim_y.empty() ? lens_ : session.view(settings_.rim_y);
   winner_ = session.buffer(band * static_cast<std::size_t>(largest.cell_count) * sizeof(RdbWinner));
   sum_ = session.buffer(band * sizeof(cl_float4));
   filled_ = session.buffer(band * sizeof(cl_uint2));
   seen_ = session.buffer(band * sizeof(cl_uint));
   if (!lights_) return;
-  light_ = {session.view(lights_->first),  session.view(lights_->list),
-            session.view(lights_->where),  session.view(lights_->excess),
-            session.view(lights_->table),  session.view(lights_->cell_map)};
+  light_ = {session.view(lights_->first), session.view(lights_->list),
+            session.view(lights_->where), session.view(lights_->excess),
+            session.view(lights_->table), session.view(lights_->cell_map)};
 }
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
@@ -63,6 +75,8 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   p.has_coverage = fragments_.coverage != nullptr;
   p.origin_x = settings_.origin_x;
   p.origin_y = settings_.origin_y;
+  p.has_rim = !settings_.rim_x.empty();
+  p.all_cells = static_cast<std::uint32_t>(cells_.centres.size());
   return p;
 }
 
@@ -103,8 +117,8 @@ void RdbRun::merge(const RdbPass& pass) {
   const DefrayRdbParams p = params_of(pass);
   const cl::Buffer(&channel)[4] = window_.channel;
   session_.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner_,
-                  window_.coverage, channel[0], channel[1], channel[2], channel[3], sum_, filled_,
-                  seen_);
+                  window_.coverage, lens_, rim_x_, rim_y_, channel[0], channel[1], channel[2],
+                  channel[3], sum_, filled_, seen_);
 }
 
 void RdbRun::add_light(const RdbPass& pass) {
@@ -113,7 +127,7 @@ void RdbRun::add_light(const RdbPass& pass) {
   const DefrayLightParams l{static_cast<std::uint32_t>(lights_->tiles_x), lights_->share_of_light};
   session_.launch("highlights_add", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, l,
                   light_.first, light_.list, light_.where, light_.excess, light_.table,
-                  light_.cell_map, winner_, window_.coc, sum_);
+                  light_.cell_map, winner_, window_.coc, lens_, rim_x_, rim_y_, sum_);
 }
 
 void RdbRun::read_band(const RdbPass& pass, RdbResult& out) {

@@ -21,6 +21,9 @@ struct RdbSettings {
   std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
   LensCells samples = {};          ///< Points of the lens to use instead of a grid of cells.
   int origin_x = 0, origin_y = 0;  ///< Of the frame in the display window: jitter follows it.
+  /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
+  /// host/cats_eye.h has it. Empty: none.
+  std::vector<std::int32_t> rim_x = {}, rim_y = {};
 };
 
 /// The lens points of these settings.
@@ -31,6 +34,10 @@ struct RdbResult {
   std::vector<Plane> means;         ///< As many as there are channels.
   std::vector<std::uint32_t> seen;  ///< Cells of each pixel won by a fragment that was seen.
 };
+
+/// Lens points that the rim leaves open for a pixel; all of them without one.
+std::size_t open_cells(const RdbSettings& settings, const LensCells& cells, std::size_t x,
+                       std::size_t y);
 
 /// A frame on its way through the ray distribution buffers. The frame's planes must stay alive and
 /// unchanged meanwhile. Passes go through scatter and merge in order.
@@ -78,7 +85,7 @@ class RdbRun {
   LensCells cells_;
   std::vector<RdbPass> passes_;
   Window window_;
-  cl::Buffer lens_, winner_, sum_, filled_, seen_;
+  cl::Buffer lens_, rim_x_, rim_y_, winner_, sum_, filled_, seen_;
   const LightSources* lights_;
   Light light_;
 };

@@ -10,22 +10,27 @@
 // pixels add up to 1. Light arrives where the RDB's cell nearest to its way through the lens is not
 // held by a surface in front.
 //
+// highlights:
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
 // channel0..3  [height][layers][width]
-// kept         [height][layers][width]  share of its colour that the fragment keeps; 1: no
-// highlight Global size of highlights: (width, height x layers).
+// kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
+// Global size: (width, height x layers).
 //
-// first        [tiles_y][tiles_x] + 1   where a tile's list begins
-// list         highlights of each tile, in source order
-// where        (x, y in the frame, coc in quanta, depth bits) of each highlight
-// excess       its light
-// table        [side][side]             summed light of the aperture (host/aperture_table.h)
-// cell_at      [DEFRAY_CELL_MAP][DEFRAY_CELL_MAP]  nearest lens cell, over the square around the
-// lens winner, coc_quanta (of the window)    as in rdb_merge; all cells in one pass sum
-// [band_rows][width]       in and out Global size of highlights_add: (width, band_rows).
+// highlights_add:
+// first        [tiles + 1]        where a tile's list begins
+// list                            highlights of each tile, in source order
+// where        [highlights]       (x, y in the frame, coc in quanta, depth bits)
+// excess       [highlights]       their light
+// table        [side][side]       summed light of the aperture (host/aperture_table.h)
+// cell_at      [side][side]       nearest lens cell, over the square around the lens
+// winner, coc_quanta (window)     as in rdb_merge; all cells in one pass
+// lens, rim_x, rim_y              as in rdb_merge; what the rim leaves counts as all light
+// sum          [band_rows][width] in and out
+// Global size: (width, band_rows).
 #include "colour.h"
 #include "frame.h"
+#include "rim.h"
 
 // The largest of the light channels: alpha is no light.
 float light_of(const float4 c, const uint channels) {
@@ -116,18 +121,32 @@ uint cell_between(__global const uint* restrict cell_at, const int2 distance, co
   return cell_at[c.y * DEFRAY_CELL_MAP + c.x];
 }
 
+// Share of a source's light at a pixel that passes the rim, whose edge is soft over a pixel.
+float rim_share(const int2 distance, const int coc, const int rim_x, const int rim_y) {
+  const float unit = 1.0f / 65536.0f, radius = (float)coc * (1.0f / 256.0f);
+  const float x = (float)distance.x - radius * ((float)rim_x * unit);
+  const float y = (float)distance.y - radius * ((float)rim_y * unit);
+  return clamp(fabs(radius) + 0.5f - sqrt(x * x + y * y), 0.0f, 1.0f);
+}
+
 __kernel void highlights_add(
     const DefrayRdbParams p, const DefrayLightParams l, __global const uint* restrict first,
     __global const uint* restrict list, __global const int4* restrict where,
     __global const float4* restrict excess, __global const uint* restrict table,
     __global const uint* restrict cell_at, __global const uint2* restrict winner,
-    __global const int* restrict coc_quanta, __global float4* restrict sum) {
+    __global const int* restrict coc_quanta, __global const int2* restrict lens,
+    __global const int* restrict rim_x, __global const int* restrict rim_y,
+    __global float4* restrict sum) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
   const uint y = p.band_y + row;
   const size_t target = (size_t)row * p.width + x;
   const uint tile = y / DEFRAY_LIGHT_TILE * l.tiles_x + x / DEFRAY_LIGHT_TILE;
+  uint open = 0u;
+  for (uint cell = 0; p.has_rim && cell < p.all_cells; ++cell) {
+    open += passes_rim(lens[cell], rim_x[x], rim_y[y]) ? 1u : 0u;
+  }
   float4 light = 0.0f;
   for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
     const int4 h = where[list[i]];
@@ -138,7 +157,10 @@ __kernel void highlights_add(
     const uint2 held = winner[cell * p.band_rows * p.width + target];
     const bool is_hidden = held.x != DEFRAY_EMPTY && held.y < (uint)h.w &&
                            coc_of(coc_quanta, held.x) < h.z - DEFRAY_JUMP_QUANTA;
-    if (!is_hidden) light += ((float)arrives * l.share_of_light) * excess[list[i]];
+    if (is_hidden) continue;
+    const float passes = p.has_rim ? rim_share(distance, h.z, rim_x[x], rim_y[y]) : 1.0f;
+    light += ((float)arrives * l.share_of_light * passes) * excess[list[i]];
   }
+  if (p.has_rim) light *= (float)p.all_cells / (float)max(open, 1u);
   sum[target] += light;
 }

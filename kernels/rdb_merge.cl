@@ -9,6 +9,10 @@
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // coverage        [window_rows][layers][width]     only its flag matters here; if has_coverage
+// lens            [cells]                          u_k, 2^-16 of the aperture radius
+// rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim: cells that it
+// cuts
+//                                                  off do not count
 // channel0..3     [window_rows][layers][width]     colour planes of the source window
 // sum             [band_rows][width]               colours' sums; after the last pass the means
 // filled          [band_rows][width]               (x: cells that a ray has reached so far; bits 16
@@ -17,10 +21,11 @@
 // seen            [band_rows][width]               cells won by what the picture shows
 // Global size: (width, band_rows).
 #include "colour.h"
-#include "params.h"
+#include "rim.h"
 
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
-                        __global const uint* restrict coverage,
+                        __global const uint* restrict coverage, __global const int2* restrict lens,
+                        __global const int* restrict rim_x, __global const int* restrict rim_y,
                         __global const float* restrict channel0,
                         __global const float* restrict channel1,
                         __global const float* restrict channel2,
@@ -44,6 +49,9 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
   for (uint cell = 0; cell < p.cell_count; ++cell) {
     const uint s = winner[cell * cell_stride + target].x;
     if (s == DEFRAY_EMPTY) continue;
+    if (p.has_rim && !passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {
+      continue;
+    }
     const float4 colour = colour_at(channel0, channel1, channel2, channel3, s);
     if (count == 0u) {
       f = s;

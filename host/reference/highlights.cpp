@@ -60,6 +60,18 @@ std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int3
   return lights.cell_map[entry(dy) * DEFRAY_CELL_MAP + entry(dx)];
 }
 
+/// Share of a source's light at a pixel that passes the lens's rim.
+float rim_share(const RdbSettings& settings, int x, int y, int dx, int dy, std::int32_t coc) {
+  if (settings.rim_x.empty()) return 1;
+  const float radius = static_cast<float>(coc) * px_per_quantum;
+  const auto away = [&](int d, std::int32_t rim) {
+    return static_cast<float>(d) - radius * (static_cast<float>(rim) * (1.0f / 65536.0f));
+  };
+  const float u = away(dx, settings.rim_x[static_cast<std::size_t>(x)]);
+  const float v = away(dy, settings.rim_y[static_cast<std::size_t>(y)]);
+  return std::clamp(std::fabs(radius) + 0.5f - std::sqrt(u * u + v * v), 0.0f, 1.0f);
+}
+
 }  // namespace
 
 Plane highlights(const Fragments& f, int light_channels) {
@@ -94,7 +106,7 @@ Plane highlights(const Fragments& f, int light_channels) {
   return kept;
 }
 
-void add_light(const LightSources& lights, const FragmentView& f,
+void add_light(const LightSources& lights, const FragmentView& f, const RdbSettings& settings,
                const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means) {
   const ApertureTable table{lights.table};
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
@@ -113,15 +125,27 @@ void add_light(const LightSources& lights, const FragmentView& f,
         if (held >= 0 && f.depth[at] < depth && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA) {
           continue;
         }
-        const float share = static_cast<float>(arrives) * lights.share_of_light;
+        const float passes = rim_share(settings, x, y, x - sx, y - sy, coc);
+        const float share = static_cast<float>(arrives) * lights.share_of_light * passes;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];
         }
       }
     }
   }
+  Plane gain;  // what the rim leaves counts as all light
+  const LensCells cells = lens_cells(settings);
+  for (std::size_t i = 0; !settings.rim_x.empty() && i < means[0].size(); ++i) {
+    const auto width = static_cast<std::size_t>(f.width);
+    const std::size_t open = open_cells(settings, cells, i % width, i / width);
+    gain.push_back(static_cast<float>(cells.centres.size()) /
+                   static_cast<float>(std::max<std::size_t>(open, 1)));
+  }
   for (std::size_t c = 0; c < means.size(); ++c) {
-    for (std::size_t i = 0; i < means[c].size(); ++i) means[c][i] += added[c][i];
+    for (std::size_t i = 0; i < means[c].size(); ++i) {
+      if (!gain.empty()) added[c][i] *= gain[i];
+      means[c][i] += added[c][i];
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cats_eye.h"
 #include "reference/pcg3d.h"
 #include "reference/reference.h"
 
@@ -142,6 +143,15 @@ void for_each_winner(const FragmentView& f, const RdbSettings& settings, const B
   }
 }
 
+/// Whether the lens's rim keeps a cell's light from a pixel.
+bool is_cut_off(const RdbSettings& settings, int width, std::size_t pixel,
+                const std::array<std::int32_t, 2>& u) {
+  if (settings.rim_x.empty()) return false;
+  const auto columns = static_cast<std::size_t>(width);
+  return !passes_rim({settings.rim_x[pixel % columns], settings.rim_y[pixel / columns]}, u[0],
+                     u[1]);
+}
+
 /// The fragment in front at a pixel.
 std::size_t front(const FragmentView& f, std::size_t pixel) {
   const auto width = static_cast<std::size_t>(f.width);
@@ -151,8 +161,7 @@ std::size_t front(const FragmentView& f, std::size_t pixel) {
 }  // namespace
 
 RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
-                          const LightSources* lights,
-                          const std::function<void(double)>& progress) {
+                          const LightSources* lights, const std::function<void(double)>& progress) {
   const std::size_t pixels = pixel_count(f), channels = f.channels.size();
   std::vector<Plane> sum(channels, Plane(pixels));
   std::vector<std::vector<bool>> varies(channels, std::vector<bool>(pixels));
@@ -160,11 +169,15 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
   RdbResult out{sum, std::vector<std::uint32_t>(pixels)};
   const bool has_light = lights && !lights->empty();
   std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
+  const LensCells cells = lens_cells(settings);
+  std::size_t cell = 0;  // counts from 1 while its winners come
   const auto begin = [&] {
+    ++cell;
     if (has_light) winner.emplace_back(pixels, -1);
   };
   const auto add = [&](std::size_t target, std::size_t source) {
     if (has_light) winner.back()[target] = static_cast<std::int32_t>(source);
+    if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     if (filled[target]++ == 0) first[target] = source;
     if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
     for (std::size_t c = 0; c < channels; ++c) {
@@ -182,7 +195,7 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
           varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][one];
     }
   }
-  if (has_light) add_light(*lights, f, winner, out.means);
+  if (has_light) add_light(*lights, f, settings, winner, out.means);
   return out;
 }
 
@@ -197,13 +210,16 @@ std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int3
 std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSettings& settings) {
   std::vector<std::vector<double>> mean(f.channels.size(), std::vector<double>(pixel_count(f)));
   std::vector<int> filled(pixel_count(f));
+  const LensCells cells = lens_cells(settings);
+  std::size_t cell = 0;
   const auto add = [&](std::size_t target, std::size_t source) {
+    if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     ++filled[target];
     for (std::size_t c = 0; c < mean.size(); ++c) {
       mean[c][target] += static_cast<double>(f.channels[c][source]);
     }
   };
-  for_each_winner(f, settings, [] {}, add, {});
+  for_each_winner(f, settings, [&] { ++cell; }, add, {});
   for (std::size_t c = 0; c < mean.size(); ++c) {
     for (std::size_t i = 0; i < filled.size(); ++i) {
       mean[c][i] =

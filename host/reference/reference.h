@@ -36,7 +36,8 @@ Plane highlights(const Fragments& fragments, int light_channels);
 /// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
 /// winners, [cell][pixel], -1 where no ray arrives.
 void add_light(const LightSources& lights, const FragmentView& fragments,
-               const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means);
+               const RdbSettings& settings, const std::vector<std::vector<std::int32_t>>& winner,
+               std::vector<Plane>& means);
 
 /// The lens picture of whole pixels.
 std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,

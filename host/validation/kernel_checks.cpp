@@ -54,6 +54,10 @@ RdbSettings rdb_settings(const Case& c) {
   s.seed = c.seed;
   s.origin_x = static_cast<int>(c.seed % 5) - 2;
   s.origin_y = static_cast<int>(c.seed % 3);
+  if (c.seed % 4 == 1) {
+    for (int x = 0; x < c.width; ++x) s.rim_x.push_back(2000 * (x - c.width / 2));
+    for (int y = 0; y < c.height; ++y) s.rim_y.push_back(-1500 * (y - c.height / 3));
+  }
   if (c.band_rows > 0) {
     s.memory_bytes = static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) *
                      (rdb_bytes_a_cell + rdb_bytes_a_sum);
