@@ -93,7 +93,7 @@ Surface fill(Session& session, const FrameView& f, const Words& mixed) {
   const auto tiles_x = (f.width + DEFRAY_FILL_TILE - 1) / DEFRAY_FILL_TILE;
   const auto farthest = *std::max_element(f.coc_quanta.begin(), f.coc_quanta.end());
   const DefrayFillParams p{word(f.width), word(f.height), word(tiles_x),
-                           std::min(farthest, DEFRAY_TAME_QUANTA)};
+                           std::clamp(farthest, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA)};
   const std::size_t pixels = f.coc_quanta.size();
   const Channels in(session, f.channels);
   const cl::Buffer coc = session.buffer(pixels * sizeof(cl_int));
@@ -155,7 +155,9 @@ std::vector<Plane> soften(Session& session, const Fragments& f, int samples) {
   const DefraySoftenParams p{word(f.width), word(f.height), word(f.layers), cells_a_side(samples)};
   const std::size_t count = f.coc_quanta.size();
   const Channels in(session, f.channels);
-  const cl::Buffer coc = session.view(f.coc_quanta), coverage = session.view(f.coverage);
+  const Words whole(f.coverage.empty() ? count : 0, DEFRAY_WHOLE);
+  const cl::Buffer coc = session.view(f.coc_quanta);
+  const cl::Buffer coverage = session.view(f.coverage.empty() ? whole : f.coverage);
   const cl::Buffer out = session.buffer(count * sizeof(cl_float4));
   session.launch("soften", DEFRAY_STAGE_GROUP, {p.width, std::size_t{p.height} * p.layers}, p, coc,
                  coverage, in.of[0], in.of[1], in.of[2], in.of[3], out);

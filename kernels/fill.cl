@@ -48,7 +48,8 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
   const float kept = clamp(change, -most, most);
   const float share = change != 0.0f ? kept / change : 0.0f;
   found.coc += kept;
-  found.inverse = fmax(found.inverse + (inverse[q] - inverse[b]) * steps * share, 0.0f);
+  const float continued = found.inverse + (inverse[q] - inverse[b]) * steps * share;
+  found.inverse = continued > 0.0f ? continued : 0.0f;
   return found;
 }
 
@@ -82,7 +83,11 @@ Found look_behind(const DefrayFillParams p, __global const int* restrict coc_qua
   return nothing;
 }
 
-float brightness(const float4 c) { return c.x + c.y + c.z; }
+// How far from black, for the median: NaN counts as the brightest.
+float brightness(const float4 c) {
+  const float sum = fabs(c.x + c.y + c.z);
+  return isnan(sum) ? INFINITY : sum;
+}
 
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
                    __global const float* restrict inverse, __global const uint* restrict mixed,
@@ -105,7 +110,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   for (int i = 0; i < 9 && mixed[pixel]; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
     own = min(own, coc_of(coc_quanta, q));
-    own_inverse = fmax(own_inverse, inverse[q]);
+    if (inverse[q] > own_inverse) own_inverse = inverse[q];
   }
 
   Found found[DEFRAY_FILL_DIRECTIONS];
@@ -139,12 +144,13 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     weights += weight;
     coc += weight * f.coc;
     inverse_sum += weight * f.inverse;
-    if (bright[i] > 3.0f * fabs(median)) continue;
+    if (bright[i] > 3.0f * median) continue;
     colour_weights += weight;
     colour += weight * colour_at(channel0, channel1, channel2, channel3, f.source);
   }
   if (!(colour_weights > 0.0f)) return;
   behind_coc[pixel] = convert_int_rte(coc / weights);
-  behind_inverse[pixel] = fmin(inverse_sum / weights, own_inverse * 0.99999f);
+  const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;
+  behind_inverse[pixel] = mean < most ? mean : most;
   behind[pixel] = colour / colour_weights;
 }

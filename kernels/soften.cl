@@ -2,7 +2,8 @@
 // cells still count every pixel: a cell is 2 r / n pixels wide on the picture.
 //
 // Only fragments of nearly the same CoC count: their rays then land within half a cell of each
-// other. The mean is taken of differences to the own colour: one colour stays that colour.
+// other. The mean is taken of differences to the own colour: one colour stays that colour, and what
+// is not finite stays as it is.
 //
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
@@ -46,11 +47,12 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
       if (fabs((float)coc_quanta[q] - (float)own_coc) > alike) continue;
       const float2 inside = clamp(half_side + 0.5f - fabs(d), 0.0f, 1.0f);
       const uint share = coverage[q] & ~DEFRAY_SYNTHESISED;
-      const float weight = inside.x * inside.y * (float)share;
+      const float weight = inside.x * inside.y * ((float)share * 0x1p-16f);
       if (!(weight > 0.0f)) continue;
       sum += weight * (colour_at(channel0, channel1, channel2, channel3, q) - own);
       weights += weight;
     }
   }
-  if (weights > 0.0f) out[own_at] = own + sum / weights;
+  const float4 difference = sum / weights;  // the fragment itself has weight
+  out[own_at] = difference == 0.0f || !isfinite(own) ? own : own + difference;  // -0 stays -0
 }

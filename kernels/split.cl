@@ -69,7 +69,8 @@ Front front_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
 }
 
 // Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
-// sample decides: it most likely saw the larger share.
+// sample decides: it most likely saw the larger share. Colours that are not finite, or whose
+// squares are not, say nothing: the pixel stays whole.
 float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
   const float4 from_b = c - b, all = f - b;
   const float4 products = from_b * all, squares = all * all, sizes = f * f + b * b;
@@ -78,9 +79,20 @@ float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw
   const float size2 = sizes.x + sizes.y + sizes.z + sizes.w;
   const float unsure = 1e-3f * size2;
   const float likely = saw_front ? 0.75f : 0.25f;
-  if (!(length2 + unsure > 0.0f)) return likely;
-  const float share = clamp(length2 > 0.0f ? along / length2 : 0.0f, 0.0f, 1.0f);
+  if (!isfinite(along) || !isfinite(length2 + unsure)) return saw_front ? 1.0f : 0.0f;
+  if (length2 + unsure == 0.0f) return likely;
+  const float share = length2 > 0.0f ? clamp(along / length2, 0.0f, 1.0f) : 0.0f;
   return (share * length2 + likely * unsure) / (length2 + unsure);
+}
+
+// A coverage in 2^-16 and, of the very share that is stored, what is left of C for one surface when
+// the other has its part: never below 0 where C is not.
+uint stored(const float share) { return convert_uint_rte(share * 65536.0f); }
+
+float4 rest_of(const float4 c, const float4 other, const float others_share) {
+  const float4 rest = (c - others_share * other) / (1.0f - others_share);
+  const float4 least = c < 0.0f ? c : (float4)(0.0f);
+  return rest < least ? least : rest;
 }
 
 __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_quanta,
@@ -120,18 +132,18 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
     if (share > 1.0f - LEAST_COVERAGE) return;
-    const float kept = fmax(share, LEAST_OF_FRONT);
-    front[pixel] = fmax((c - (1.0f - kept) * b) / kept, fmin(c, 0.0f));
-    front_coverage[pixel] = convert_uint_rte(kept * 65536.0f);
+    const uint kept = stored(fmax(share, LEAST_OF_FRONT));
+    front[pixel] = rest_of(c, b, 1.0f - (float)kept * 0x1p-16f);
+    front_coverage[pixel] = kept;
   } else if (share < LEAST_COVERAGE) {
     behind_inverse[pixel] = -1.0f;
   } else {
-    const float kept = fmin(share, MOST_OF_BEHIND);
+    const uint kept = stored(fmin(share, MOST_OF_BEHIND));
     front[pixel] = f.colour;
     front_coc[pixel] = coc_quanta[f.source];
     front_inverse[pixel] = inverse[f.source];
-    front_coverage[pixel] = convert_uint_rte(kept * 65536.0f);
-    behind[pixel] = fmax((c - kept * f.colour) / (1.0f - kept), fmin(c, 0.0f));
+    front_coverage[pixel] = kept;
+    behind[pixel] = rest_of(c, f.colour, (float)kept * 0x1p-16f);
     behind_coc[pixel] = coc_quanta[pixel];
     behind_inverse[pixel] = inverse[pixel];
     behind_flags[pixel] = DEFRAY_WHOLE;
