@@ -1,0 +1,184 @@
+// Twin of kernels/fill.cl.
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "reference/stage_frame.h"
+#include "reference/stages.h"
+
+namespace defray::reference {
+namespace {
+
+/// A surface behind, met on the way over the picture.
+struct Found {
+  std::size_t source;
+  float distance;  ///< In pixels.
+  float coc;       ///< Quanta, and
+  float inverse;   ///< 1/depth: continued to where the way began.
+};
+
+/// A straight way over the picture: place after t steps of a pixel.
+struct Way {
+  Place start;
+  float x, y;
+
+  Place after(int t) const {
+    const auto rounded = [&](float d) {
+      return static_cast<int>(std::nearbyint(static_cast<float>(t) * d));
+    };
+    return start + Place{rounded(x), rounded(y)};
+  }
+};
+
+class Filler {
+ public:
+  Filler(const FrameView& f, const std::vector<std::uint32_t>& mixed)
+      : view_(f), frame_{f.width, f.height, f.coc_quanta}, mixed_(mixed) {
+    farthest_ = -DEFRAY_TAME_QUANTA;
+    for (std::size_t i = 0; i < f.coc_quanta.size(); ++i) {
+      farthest_ = std::max(farthest_, frame_.coc(i));
+    }
+  }
+
+  /// What lies behind the surface in front at a place, in each direction.
+  std::vector<Found> look_behind(Place at, int own) const {
+    std::vector<Found> all;
+    for (int i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
+      const double angle = i * 2 * std::numbers::pi / DEFRAY_FILL_DIRECTIONS;
+      const Way way{at, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+      if (const auto found = look_along(way, own)) all.push_back(*found);
+    }
+    return all;
+  }
+
+  /// Signed CoC and 1/depth of the surface in front: of a mixed pixel, the nearest around it.
+  std::pair<int, float> in_front(Place at) const {
+    const std::size_t pixel = frame_.index(at);
+    int coc = frame_.coc(pixel);
+    float inverse = view_.inverse[pixel];
+    if (!mixed_[pixel]) return {coc, inverse};
+    for_each_around(at, 1, [&](Place q) {
+      coc = std::min(coc, frame_.coc(q));
+      inverse = std::max(inverse, view_.inverse[frame_.index(q)]);
+    });
+    return {coc, inverse};
+  }
+
+ private:
+  /// How far the lens sees past the edge of a surface in front of one this much farther.
+  static int reach(int step) { return step / 256 + 2; }
+
+  std::optional<Found> look_along(const Way& way, int own) const {
+    int before = own;
+    for (int t = 1, step = 1; t <= reach(farthest_ - own); t += step) {
+      const Place at = way.after(t);
+      if (!frame_.contains(at)) return std::nullopt;
+      const int coc = frame_.coc(at);
+      const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
+      if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= reach(coc - own)) {
+        for (int i = t; i <= t + 3; ++i) {
+          const Place further = way.after(i);
+          if (!frame_.contains(further)) return std::nullopt;
+          const bool is_pure = !mixed_[frame_.index(further)];
+          if (is_pure && frame_.coc(further) - own > DEFRAY_JUMP_QUANTA) {
+            return continued(way, i, own);
+          }
+        }
+      }
+      before = coc;
+      step = 1 + t / 16;  // far away less closely
+    }
+    return std::nullopt;
+  }
+
+  /// The surface after t steps, continued back to the start, no further than half the step in CoC.
+  Found continued(const Way& way, int t, int own) const {
+    const std::size_t q = frame_.index(way.after(t));
+    const int coc = frame_.coc(q);
+    Found found{q, static_cast<float>(t), static_cast<float>(coc), view_.inverse[q]};
+    const Place beyond = way.after(t + 4);
+    if (!frame_.contains(beyond)) return found;
+    const std::size_t b = frame_.index(beyond);
+    const auto slant = static_cast<float>(coc - frame_.coc(b));  // over four pixels
+    if (mixed_[b] || std::fabs(slant) > 4 * DEFRAY_JUMP_QUANTA) return found;
+    const float most = 0.5f * static_cast<float>(coc - own);
+    const float steps = 0.25f * static_cast<float>(t);
+    const float change = slant * steps;
+    const float kept = std::clamp(change, -most, most);
+    const float share = change != 0 ? kept / change : 0;
+    found.coc += kept;
+    const float inverse = found.inverse + (view_.inverse[q] - view_.inverse[b]) * steps * share;
+    found.inverse = inverse > 0 ? inverse : 0;
+    return found;
+  }
+
+  const FrameView& view_;
+  CocFrame frame_;
+  const std::vector<std::uint32_t>& mixed_;
+  std::int32_t farthest_;
+};
+
+/// NaN counts as the brightest.
+float brightness(const Colour& c) {
+  const float sum = std::fabs(c[0] + c[1] + c[2]);
+  return std::isnan(sum) ? std::numeric_limits<float>::infinity() : sum;
+}
+
+float upper_median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Weighted mean of what lies on the nearest surface found; nothing if no colour is left.
+struct Mean {
+  float coc, inverse;
+  Colour colour;
+};
+
+std::optional<Mean> mean_of(const std::vector<Found>& all, const std::vector<Plane>& channels,
+                            int own) {
+  const Found nearest = *std::min_element(all.begin(), all.end(),
+                                          [](auto& a, auto& b) { return a.distance < b.distance; });
+  std::vector<float> bright;
+  for (const Found& f : all) bright.push_back(brightness(colour_at(channels, f.source)));
+  const float median = upper_median(bright);
+  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (nearest.coc - static_cast<float>(own));
+  float weights = 0, coc = 0, inverse = 0, colour_weights = 0;
+  Colour colour{};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::fabs(all[i].coc - nearest.coc) > alike) continue;
+    const float weight = 1 / (all[i].distance * all[i].distance);
+    weights += weight;
+    coc += weight * all[i].coc;
+    inverse += weight * all[i].inverse;
+    if (bright[i] > 3 * median) continue;
+    colour_weights += weight;
+    add(colour, weight, colour_at(channels, all[i].source));
+  }
+  if (colour_weights == 0) return std::nullopt;
+  return Mean{coc / weights, inverse / weights, divided(colour, colour_weights)};
+}
+
+}  // namespace
+
+Surface fill(const FrameView& f, const std::vector<std::uint32_t>& mixed) {
+  const std::size_t pixels = f.coc_quanta.size();
+  Surface out{f.coc_quanta, Plane(pixels, -1), {f.channels.size(), Plane(pixels)}, {}};
+  const Filler filler(f, mixed);
+  const CocFrame frame{f.width, f.height, f.coc_quanta};
+  frame.for_each_place([&](Place at) {
+    const auto [own, own_inverse] = filler.in_front(at);
+    const std::vector<Found> all = filler.look_behind(at, own);
+    if (all.empty()) return;
+    const auto mean = mean_of(all, f.channels, own);
+    if (!mean) return;
+    const std::size_t pixel = frame.index(at);
+    out.coc_quanta[pixel] = static_cast<std::int32_t>(std::nearbyint(mean->coc));
+    out.inverse[pixel] = std::min(own_inverse * 0.99999f, mean->inverse);  // behind
+    set_colour(out.channels, pixel, mean->colour);
+  });
+  return out;
+}
+
+}  // namespace defray::reference

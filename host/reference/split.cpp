@@ -1,0 +1,153 @@
+// Twin of kernels/split.cl.
+#include <optional>
+
+#include "reference/stage_frame.h"
+#include "reference/stages.h"
+
+namespace defray::reference {
+namespace {
+
+/// The surface in front, from the pixels around.
+struct Front {
+  Colour colour;
+  std::size_t source;  ///< Whose depth it has.
+};
+
+/// a . b, added in channel order.
+float dot(const Colour& a, const Colour& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+Colour minus(Colour a, const Colour& b) {
+  for (std::size_t c = 0; c < 4; ++c) a[c] -= b[c];
+  return a;
+}
+
+class Splitter {
+ public:
+  Splitter(const FrameView& f, const std::vector<std::uint32_t>& mixed)
+      : view_(f), frame_{f.width, f.height, f.coc_quanta}, mixed_(mixed) {}
+
+  /// Halfway between the nearest and the farthest pixel around.
+  int middle(Place at) const {
+    int nearest = frame_.coc(at), farthest = nearest;
+    for_each_around(at, 1, [&](Place q) {
+      nearest = std::min(nearest, frame_.coc(q));
+      farthest = std::max(farthest, frame_.coc(q));
+    });
+    return nearest + (farthest - nearest) / 2;
+  }
+
+  /// Pure pixels in front, weighed by 1 / distance^4; the nearest lends its depth.
+  std::optional<Front> pure_front(Place at, int middle) const {
+    Front front{};
+    float weights = 0, largest = 0;
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (mixed_[q] || frame_.coc(q) >= middle) return;
+      const Place d = place - at;
+      const int distance2 = d.x * d.x + d.y * d.y;
+      const float weight = 1.0f / static_cast<float>(distance2 * distance2);
+      add(front.colour, weight, colour_at(view_.channels, q));
+      weights += weight;
+      if (weight > largest) front.source = q;
+      largest = std::max(largest, weight);
+    });
+    if (weights == 0) return std::nullopt;
+    front.colour = divided(front.colour, weights);
+    return front;
+  }
+
+  /// Of what is too thin for pure pixels, the one least like the surface behind.
+  std::optional<Front> thin_front(Place at, int middle, const Colour& behind) const {
+    std::optional<Front> front;
+    float farthest = -1;
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) >= middle) return;
+      const Colour colour = colour_at(view_.channels, q), d = minus(colour, behind);
+      if (!(dot(d, d) > farthest)) return;
+      farthest = dot(d, d);
+      front = {colour, q};
+    });
+    return front;
+  }
+
+ private:
+  const FrameView& view_;
+  CocFrame frame_;
+  const std::vector<std::uint32_t>& mixed_;
+};
+
+/// Share a of the front F that makes a F + (1 - a) B most like C, drawn towards what is likely
+/// where F and B are alike.
+float coverage_of(const Colour& c, const Colour& f, const Colour& b, bool saw_front) {
+  const Colour all = minus(f, b);
+  const float along = dot(minus(c, b), all), length2 = dot(all, all);
+  Colour sizes;
+  for (std::size_t i = 0; i < 4; ++i) sizes[i] = f[i] * f[i] + b[i] * b[i];
+  const float unsure = 1e-3f * (sizes[0] + sizes[1] + sizes[2] + sizes[3]);
+  const float likely = saw_front ? 0.75f : 0.25f;
+  if (!std::isfinite(along) || !std::isfinite(length2 + unsure)) return saw_front ? 1 : 0;
+  if (length2 + unsure == 0) return likely;
+  const float share = length2 > 0 ? std::clamp(along / length2, 0.0f, 1.0f) : 0;
+  return (share * length2 + likely * unsure) / (length2 + unsure);
+}
+
+/// C without the other surface's part, never below 0 where C is not.
+Colour rest_of(const Colour& c, const Colour& other, float others_share) {
+  Colour rest;
+  for (std::size_t i = 0; i < 4; ++i) {
+    rest[i] = (c[i] - others_share * other[i]) / (1 - others_share);
+    const float least = c[i] < 0 ? c[i] : 0;
+    if (rest[i] < least) rest[i] = least;
+  }
+  return rest;
+}
+
+/// Coverages in 2^-16; the colours are made for the stored share.
+std::uint32_t stored(float share) {
+  return static_cast<std::uint32_t>(std::nearbyint(share * DEFRAY_WHOLE));
+}
+float share_of(std::uint32_t coverage) { return static_cast<float>(coverage) / DEFRAY_WHOLE; }
+
+}  // namespace
+
+Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surface behind) {
+  const std::size_t pixels = f.coc_quanta.size();
+  Surface front{f.coc_quanta, f.inverse, f.channels,
+                std::vector<std::uint32_t>(pixels, DEFRAY_WHOLE)};
+  behind.coverage.assign(pixels, DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
+  const Splitter splitter(f, mixed);
+  const CocFrame frame{f.width, f.height, f.coc_quanta};
+  frame.for_each_place([&](Place at) {
+    const std::size_t pixel = frame.index(at);
+    if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
+    const Colour c = colour_at(f.channels, pixel), b = colour_at(behind.channels, pixel);
+    const int middle = splitter.middle(at);
+    const bool saw_front = frame.coc(at) < middle;
+    auto found = splitter.pure_front(at, middle);
+    if (!found) found = splitter.thin_front(at, middle, b);
+    const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
+    if (saw_front) {
+      if (share > 1 - 0.03f) return;
+      front.coverage[pixel] = stored(std::max(share, 0.25f));
+      set_colour(front.channels, pixel, rest_of(c, b, 1 - share_of(front.coverage[pixel])));
+    } else if (share < 0.03f) {
+      behind.inverse[pixel] = -1;
+    } else {
+      front.coverage[pixel] = stored(std::min(share, 0.75f));
+      front.coc_quanta[pixel] = f.coc_quanta[found->source];
+      front.inverse[pixel] = f.inverse[found->source];
+      set_colour(front.channels, pixel, found->colour);
+      behind.coc_quanta[pixel] = f.coc_quanta[pixel];
+      behind.inverse[pixel] = f.inverse[pixel];
+      behind.coverage[pixel] = DEFRAY_WHOLE;
+      set_colour(behind.channels, pixel,
+                 rest_of(c, found->colour, share_of(front.coverage[pixel])));
+    }
+  });
+  return {front, behind};
+}
+
+}  // namespace defray::reference

@@ -1,0 +1,75 @@
+#pragma once
+// What the stages' twins share: pixels by place, CoC radii in range, colours of four channels.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "reference/stages.h"
+
+namespace defray::reference {
+
+struct Place {
+  int x, y;
+};
+
+inline Place operator+(Place a, Place b) { return {a.x + b.x, a.y + b.y}; }
+inline Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
+inline Place operator*(int n, Place a) { return {n * a.x, n * a.y}; }
+
+/// A frame's CoC, which goes on beyond its edges.
+struct CocFrame {
+  int width, height;
+  const std::vector<std::int32_t>& coc_quanta;
+
+  bool contains(Place at) const { return at.x >= 0 && at.y >= 0 && at.x < width && at.y < height; }
+  std::size_t index(Place at) const {
+    return static_cast<std::size_t>(std::clamp(at.y, 0, height - 1)) *
+               static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(std::clamp(at.x, 0, width - 1));
+  }
+  /// Limited to what differences can be taken of.
+  std::int32_t coc(std::size_t pixel) const {
+    return std::clamp(coc_quanta[pixel], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
+  }
+  std::int32_t coc(Place at) const { return coc(index(at)); }
+
+  template <typename Visit>
+  void for_each_place(const Visit& visit) const {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) visit(Place{x, y});
+    }
+  }
+};
+
+/// The pixels up to `reach` away in both directions, row by row.
+template <typename Visit>
+void for_each_around(Place at, int reach, const Visit& visit) {
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) visit(at + Place{x, y});
+  }
+}
+
+/// Four channels; a missing one repeats the last.
+using Colour = std::array<float, 4>;
+
+inline Colour colour_at(const std::vector<Plane>& channels, std::size_t pixel) {
+  Colour colour;
+  for (std::size_t c = 0; c < 4; ++c) colour[c] = channels[std::min(c, channels.size() - 1)][pixel];
+  return colour;
+}
+
+inline void set_colour(std::vector<Plane>& channels, std::size_t pixel, const Colour& colour) {
+  for (std::size_t c = 0; c < channels.size(); ++c) channels[c][pixel] = colour[c];
+}
+
+/// sum += weight * colour
+inline void add(Colour& sum, float weight, const Colour& colour) {
+  for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * colour[c];
+}
+
+inline Colour divided(Colour sum, float weights) {
+  for (float& channel : sum) channel /= weights;
+  return sum;
+}
+
+}  // namespace defray::reference
