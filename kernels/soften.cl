@@ -30,22 +30,22 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
   if (side <= 1.0f || (coverage[own_at] & ~DEFRAY_SYNTHESISED) == 0u) return;
 
   const float half_side = 0.5f * side;
-  const float reach = floor(half_side + 0.5f);
+  const int reach = (int)(half_side + 0.5f);
   // Wide squares are sampled with a stride.
-  const float stride = fmax(1.0f, ceil((2.0f * reach + 1.0f) / DEFRAY_SOFTEN_TAPS));
-  const int taps = (int)floor(fmin(reach / stride, (float)(DEFRAY_SOFTEN_TAPS / 2)));
+  const int stride = max(1, (2 * reach + DEFRAY_SOFTEN_TAPS) / DEFRAY_SOFTEN_TAPS);
+  const int taps = min(reach / stride, DEFRAY_SOFTEN_TAPS / 2);
   const float alike = 128.0f * fmax(side, 1.0f);  // half a cell, in quanta
   const uint y = row / p.layers, layer = row % p.layers;
   float4 sum = 0.0f;
   float weights = 0.0f;
   for (int j = -taps; j <= taps; ++j) {
     for (int i = -taps; i <= taps; ++i) {
-      const float2 d = stride * (float2)((float)i, (float)j);
-      const int2 at = (int2)((int)x, (int)y) + convert_int2(d);
+      const int2 d = stride * (int2)(i, j);
+      const int2 at = (int2)((int)x, (int)y) + d;
       if (at.x < 0 || at.y < 0 || at.x >= (int)p.width || at.y >= (int)p.height) continue;
       const uint q = ((uint)at.y * p.layers + layer) * p.width + (uint)at.x;
       if (fabs((float)coc_quanta[q] - (float)own_coc) > alike) continue;
-      const float2 inside = clamp(half_side + 0.5f - fabs(d), 0.0f, 1.0f);
+      const float2 inside = clamp(half_side + 0.5f - convert_float2(abs(d)), 0.0f, 1.0f);
       const uint share = coverage[q] & ~DEFRAY_SYNTHESISED;
       const float weight = inside.x * inside.y * ((float)share * 0x1p-16f);
       if (!(weight > 0.0f)) continue;

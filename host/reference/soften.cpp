@@ -13,11 +13,9 @@ struct Square {
   int stride, taps;
 
   explicit Square(float side) : half_side(0.5f * side) {
-    const float reach = std::floor(half_side + 0.5f);
-    const float steps = std::ceil((2 * reach + 1) / DEFRAY_SOFTEN_TAPS);
-    stride = static_cast<int>(std::max(1.0f, steps));
-    taps = static_cast<int>(
-        std::min(reach / static_cast<float>(stride), static_cast<float>(DEFRAY_SOFTEN_TAPS / 2)));
+    const int reach = static_cast<int>(half_side + 0.5f), side_px = 2 * reach + 1;
+    stride = (side_px + DEFRAY_SOFTEN_TAPS - 1) / DEFRAY_SOFTEN_TAPS;
+    taps = std::min(reach / stride, DEFRAY_SOFTEN_TAPS / 2);
   }
   /// How much of a pixel this far along x or y lies inside.
   float inside(int offset) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "gather.h"
 #include "linear.h"
@@ -226,6 +227,16 @@ Values twin_reach(const Case& c, const Input& in) {
   return integers(reference::gather_reach(c.width, c.height, in.coc_quanta));
 }
 
+/// The whole table, by name.
+std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
+  const std::vector<KernelCheck> stages = stage_checks();
+  checks.insert(checks.end(), stages.begin(), stages.end());
+  std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {
+    return std::string_view(a.name) < b.name;
+  });
+  return checks;
+}
+
 constexpr const char* winners_rule = "equal winners: integer arithmetic";
 constexpr const char* integer_rule = "equal: integer arithmetic";
 constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
@@ -234,7 +245,7 @@ constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 const std::vector<KernelCheck>& kernel_checks() {
   constexpr GatherKind literal = GatherKind::literal, aware = GatherKind::aware;
-  static const std::vector<KernelCheck> checks = {
+  static const std::vector<KernelCheck> checks = with_stages({
       {"coc", "within 1/2 quantum + 4 ulp of the exact radius", run_coc, twin_coc, pixels, nullptr,
        exact_coc},
       {"gather_aware", bits_rule, run_gather<aware>, twin_gather<aware>, gather_work,
@@ -252,7 +263,7 @@ const std::vector<KernelCheck>& kernel_checks() {
       {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work, nullptr,
        nullptr, true},
       {"tiltshift", bits_rule, run_tiltshift, twin_tiltshift, pixels},
-  };
+  });
   return checks;
 }
 

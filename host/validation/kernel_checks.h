@@ -10,7 +10,7 @@
 
 namespace defray::validation {
 
-/// What a kernel or its twin gives: whole numbers, or planes of floats.
+/// What a kernel or its twin gives: whole numbers, planes of floats, or both.
 struct Values {
   std::vector<std::int64_t> integers = {};
   std::vector<Plane> planes = {};
@@ -43,6 +43,9 @@ struct KernelCheck {
 
   bool needs_two_passes = false;  ///< Runs without 64-bit atomics.
 };
+
+/// Those of the stages before the RDB: a part of the table.
+std::vector<KernelCheck> stage_checks();
 
 /// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();

@@ -27,7 +27,7 @@ struct Verdict {
   std::array<std::uint64_t, ulp_bins> ulp_histogram{};  ///< Of floats.
 
   double worst = 0;          ///< Largest difference from the twin: whole numbers, or floats in ulp.
-  std::size_t worst_at = 0;  ///< Index among all its values, plane by plane.
+  std::size_t worst_at = 0;  ///< Index among all its values: whole numbers, then plane by plane.
   double exact_share = 0;    ///< Largest error against exact arithmetic, as a share of its bound.
 
   bool has_floats() const;

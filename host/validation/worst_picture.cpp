@@ -34,7 +34,7 @@ Plane enlarged(const Plane& plane, int width, int scale, int padded_px) {
 /// The plane that holds the value `at`, whole numbers as floats; empty where the values are no
 /// picture (tiles).
 Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
-  if (!values.planes.empty()) return values.planes[at / pixels];
+  if (at >= values.integers.size()) return values.planes[(at - values.integers.size()) / pixels];
   const std::size_t first = at / pixels * pixels;
   if (first + pixels > values.integers.size()) return {};
   const auto begin = values.integers.begin() + static_cast<std::int64_t>(first);
