@@ -2,19 +2,18 @@
 // Faults to put into the kernels, one at a time: 'defray validate' must find every one.
 #include <vector>
 
-#include "opencl/session.h"
+#include "faults_stages.h"
 
 namespace defray::test {
 
-struct Fault {
-  const char* kernel;  ///< Whose check must fail.
-  const char* what;
-  Substitution change;
-  bool is_race = false;  ///< Shows on hardware by chance only: Oclgrind must find it.
-};
+inline std::vector<Fault> with_stages(std::vector<Fault> faults) {
+  const std::vector<Fault> stages = stage_faults();
+  faults.insert(faults.end(), stages.begin(), stages.end());
+  return faults;
+}
 
 inline const std::vector<Fault>& faults() {
-  static const std::vector<Fault> all = {
+  static const std::vector<Fault> all = with_stages({
       {"coc", "sign of the CoC", {"(z - p.focus_hi_units)", "(p.focus_hi_units - z)"}},
       {"coc", "focus distance cut to a float", {") - p.focus_lo_units", ")"}},
       {"coc",
@@ -184,7 +183,7 @@ inline const std::vector<Fault>& faults() {
        "last tile in reach dropped",
        {"here + p.reach_tiles, tiles", "here + p.reach_tiles - 1, tiles"}},
       {"gather_reach", "exact reach does not count", {"<= theirs)", "< theirs)"}},
-  };
+  });
   return all;
 }
 

@@ -1,0 +1,105 @@
+// Kernels repair and edges: anti-aliased depth, and where one surface ends before another.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "stages_support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr int side = 21;
+
+/// CoC of two surfaces, 0 and 1024 quanta, parted by a line across (dx, dy) through the middle,
+/// `offset_px` away; over `width_px` around it depth is anti-aliased.
+std::vector<std::int32_t> step_along(int dx, int dy, double width_px, double offset_px, int sign) {
+  std::vector<std::int32_t> coc;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const double along = ((x - side / 2) * dx + (y - side / 2) * dy) / std::hypot(dx, dy);
+      const double from_line = along - offset_px;
+      const double share = width_px > 0 ? std::clamp(0.5 + from_line / width_px, 0.0, 1.0)
+                                        : (from_line > 0 ? 1.0 : 0.0);
+      coc.push_back(sign * static_cast<std::int32_t>(1024 * share));
+    }
+  }
+  return coc;
+}
+
+/// A quarter of a pixel in CoC: as good as on the surface.
+bool is_close(int a, int b) { return std::abs(a - b) <= DEFRAY_JUMP_QUANTA / 4; }
+
+/// Number of pixels that were on neither surface, and now are on one.
+int expect_ramp_repaired(const std::vector<std::int32_t>& coc) {
+  const Words source = repair(session(), side, side, coc);
+  int ramps = 0;
+  for (int y = 4; y < side - 4; ++y) {
+    for (int x = 4; x < side - 4; ++x) {
+      const auto i = static_cast<std::size_t>(y * side + x);
+      const int before = std::abs(coc[i]), after = std::abs(coc[source[i]]);
+      EXPECT_TRUE(is_close(after, 0) || is_close(after, 1024)) << x << " " << y << ": " << after;
+      if (!is_close(before, 512)) {  // the nearer one
+        EXPECT_EQ(after > 512, before > 512) << x << " " << y;
+      }
+      if (before == 0 || before == 1024) {
+        EXPECT_EQ(source[i], i);
+      }
+      ramps += !is_close(before, 0) && !is_close(before, 1024);
+    }
+  }
+  return ramps;
+}
+
+TEST(Repair, AntiAliasedDepthIsPutOnOneOfTheTwoSurfaces) {
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}, {-1, 0}, {-1, -1}}) {
+    for (const double width_px : {1.0, 1.5, 2.0}) {
+      for (const double offset_px : {0.0, 0.25, -0.25, 0.5}) {
+        for (const int sign : {1, -1}) {
+          SCOPED_TRACE(fmt::format("({}, {}), {} px at {}", dx, dy, width_px, offset_px));
+          const int ramps = expect_ramp_repaired(step_along(dx, dy, width_px, offset_px, sign));
+          const bool is_on_pixel_border = width_px == 1 && offset_px == 0.5 && dx * dy == 0;
+          EXPECT_EQ(ramps > 0, !is_on_pixel_border);
+        }
+      }
+    }
+  }
+}
+
+TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
+  const auto expect_untouched = [](const std::vector<std::int32_t>& coc) {
+    Words own(coc.size());
+    std::iota(own.begin(), own.end(), 0u);
+    EXPECT_EQ(repair(session(), side, side, coc), own);
+  };
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
+    expect_untouched(step_along(dx, dy, 0, 0.25, 1));
+    auto small = step_along(dx, dy, 1, 0, 1);
+    for (std::int32_t& c : small) c /= 2;  // 512 quanta: not above two jumps
+    expect_untouched(small);
+    std::vector<std::int32_t> slope;
+    for (int i = 0; i < side * side; ++i)
+      slope.push_back(700 * (dx * (i % side) + dy * (i / side)));
+    // At the frame's edge a slope's end cannot be told from a flat surface's.
+    const Words source = repair(session(), side, side, slope);
+    for (int y = 4; y < side - 4; ++y) {
+      for (int x = 4; x < side - 4; ++x) {
+        EXPECT_EQ(source[static_cast<std::size_t>(y * side + x)],
+                  static_cast<std::uint32_t>(y * side + x));
+      }
+    }
+  }
+}
+
+TEST(Edges, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
+  Frame f(12, 6);
+  f.add_bar(4, 8);
+  const Words mixed = f.mixed();
+  f.each([&](int x, int y) {
+    EXPECT_EQ(mixed[f.at(x, y)], x == 3 || x == 4 || x == 7 || x == 8) << x << " " << y;
+  });
+  for (std::int32_t& c : f.coc) c = c == 0 ? 1536 - 256 : c;
+  for (const std::uint32_t m : f.mixed()) EXPECT_EQ(m, 0u);
+}
+
+}  // namespace
+}  // namespace defray::test

@@ -1,0 +1,139 @@
+// Kernel fill: what lies behind.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stages_support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+TEST(Fill, BehindABarThePlaneGoesOn) {
+  Frame f(60, 40);
+  f.each([&](int x, int y) { f.paint(x, y, 0.25f, 0.5f, 0.75f); });
+  for (int y = 0; y < f.height; ++y) {
+    for (int x = 27; x < 33; ++x) f.paint(x, y, 1, 0, 0);
+  }
+  f.add_bar(27, 33);
+  const Surface behind = f.filled();
+  for (int y = 0; y < f.height; ++y) {
+    for (int x = 28; x < 32; ++x) {  // the bar's pure pixels
+      const std::size_t i = f.at(x, y);
+      EXPECT_EQ(behind.coc_quanta[i], 1536);
+      EXPECT_NEAR(behind.inverse[i], 0.2f, 0.2f * 0x1p-20f);
+      EXPECT_NEAR(behind.channels[0][i], 0.25f, 0x1p-22f);
+      EXPECT_NEAR(behind.channels[1][i], 0.5f, 0x1p-21f);
+      EXPECT_NEAR(behind.channels[2][i], 0.75f, 0x1p-20f);
+      EXPECT_NEAR(behind.channels[3][i], 1.0f, 0x1p-20f);
+    }
+  }
+}
+
+/// Ways in 16 directions end in whole pixels: a source lies up to half a pixel beside its way, and
+/// its slant, taken over 4 pixels, is off by up to a pixel's in them. t pixels away that leaves at
+/// worst 1/2 + t / 4 of the slant a pixel, where a plane without slant would be off by t.
+TEST(Fill, BehindAnEdgeASlantedPlaneKeepsItsSlant) {
+  for (const double slant : {12.0, -40.0}) {
+    Frame f(80, 60);
+    f.each([&](int x, int y) {
+      f.coc[f.at(x, y)] = static_cast<std::int32_t>(3000 + slant * (x - 40));
+      f.inverse[f.at(x, y)] = static_cast<float>(0.2 - slant * 1e-4 * (x - 40));
+    });
+    const std::vector<std::int32_t> plane = f.coc;
+    const Plane plane_inverse = f.inverse;
+    f.add_bar(36, 80);
+    const Surface behind = f.filled();
+    for (int y = 25; y < 35; ++y) {
+      for (int x = 37; x < 43; ++x) {
+        const std::size_t i = f.at(x, y);
+        const double t = x - 34;  // 35 is mixed
+        EXPECT_NEAR(behind.coc_quanta[i], plane[i], std::fabs(slant) * (0.5 + t / 4)) << x;
+        EXPECT_NEAR(behind.inverse[i], plane_inverse[i], std::fabs(slant) * 1e-4 * (0.5 + t / 4));
+      }
+    }
+  }
+}
+
+/// Rows alone: one way left and one right, both exact.
+TEST(Fill, BehindABarInARowTheSlantIsExact) {
+  Frame f(81, 1);
+  f.each([&](int x, int y) {
+    f.coc[f.at(x, y)] = 1536 + 16 * (x - 40);
+    f.inverse[f.at(x, y)] = 0.2f - (x - 40) / 1024.0f;
+  });
+  const std::vector<std::int32_t> plane = f.coc;
+  const Plane plane_inverse = f.inverse;
+  f.add_bar(37, 44);
+  const Surface behind = f.filled();
+  for (int x = 37; x < 44; ++x) {
+    EXPECT_EQ(behind.coc_quanta[f.at(x, 0)], plane[f.at(x, 0)]) << x;
+    EXPECT_NEAR(behind.inverse[f.at(x, 0)], plane_inverse[f.at(x, 0)], 0x1p-22f) << x;
+  }
+}
+
+TEST(Fill, ReachesAsFarAsTheLensSeesPastTheEdgeAndNoFurther) {
+  Frame f(200, 3);
+  f.add_bar(50, 200);
+  const Surface behind = f.filled();
+  int filled = 0;
+  for (int x = 50; x < 200; ++x) {
+    const bool is_there = behind.inverse[f.at(x, 1)] >= 0;
+    filled += is_there;
+    // 6 px of CoC, 2 more; the plane's last pixel is 49.
+    EXPECT_EQ(is_there, x - 49 <= 6 + 2) << x;
+    EXPECT_EQ(behind.coc_quanta[f.at(x, 1)], is_there ? 1536 : 0) << x;
+  }
+  EXPECT_EQ(filled, 8);
+}
+
+TEST(Fill, NothingLiesBehindTheFarthestOrBesideItself) {
+  Frame f(60, 20);
+  f.add_bar(20, 26);
+  const Surface behind = f.filled();
+  // Mixed pixels of the plane have the bar in front of them; pure ones nothing.
+  f.each([&](int x, int y) {
+    if (x < 19 || x > 26) {
+      EXPECT_EQ(behind.inverse[f.at(x, y)], -1.0f) << x << " " << y;
+    }
+  });
+  Frame slope(60, 20);  // steep, but one surface
+  slope.each([&](int x, int y) { slope.coc[slope.at(x, y)] = 250 * x; });
+  for (const float i : slope.filled().inverse) EXPECT_EQ(i, -1.0f);
+}
+
+TEST(Fill, ANearerSurfaceNeverFills) {
+  Frame f(60, 20);
+  for (std::int32_t& c : f.coc) c = 0;
+  f.each([&](int x, int y) {
+    if (x >= 20 && x < 40) f.coc[f.at(x, y)] = -1536;
+    f.paint(x, y, f.coc[f.at(x, y)] < 0 ? 1 : 0, 0, 0);
+  });
+  const Surface behind = f.filled();
+  f.each([&](int x, int y) {
+    const std::size_t i = f.at(x, y);
+    if (behind.inverse[i] < 0) return;
+    EXPECT_EQ(behind.coc_quanta[i], 0);
+    EXPECT_EQ(behind.channels[0][i], 0.0f);
+    EXPECT_TRUE(x >= 19 && x <= 40) << x;
+  });
+  EXPECT_GE(behind.inverse[f.at(20, 10)], 0.0f);
+}
+
+TEST(Fill, ALoneHighlightDoesNotSmear) {
+  for (const float highlight : {1e4f, std::numeric_limits<float>::max(), infinite, nan}) {
+    Frame f(60, 40);
+    f.each([&](int x, int y) { f.paint(x, y, 0.5f, 0.5f, 0.5f); });
+    f.add_bar(27, 33);
+    f.paint(34, 20, highlight, highlight, highlight);
+    const Surface behind = f.filled();
+    for (int y = 0; y < f.height; ++y) {
+      for (int x = 28; x < 32; ++x) EXPECT_NEAR(behind.channels[0][f.at(x, y)], 0.5f, 0x1p-20f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test

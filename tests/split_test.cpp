@@ -1,0 +1,103 @@
+// Kernel split: mixed pixels taken apart.
+#include <cmath>
+#include <limits>
+
+#include "stages_support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// A bar over the plane whose edges cover their pixels by `share`; depth sees the bar or the plane.
+Frame bar_with_mixed_edges(float share, bool saw_front) {
+  Frame f(60, 20);
+  const float front[3] = {2.0f, 1.5f, 0.1f}, behind[3] = {0.1f, 0.2f, 1.8f};
+  f.add_bar(saw_front ? 24 : 25, saw_front ? 36 : 35);
+  f.each([&](int x, int y) {
+    const float a = x == 24 || x == 35 ? share : x > 24 && x < 35 ? 1.0f : 0.0f;
+    f.paint(x, y, a * front[0] + (1 - a) * behind[0], a * front[1] + (1 - a) * behind[1],
+            a * front[2] + (1 - a) * behind[2]);
+  });
+  return f;
+}
+
+TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
+  for (const bool saw_front : {false, true}) {
+    for (const float share : {0.3f, 0.5f, 0.6f, 0.74f}) {
+      const Frame f = bar_with_mixed_edges(share, saw_front);
+      const auto [front, behind] = f.parted();
+      for (int y = 0; y < f.height; ++y) {
+        for (const int x : {24, 35}) {
+          const std::size_t i = f.at(x, y);
+          const double a = front.coverage[i] / 65536.0;
+          EXPECT_NEAR(a, share, 1e-3);  // drawn to what is likely by 1e-3 |F|^2 / |F - B|^2
+          EXPECT_EQ(front.coc_quanta[i], 0);
+          EXPECT_EQ(behind.coc_quanta[i], 1536);
+          EXPECT_EQ(behind.coverage[i],
+                    saw_front ? DEFRAY_WHOLE | DEFRAY_SYNTHESISED : DEFRAY_WHOLE);
+          for (std::size_t c = 0; c < 4; ++c) {
+            const double colour = f.channels[c][i];
+            const double again = a * front.channels[c][i] + (1 - a) * behind.channels[c][i];
+            EXPECT_NEAR(again, colour, 2 * 4 * 0x1p-23);
+          }
+          EXPECT_NEAR(front.channels[3][i], 1.0f, 1e-6f);
+          EXPECT_NEAR(behind.channels[3][i], 1.0f, 1e-6f);
+        }
+      }
+    }
+  }
+}
+
+TEST(Split, WithoutAStepNothingChanges) {
+  Frame f(31, 17);
+  f.channels = {random_plane({31, 17}, 1), random_plane({31, 17}, 2)};
+  f.channels[0][5] = -0.0f;
+  f.channels[1][6] = nan;
+  const auto [front, behind] = f.parted();
+  for (std::size_t c = 0; c < 2; ++c) expect_same_bits(front.channels[c], f.channels[c]);
+  expect_same_bits(front.inverse, f.inverse);
+  EXPECT_EQ(front.coc_quanta, f.coc);
+  for (std::size_t i = 0; i < f.count(); ++i) {
+    EXPECT_EQ(front.coverage[i], DEFRAY_WHOLE);
+    EXPECT_EQ(behind.inverse[i], -1.0f);
+  }
+}
+
+TEST(Split, AThinBrightThingIsTakenApart) {
+  // A line one pixel wide at half a pixel's offset: half in one column, half in the next.
+  Frame f(40, 20);
+  for (int y = 0; y < f.height; ++y) f.paint(19, y, 4, 4, 4);  // the part that depth saw
+  for (int y = 0; y < f.height; ++y) f.paint(20, y, 1, 1, 1);  // a quarter of it
+  f.add_bar(19, 20);
+  const auto [front, behind] = f.parted();
+  for (int y = 3; y < f.height - 3; ++y) {
+    EXPECT_EQ(front.coverage[f.at(19, y)], DEFRAY_WHOLE);
+    EXPECT_NEAR(front.coverage[f.at(20, y)] / 65536.0, 0.25, 2e-3);
+    EXPECT_EQ(front.channels[0][f.at(20, y)], 4.0f);
+    EXPECT_EQ(front.coc_quanta[f.at(20, y)], 0);
+    EXPECT_NEAR(behind.channels[0][f.at(20, y)], 0.0f, 1e-2f);
+    EXPECT_EQ(behind.coc_quanta[f.at(20, y)], 1536);
+  }
+}
+
+TEST(Split, WhatIsNotFiniteStaysWhole) {
+  for (const float odd : {infinite, -infinite, nan}) {
+    Frame f = bar_with_mixed_edges(0.5f, true);
+    f.paint(24, 10, odd, 0.5f, 0.5f);
+    const auto [front, behind] = f.parted();
+    const std::size_t i = f.at(24, 10);
+    EXPECT_EQ(front.coverage[i], DEFRAY_WHOLE);
+    expect_same_bits({front.channels[0][i]}, {odd});
+    for (std::size_t k = 0; k < f.count(); ++k) {
+      if (k != i) {
+        EXPECT_TRUE(std::isfinite(front.channels[0][k])) << k;
+      }
+      EXPECT_TRUE(std::isfinite(behind.channels[0][k])) << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
