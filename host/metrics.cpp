@@ -16,8 +16,6 @@ constexpr std::size_t rgb = 3;
 
 double clipped(float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
 
-double encoded(float value) { return srgb_encode(clipped(value)); }
-
 /// Of two infinities of one sign, 0; NaN where a value is NaN.
 double difference(float a, float b) {
   return a == b ? 0 : static_cast<double>(a) - static_cast<double>(b);
@@ -26,13 +24,6 @@ double difference(float a, float b) {
 /// Peak signal is 1.
 double psnr_db(double squared_error_sum, double count) {
   return 10 * std::log10(count / squared_error_sum);
-}
-
-void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b) {
-  if (a.size() < rgb || b.size() < rgb || a[0].size() != b[0].size()) {
-    fail(ExitCode::usage, "pictures to compare differ in size: {} and {} pixels",
-         a.empty() ? 0 : a[0].size(), b.empty() ? 0 : b[0].size());
-  }
 }
 
 /// Errors over the pixels that `is_counted` accepts.
@@ -45,7 +36,7 @@ Errors errors_over(const std::vector<Plane>& a, const std::vector<Plane>& b,
     for (std::size_t i = 0; i < a[c].size(); ++i) {
       if (!is_counted(i)) continue;
       errors.pixels += c == 0;
-      const double encoded_error = encoded(a[c][i]) - encoded(b[c][i]);
+      const double encoded_error = shown_value(a[c][i]) - shown_value(b[c][i]);
       const double linear_error = clipped(a[c][i]) - clipped(b[c][i]);
       const double raw_error = difference(a[c][i], b[c][i]);
       encoded_sum += encoded_error * encoded_error;
@@ -82,7 +73,7 @@ void find_worst(const std::vector<Plane>& a, const std::vector<Plane>& b, int wi
 cv::Mat encoded_bytes(const Plane& plane, int width) {
   cv::Mat image(static_cast<int>(plane.size()) / width, width, CV_32F);
   std::transform(plane.begin(), plane.end(), image.begin<float>(),
-                 [](float value) { return static_cast<float>(255 * encoded(value)); });
+                 [](float value) { return static_cast<float>(255 * shown_value(value)); });
   return image;
 }
 
@@ -106,6 +97,15 @@ double energy(const std::vector<Plane>& picture) {
 
 }  // namespace
 
+double shown_value(float linear) { return srgb_encode(clipped(linear)); }
+
+void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b) {
+  if (a.size() < rgb || b.size() < rgb || a[0].size() != b[0].size()) {
+    fail(ExitCode::usage, "pictures to compare differ in size: {} and {} pixels",
+         a.empty() ? 0 : a[0].size(), b.empty() ? 0 : b[0].size());
+  }
+}
+
 Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width) {
   require_same_size(a, b);
   Comparison result{errors_over(a, b, [](std::size_t) { return true; })};
@@ -127,7 +127,7 @@ std::vector<Plane> difference_picture(const std::vector<Plane>& a, const std::ve
   std::vector<Plane> picture(rgb, Plane(a[0].size()));
   for (std::size_t c = 0; c < rgb; ++c) {
     for (std::size_t i = 0; i < a[c].size(); ++i) {
-      const double shown = 1 - amplify * std::fabs(encoded(a[c][i]) - encoded(b[c][i]));
+      const double shown = 1 - amplify * std::fabs(shown_value(a[c][i]) - shown_value(b[c][i]));
       picture[c][i] = shown > 0 ? static_cast<float>(srgb_decode(shown)) : 0;
     }
   }
