@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "commands.h"
 #include "error.h"
@@ -12,16 +13,30 @@
 #include "options.h"
 #include "progress.h"
 #include "scenes/render.h"
+#include "sequence.h"
 
 namespace defray::cli {
 namespace {
 
 struct Options {
-  std::string name, folder, setting;
+  std::string name, folder, setting, frames;
   int width = 640, height = 480, truth_samples = 256;
+  PinholeSampling pinhole;
   std::uint32_t seed = 1;
-  bool hidden = false;
+  bool hidden = false, alpha = false;
 };
+
+/// How noisy truths are, by setting; of several frames, the noisiest.
+using Noise = std::map<std::string, Comparison>;
+
+/// A frame to be written; no number where the picture is the only one.
+using FrameNumber = std::optional<int>;
+
+/// "truth" -> "FOLDER/truth.exr", or "FOLDER/truth.0007.exr".
+std::string path_of(const Options& o, const std::string& name, FrameNumber frame) {
+  if (!frame) return o.folder + "/" + name + ".exr";
+  return frame_path(o.folder + "/" + name + ".####.exr", *frame);
+}
 
 void write_planes(const std::string& path, const std::vector<std::string>& channels,
                   const std::vector<Plane>& planes, const Scene& scene) {
@@ -31,54 +46,110 @@ void write_planes(const std::string& path, const std::vector<std::string>& chann
   fmt::print("{}\n", path);
 }
 
-void write_picture(const std::string& path, ScenePicture picture, const Scene& scene) {
-  picture.colour.push_back(std::move(picture.depth));
-  write_planes(path, {"R", "G", "B", "Z"}, picture.colour, scene);
+void write_picture(const Options& o, const std::string& path, ScenePicture picture,
+                   const Scene& scene) {
+  std::vector<std::string> channels{"R", "G", "B"};
+  std::vector<Plane> planes = std::move(picture.colour);
+  if (o.alpha) {
+    channels.push_back("A");
+    planes.push_back(std::move(picture.alpha));
+  }
+  channels.push_back("Z");
+  planes.push_back(std::move(picture.depth));
+  write_planes(path, channels, planes, scene);
 }
 
-std::string truth_path(const Options& o, const Scene& scene, const FocusSetting& setting) {
-  if (scene.settings.size() == 1) return o.folder + "/truth.exr";
-  return o.folder + "/truth_" + setting.name + ".exr";
+void write_truth(const Options& o, const std::string& path, const Truth& truth,
+                 const Scene& scene) {
+  std::vector<std::string> channels{"R", "G", "B"};
+  std::vector<Plane> planes = truth.colour;
+  if (o.alpha) {
+    channels.push_back("A");
+    planes.push_back(truth.alpha);
+  }
+  write_planes(path, channels, planes, scene);
 }
 
-void report_noise(const Comparison& noise) {
+void report_noise(const Options& o, const Truth& truth) {
   fmt::print(
       "  its halves are {:.2f} dB apart sRGB-encoded, {:.2f} dB linear; their mean is about "
       "6 dB better\n",
-      noise.psnr_srgb_db, noise.psnr_linear_db);
+      truth.noise->psnr_srgb_db, truth.noise->psnr_linear_db);
+  if (o.alpha) {
+    fmt::print("  its alpha is about {:.2g} off (RMS), {:.2g} at worst\n", truth.alpha_noise_rms,
+               truth.alpha_noise_worst);
+  }
 }
 
-/// Writes the truth of each setting asked for; how noisy they are, by setting.
-std::map<std::string, Comparison> write_truths(const Options& o, const Scene& scene,
-                                               const std::vector<FocusSetting>& settings) {
-  std::map<std::string, Comparison> noise;
+/// Writes the truth of each setting asked for.
+void write_truths(const Options& o, const Scene& scene, const std::vector<FocusSetting>& settings,
+                  FrameNumber frame, Noise& noise) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     ProgressBar bar(settings.size(), "truths", true);
     const Truth truth = render_truth(scene, lens_of(scene, settings[i]), o.truth_samples, o.seed,
                                      [&](double share) { bar.update(i, share); });
     bar.clear();
-    write_planes(truth_path(o, scene, settings[i]), {"R", "G", "B"}, truth.colour, scene);
+    const std::string& setting = settings[i].name;
+    const std::string name = scene.settings.size() == 1 ? "truth" : "truth_" + setting;
+    write_truth(o, path_of(o, name, frame), truth, scene);
     if (!truth.noise) continue;
-    noise[settings[i].name] = *truth.noise;
-    report_noise(*truth.noise);
+    const auto [known, is_new] = noise.insert({setting, *truth.noise});
+    if (!is_new && truth.noise->psnr_srgb_db < known->second.psnr_srgb_db) {
+      known->second = *truth.noise;
+    }
+    report_noise(o, truth);
   }
-  return noise;
+}
+
+Scene scene_of(const Options& o, FrameNumber frame) {
+  Scene scene = make_scene(o.name, o.width, o.height, frame.value_or(1));
+  if (o.alpha) scene.background = {};
+  return scene;
+}
+
+std::vector<FocusSetting> settings_of(const Options& o, const Scene& scene) {
+  if (o.setting.empty()) return scene.settings;
+  return {find_setting(scene, o.setting)};
+}
+
+void write_frame(const Options& o, FrameNumber frame, Noise& noise) {
+  const Scene scene = scene_of(o, frame);
+  write_picture(o, path_of(o, "pinhole", frame), render_pinhole(scene, o.pinhole), scene);
+  if (o.hidden) write_picture(o, path_of(o, "hidden", frame), render_hidden(scene), scene);
+  write_truths(o, scene, settings_of(o, scene), frame, noise);
+}
+
+std::vector<FrameNumber> frames_of(const Options& o) {
+  if (o.frames.empty()) return {std::nullopt};
+  if (scene_info(o.name).frames == 1) {
+    fail(ExitCode::usage, "--frames: scene '{}' does not move", o.name);
+  }
+  std::vector<FrameNumber> frames;
+  for (const int frame : parse_frames(o.frames)) frames.push_back(frame);
+  return frames;
+}
+
+/// Throws Error(usage) before anything is written.
+void check(const Options& o, const std::vector<FrameNumber>& frames) {
+  check_samples("--truth-samples", o.truth_samples);
+  check_samples("--pinhole-samples", o.pinhole.samples);
+  if (o.pinhole.averages_depth && o.pinhole.samples == 1) {
+    fail(ExitCode::usage,
+         "--antialiased-depth goes with --pinhole-samples: of one there is no mean");
+  }
+  for (const FrameNumber frame : frames) settings_of(o, scene_of(o, frame));
 }
 
 int run(const Options& o) {
-  check_truth_samples(o.truth_samples);  // before anything is written
-  const Scene scene = make_scene(o.name, o.width, o.height);
-  std::vector<FocusSetting> settings = scene.settings;
-  if (!o.setting.empty()) settings = {find_setting(scene, o.setting)};
+  const std::vector<FrameNumber> frames = frames_of(o);
+  check(o, frames);
   std::error_code error;
   std::filesystem::create_directories(o.folder, error);
-  check_can_write(o.folder + "/pinhole.exr");
-
-  write_picture(o.folder + "/pinhole.exr", render_pinhole(scene), scene);
-  if (o.hidden) write_picture(o.folder + "/hidden.exr", render_hidden(scene), scene);
-  const auto noise = write_truths(o, scene, settings);
+  check_can_write(path_of(o, "pinhole", frames.front()));
+  Noise noise;
+  for (const FrameNumber frame : frames) write_frame(o, frame, noise);
   const std::string camera = o.folder + "/camera.json";
-  write_text(camera, camera_json(scene, noise));
+  write_text(camera, camera_json(scene_of(o, frames.front()), noise));
   fmt::print("{}\n", camera);
   return 0;
 }
@@ -107,6 +178,16 @@ Run add_scene(CLI::App& app) {
   command->add_option("--height", o->height, "Pixels");
   command->add_option("--setting", o->setting, "The truth of this focus setting only");
   command->add_option("--truth-samples", o->truth_samples, "Lens rays a pixel for the truth");
+  command->add_option("--frames", o->frames,
+                      "Frames of a scene that moves, as files like pinhole.0001.exr: 1-24, 1,5,9 "
+                      "or 1-24x2; without it, the first");
+  command->add_option("--pinhole-samples", o->pinhole.samples,
+                      "Rays a pixel for the pinhole picture's colour; depth stays its centre's");
+  command->add_flag("--antialiased-depth", o->pinhole.averages_depth,
+                    "Depth is the mean over those rays too: wrong at every edge, as some renderers "
+                    "write it");
+  command->add_flag("--alpha", o->alpha,
+                    "Also channel A: colour premultiplied, nothing where nothing is hit");
   command->add_option("--seed", o->seed, "Seed of the truth's samples");
   command->add_flag("--hidden", o->hidden,
                     "Also hidden.exr (R G B Z): what lies next behind the first surface");

@@ -93,11 +93,71 @@ TEST(SceneCommand, OneCoreGivesTheSameBits) {
   EXPECT_EQ(file_hash(folder / "truth_f2.exr"), all);
 }
 
+TEST(SceneCommand, PinholeSamplesSmoothColourAndAntialiasedDepthTheDepth) {
+  const Folder folder;
+  const std::string command = "scene cutout --setting near" + small;
+  const auto plane = [&](int channel) {
+    return ImageFile::read(folder / "pinhole.exr").plane(0, channel);
+  };
+  expect_ok(defray(folder, command));
+  const Plane red = plane(0), depth = plane(3);
+  expect_ok(defray(folder, command + " --pinhole-samples 16"));
+  EXPECT_NE(plane(0), red);
+  EXPECT_EQ(plane(3), depth);
+  expect_ok(defray(folder, command + " --pinhole-samples 16 --antialiased-depth"));
+  EXPECT_NE(plane(3), depth);
+}
+
+TEST(SceneCommand, AlphaIsAChannelAndLeavesTheBackgroundOut) {
+  const Folder folder;
+  expect_ok(defray(folder, "scene spheres --setting f2" + small));
+  const Plane sky = ImageFile::read(folder / "pinhole.exr").plane(0, 2);
+  const Result result = defray(folder, "scene spheres --setting f2 --hidden --alpha" + small);
+  expect_ok(result);
+  EXPECT_NE(result.out.find("its alpha is about"), std::string::npos) << result.out;
+  EXPECT_EQ(ImageFile::read(folder / "hidden.exr").parts()[0].channels,
+            (std::vector<std::string>{"R", "G", "B", "A", "Z"}));
+  EXPECT_EQ(ImageFile::read(folder / "truth_f2.exr").parts()[0].channels,
+            (std::vector<std::string>{"R", "G", "B", "A"}));
+  const ImageFile file = ImageFile::read(folder / "pinhole.exr");
+  const Plane blue = file.plane(0, 2), alpha = file.plane(0, 3);
+  EXPECT_GT(sky[0], 0);
+  EXPECT_EQ(blue[0], 0);
+  EXPECT_EQ(alpha[0], 0);
+  EXPECT_EQ(alpha.back(), 1);
+  EXPECT_EQ(blue.back(), sky.back());
+}
+
+TEST(SceneCommand, FramesWriteASequence) {
+  const Folder folder;
+  expect_ok(defray(folder, "scene drift --setting face --hidden --frames 1,24" + small));
+  for (const char* name : {"pinhole", "hidden", "truth_face"}) {
+    const std::string first = name + std::string(".0001.exr"),
+                      last = name + std::string(".0024.exr");
+    EXPECT_NE(file_hash(folder / first), file_hash(folder / last)) << name;
+  }
+  EXPECT_FALSE(exists(folder, "pinhole.0002.exr"));
+  EXPECT_FALSE(exists(folder, "pinhole.exr"));
+  EXPECT_TRUE(camera(folder)["focus_settings"]["face"].contains("truth_noise_psnr_srgb_db"));
+  expect_ok(defray(folder, "scene drift --setting face" + small));
+  EXPECT_EQ(file_hash(folder / "pinhole.exr"), file_hash(folder / "pinhole.0001.exr"));
+}
+
 TEST(SceneCommand, RefusesBeforeItWritesAnything) {
   const Folder folder;
-  const Result samples = defray(folder, "scene plate1 -o out --truth-samples 0");
-  expect_refusal(samples, 2, {"--truth-samples is 0"}, "samples");
-  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
+      {"plate1 --truth-samples 0", {"--truth-samples is 0"}},
+      {"plate1 --pinhole-samples 0", {"--pinhole-samples is 0: allowed are 1 to 65536"}},
+      {"plate1 --antialiased-depth", {"--antialiased-depth goes with --pinhole-samples"}},
+      {"fence --frames 1-3", {"--frames: scene 'fence' does not move"}},
+      {"drift --frames 20-25", {"scene 'drift' has no frame 25: allowed are 1 to 24"}},
+      {"drift --frames 0", {"scene 'drift' has no frame 0"}},
+      {"drift --frames a-b", {"--frames 'a-b'"}},
+      {"drift --setting fase", {"no focus setting 'fase'", "Did you mean 'face'?"}}};
+  for (const auto& [arguments, words] : cases) {
+    expect_refusal(defray(folder, "scene -o out " + arguments), 2, words, arguments);
+    EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
+  }
   expect_refusal(defray(folder, "scene plate1 -o ''"), 2, {"--output", "is empty"}, "empty");
 }
 

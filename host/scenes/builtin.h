@@ -18,5 +18,11 @@ Scene make_points(int width, int height);
 Scene make_impulses(int width, int height);
 Scene make_slanted(int width, int height);
 Scene make_lines(int width, int height);
+Scene make_highlights(int width, int height);
+Scene make_cutout(int width, int height);
+
+constexpr int drift_frames = 24;
+/// Frames from 1 to drift_frames.
+Scene make_drift(int width, int height, int frame);
 
 }  // namespace defray

@@ -11,11 +11,14 @@ struct Ray {
   double from = 0;
 };
 
+class Emitter;
+
 /// Where a ray enters an object.
 struct Hit {
   double t = 0;
   Vec3 colour;  ///< Linear reflectance; where `normal` is zero, light given off.
   Vec3 normal;  ///< Unit length, towards the ray's origin.
+  const Emitter* emitter = nullptr;  ///< What was hit, where it is one.
 };
 
 /// An axis-aligned box.

@@ -11,29 +11,49 @@ namespace {
 
 struct Builtin {
   SceneInfo info;
-  Scene (*make)(int width, int height);
+  Scene (*make)(int width, int height, int frame);
 };
+
+/// A scene that does not move.
+template <Scene (*make)(int width, int height)>
+Scene still(int width, int height, int) {
+  return make(width, height);
+}
 
 const std::vector<Builtin>& builtins() {
   static const std::vector<Builtin> all = {
       {{"plate1", "Shinya's Plate 1: a thin dark rectangle in focus before a plaid, a near ball"},
-       make_plate1},
+       still<make_plate1>},
       {{"plate2", "Shinya's Plate 2: objects 3, 5 and 17 m away on a floor, f/R = 1"},
-       [](int width, int height) { return make_plate2(width, height, 1); }},
+       [](int width, int height, int) { return make_plate2(width, height, 1); }},
       {{"blocks-lake", "Glatzel & Wilhelm's block world: the lake, as the eye sees it and tiny"},
-       make_blocks_lake},
-      {{"blocks-forest", "the same world: the forest"}, make_blocks_forest},
+       still<make_blocks_lake>},
+      {{"blocks-forest", "the same world: the forest"}, still<make_blocks_forest>},
       {{"fence", "near bars before a brick wall: what hides behind an out-of-focus edge"},
-       make_fence},
+       still<make_fence>},
       {{"spheres", "balls at many depths on a checkered floor, with small bright lamps"},
-       make_spheres},
-      {{"points", "bright points (HDR) by night, near to far"}, make_points},
+       still<make_spheres>},
+      {{"points", "bright points (HDR) by night, near to far"}, still<make_points>},
       {{"impulses", "one bright pixel each at 63 depths: every circle of confusion, one by one"},
-       make_impulses},
-      {{"slanted", "a textured plane slanting through the plane of focus"}, make_slanted},
-      {{"lines", "lines 1 to 3 pixels wide before, in and behind the plane of focus"}, make_lines},
+       still<make_impulses>},
+      {{"slanted", "a textured plane slanting through the plane of focus"}, still<make_slanted>},
+      {{"lines", "lines 1 to 3 pixels wide before, in and behind the plane of focus"},
+       still<make_lines>},
+      {{"highlights", "small lights up to 5000 times white, CoC 0.3 to 128 px, some half hidden"},
+       still<make_highlights>},
+      {{"cutout", "flat shapes at many depths before nothing: what alpha does (--alpha)"},
+       still<make_cutout>},
+      {{"drift", "a fence drifting before a portrait (--frames 1-24)", drift_frames}, make_drift},
   };
   return all;
+}
+
+const Builtin& find_builtin(const std::string& name) {
+  for (const Builtin& builtin : builtins()) {
+    if (builtin.info.name == name) return builtin;
+  }
+  fail(ExitCode::usage, "unknown scene '{}'.{} There are: {}", name,
+       did_you_mean(name, scene_names()), join(scene_names(), " "));
 }
 
 nlohmann::ordered_json setting_json(const Scene& scene, const FocusSetting& setting,
@@ -65,18 +85,20 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-Scene make_scene(const std::string& name, int width, int height) {
+const SceneInfo& scene_info(const std::string& name) { return find_builtin(name).info; }
+
+Scene make_scene(const std::string& name, int width, int height, int frame) {
   if (width < 1 || height < 1 || width > 16384 || height > 16384) {
     fail(ExitCode::usage, "scene size {}x{}: allowed are 1 to 16384 a side", width, height);
   }
-  for (const Builtin& builtin : builtins()) {
-    if (builtin.info.name != name) continue;
-    Scene scene = builtin.make(width, height);
-    scene.name = name;
-    return scene;
+  const Builtin& builtin = find_builtin(name);
+  if (frame < 1 || frame > builtin.info.frames) {
+    fail(ExitCode::usage, "scene '{}' has no frame {}: allowed are 1 to {}", name, frame,
+         builtin.info.frames);
   }
-  fail(ExitCode::usage, "unknown scene '{}'.{} There are: {}", name,
-       did_you_mean(name, scene_names()), join(scene_names(), " "));
+  Scene scene = builtin.make(width, height, frame);
+  scene.name = name;
+  return scene;
 }
 
 const FocusSetting& find_setting(const Scene& scene, const std::string& name) {

@@ -41,12 +41,17 @@ struct Scene {
 /// A name that make_scene knows, and a line about it.
 struct SceneInfo {
   std::string name, about;
+  int frames = 1;  ///< More than 1: it moves.
 };
 const std::vector<SceneInfo>& scene_list();
 std::vector<std::string> scene_names();
 
-/// Throws Error(usage) on an unknown name or a size outside 1...16384.
-Scene make_scene(const std::string& name, int width, int height);
+/// Throws Error(usage) on an unknown name.
+const SceneInfo& scene_info(const std::string& name);
+
+/// Throws Error(usage) on an unknown name, a size outside 1...16384, or a frame (the first is 1)
+/// that the scene has not.
+Scene make_scene(const std::string& name, int width, int height, int frame = 1);
 
 /// The setting of this name. Throws Error(usage) with the scene's settings where there is none.
 const FocusSetting& find_setting(const Scene& scene, const std::string& name);

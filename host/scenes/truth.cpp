@@ -1,67 +1,179 @@
 // What a lens makes of a built-in scene.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "error.h"
 #include "random.h"
+#include "scenes/flat_shapes.h"
 #include "scenes/tracer.h"
 
 namespace defray {
 namespace {
 
-/// A point of the unit disc, area-preserving (Shirley & Chiu 1997 in polar form).
-std::array<double, 2> disc_point(double s, double t) {
-  const double r = std::sqrt(s), phi = 2 * std::numbers::pi * t;
-  return {r * std::cos(phi), r * std::sin(phi)};
-}
-
 double fraction(double value) { return value - std::floor(value); }
 
-/// The mean over a pixel's square and the aperture. The aperture in side x side strata, what is
-/// left of the samples at random; the square by the R2 sequence (Roberts 2018), shifted at random.
-Vec3 lens_pixel(const Tracer& tracer, const Lens& lens, int x, int y, int samples, Random random) {
-  const int side = static_cast<int>(std::sqrt(samples));
-  const double shift_x = random.next(), shift_y = random.next();
-  Vec3 sum;
-  for (int i = 0; i < samples; ++i) {
-    const bool has_stratum = i < side * side;
-    const double s = has_stratum ? (i % side + random.next()) / side : random.next();
-    const double t = has_stratum ? (i / side + random.next()) / side : random.next();
-    const double px = x + fraction(shift_x + 0.7548776662466927 * i);
-    const double py = y + fraction(shift_y + 0.5698402909980532 * i);
-    sum = sum + tracer.trace(tracer.lens_ray(lens, px, py, disc_point(s, t))).colour;
+/// Points of a pixel's square: the R2 sequence (Roberts 2018), shifted at random.
+class PixelPoints {
+ public:
+  PixelPoints(int x, int y, Random& random)
+      : x_(x), y_(y), shift_x_(random.next()), shift_y_(random.next()) {}
+  std::array<double, 2> point(int i) const {
+    return {x_ + fraction(shift_x_ + 0.7548776662466927 * i),
+            y_ + fraction(shift_y_ + 0.5698402909980532 * i)};
   }
-  return sum / samples;
+
+ private:
+  double x_, y_, shift_x_, shift_y_;
+};
+
+/// The i-th of `samples` points of the unit square, at random in side x side strata; what does not
+/// fill a square of strata, at random.
+std::array<double, 2> stratified(int i, int samples, Random& random) {
+  const int side = static_cast<int>(std::sqrt(samples));
+  if (i >= side * side) return {random.next(), random.next()};
+  const double s = (i % side + random.next()) / side;
+  return {s, (i / side + random.next()) / side};
+}
+
+/// Light and coverage, of one ray or summed over many.
+struct Exposure {
+  Vec3 colour;
+  double alpha = 0;
+};
+
+/// An emitter as a point of the picture sees it through the lens: its image on the lens, in which
+/// the lens's rays through that point meet it, is smaller than the lens, so that it pays to aim.
+class Target {
+ public:
+  Target(const Scene& scene, const Lens& lens, const Emitter& emitter)
+      : emitter_(&emitter),
+        scale_(1 / (1 - emitter.centre().z / lens.focus_distance_units) / aperture_radius(lens)),
+        share_(emitter.area() * scale_ * scale_ / std::numbers::pi),
+        pixel_reach_(std::fabs(scale_) * emitter.centre().z / pixel_focal_length(scene)) {}
+
+  const Emitter* emitter() const { return emitter_; }
+  bool pays() const { return share_ < 1; }
+  Vec3 light() const { return emitter_->radiance() * share_; }
+
+  /// Where a ray through the image point and a point of the emitter left the lens, in its radii.
+  std::array<double, 2> lens_point(const Ray& pinhole, const Vec3& at) const {
+    const Vec3 d = pinhole.direction * at.z;
+    return {(at.x - d.x) * scale_, (at.y - d.y) * scale_};
+  }
+
+  /// False where no point of the pixel can see the emitter.
+  bool is_near(const Ray& pixel_centre) const {
+    const auto [u, v] = lens_point(pixel_centre, emitter_->centre());
+    constexpr double diagonal = std::numbers::sqrt2;  // of a square emitter, the larger one
+    return std::hypot(u, v) <=
+           1 + diagonal * (std::fabs(scale_) * emitter_->half_size() + pixel_reach_);
+  }
+
+ private:
+  const Emitter* emitter_;
+  double scale_;        ///< Radii of the lens for a scene unit at the emitter.
+  double share_;        ///< Area of the emitter's image on the lens, of the lens's.
+  double pixel_reach_;  ///< How far a pixel's width moves that image, in radii of the lens.
+};
+
+class LensSampler {
+ public:
+  LensSampler(const Scene& scene, const Lens& lens) : tracer_(scene), lens_(lens) {
+    for (const auto& primitive : scene.primitives) {
+      const auto* emitter = dynamic_cast<const Emitter*>(primitive.get());
+      if (!emitter) continue;
+      const Target target(scene, lens, *emitter);
+      if (target.pays()) targets_.push_back(target);
+    }
+  }
+
+  /// The mean over a pixel's square and the aperture.
+  Exposure pixel(int x, int y, int samples, Random random) const {
+    const PixelPoints square(x, y, random);
+    Exposure sum;
+    for (int i = 0; i < samples; ++i) {
+      const auto [s, t] = stratified(i, samples, random);
+      const auto [px, py] = square.point(i);
+      const Hit hit = tracer_.trace(tracer_.lens_ray(lens_, px, py, disc_point(s, t)));
+      if (!is_target(hit.emitter)) sum.colour = sum.colour + hit.colour;
+      sum.alpha += hit.t < nothing_there;
+    }
+    const Ray centre = tracer_.pinhole_ray(x + 0.5, y + 0.5);
+    for (const Target& target : targets_) {
+      if (target.is_near(centre)) {
+        sum.colour = sum.colour + aimed(target, square, samples, random);
+      }
+    }
+    return {sum.colour / samples, sum.alpha / samples};
+  }
+
+ private:
+  bool is_target(const Emitter* emitter) const {
+    if (!emitter) return false;
+    return std::any_of(targets_.begin(), targets_.end(),
+                       [&](const Target& target) { return target.emitter() == emitter; });
+  }
+
+  /// The sum over `samples` rays to points of the emitter: those that left the lens and arrive.
+  Vec3 aimed(const Target& target, const PixelPoints& square, int samples, Random& random) const {
+    int arrived = 0;
+    for (int i = 0; i < samples; ++i) {
+      const auto [s, t] = stratified(i, samples, random);
+      const auto [px, py] = square.point(i);
+      const auto from =
+          target.lens_point(tracer_.pinhole_ray(px, py), target.emitter()->point(s, t));
+      if (std::hypot(from[0], from[1]) > 1) continue;
+      const Hit hit = tracer_.trace(tracer_.lens_ray(lens_, px, py, from));
+      arrived += hit.emitter == target.emitter();
+    }
+    return target.light() * arrived;
+  }
+
+  Tracer tracer_;
+  const Lens& lens_;
+  std::vector<Target> targets_;
+};
+
+void add_alpha_noise(const Plane halves[2], Truth& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < halves[0].size(); ++i) {
+    const double off = std::fabs(halves[0][i] - halves[1][i]) / 2.0;
+    sum += off * off;
+    truth.alpha_noise_worst = std::max(truth.alpha_noise_worst, off);
+  }
+  truth.alpha_noise_rms = std::sqrt(sum / static_cast<double>(halves[0].size()));
 }
 
 }  // namespace
 
-void check_truth_samples(int samples) {
-  if (samples < 1 || samples > 65536) {
-    fail(ExitCode::usage, "--truth-samples is {}: allowed are 1 to 65536", samples);
-  }
-}
-
 Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint32_t seed,
                    const Progress& progress) {
-  check_truth_samples(samples);
-  const Tracer tracer(scene);
+  check_samples("--truth-samples", samples);
+  const LensSampler sampler(scene, lens);
   const int counts[2] = {samples - samples / 2, samples / 2};
-  std::vector<Plane> mean = empty_planes(scene);
-  std::vector<Plane> halves[2] = {mean, mean};
+  std::vector<Plane> planes = empty_planes(scene);
+  Truth truth{planes, planes[0], {}};
+  std::vector<Plane> halves[2] = {planes, planes};
+  Plane alphas[2] = {planes[0], planes[0]};
   for_each_pixel(scene, progress, [&](int x, int y, std::size_t at) {
-    Vec3 sum;
+    Exposure sum;
     for (const std::uint64_t h : {0, 1}) {
       if (counts[h] == 0) continue;
       const Random random(x, y, 2 * std::uint64_t{seed} + h);
-      const Vec3 half = lens_pixel(tracer, lens, x, y, counts[h], random);
-      store(halves[h], at, half);
-      sum = sum + half * counts[h];
+      const Exposure half = sampler.pixel(x, y, counts[h], random);
+      store(halves[h], at, half.colour);
+      alphas[h][at] = static_cast<float>(half.alpha);
+      sum.colour = sum.colour + half.colour * counts[h];
+      sum.alpha += half.alpha * counts[h];
     }
-    store(mean, at, sum / samples);
+    store(truth.colour, at, sum.colour / samples);
+    truth.alpha[at] = static_cast<float>(sum.alpha / samples);
   });
-  if (samples == 1) return {mean, {}};
-  return {mean, compare(halves[0], halves[1], scene.width)};
+  if (samples == 1) return truth;
+  truth.noise = compare(halves[0], halves[1], scene.width);
+  add_alpha_noise(alphas, truth);
+  return truth;
 }
 
 std::vector<Plane> render_accumulation(const Scene& scene, const Lens& lens,

@@ -1,0 +1,95 @@
+#include "scenes/flat_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace defray {
+namespace {
+
+/// Where the ray meets the plane of this depth, unless something lies before it.
+std::optional<Vec3> point_at(const Ray& ray, const Hit& hit, double depth) {
+  const double t = (depth - ray.origin.z) / ray.direction.z;
+  if (!(t > ray.from && t < hit.t)) return std::nullopt;
+  return Vec3{ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, t};
+}
+
+Bounds square_around(const Vec3& centre, double half_size) {
+  const Vec3 half{half_size, half_size, 0};
+  return {centre - half, centre + half};
+}
+
+}  // namespace
+
+std::array<double, 2> disc_point(double s, double t) {
+  const double r = std::sqrt(s), phi = 2 * std::numbers::pi * t;
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+Disc::Disc(const Vec3& centre, double radius, Texture texture)
+    : centre_(centre), radius_(radius), texture_(std::move(texture)) {}
+
+bool Disc::intersect(const Ray& ray, Hit& hit) const {
+  const auto p = point_at(ray, hit, centre_.z);
+  if (!p || std::hypot(p->x - centre_.x, p->y - centre_.y) >= radius_) return false;
+  hit = {p->z, texture_({p->x, p->y, 0}), {}};
+  return true;
+}
+
+Bounds Disc::bounds() const { return square_around(centre_, radius_); }
+
+Polygon::Polygon(std::vector<std::array<double, 2>> corners, double depth, Texture texture)
+    : corners_(std::move(corners)), depth_(depth), texture_(std::move(texture)) {}
+
+bool Polygon::intersect(const Ray& ray, Hit& hit) const {
+  const auto p = point_at(ray, hit, depth_);
+  if (!p) return false;
+  bool is_inside = false;
+  for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
+    const auto [ax, ay] = corners_[i];
+    const auto [bx, by] = corners_[j];
+    const bool crosses = (ay > p->y) != (by > p->y);
+    if (crosses && p->x < ax + (bx - ax) * (p->y - ay) / (by - ay)) is_inside = !is_inside;
+  }
+  if (!is_inside) return false;
+  hit = {p->z, texture_({p->x, p->y, 0}), {}};
+  return true;
+}
+
+Bounds Polygon::bounds() const {
+  Bounds b{{corners_[0][0], corners_[0][1], depth_}, {corners_[0][0], corners_[0][1], depth_}};
+  for (const auto& [x, y] : corners_) {
+    b.low = {std::min(b.low.x, x), std::min(b.low.y, y), depth_};
+    b.high = {std::max(b.high.x, x), std::max(b.high.y, y), depth_};
+  }
+  return b;
+}
+
+Emitter::Emitter(const Vec3& centre, double half_size, Shape shape, const Vec3& radiance)
+    : centre_(centre), half_size_(half_size), shape_(shape), radiance_(radiance) {}
+
+bool Emitter::intersect(const Ray& ray, Hit& hit) const {
+  const auto p = point_at(ray, hit, centre_.z);
+  if (!p) return false;
+  const double dx = p->x - centre_.x, dy = p->y - centre_.y, h = half_size_;
+  const bool is_square = shape_ == Shape::square;
+  if (is_square ? dx < -h || dx >= h || dy < -h || dy >= h : std::hypot(dx, dy) >= h) return false;
+  hit = {p->z, radiance_, {}, this};
+  return true;
+}
+
+Bounds Emitter::bounds() const { return square_around(centre_, half_size_); }
+
+double Emitter::area() const {
+  return (shape_ == Shape::square ? 4 : std::numbers::pi) * half_size_ * half_size_;
+}
+
+Vec3 Emitter::point(double s, double t) const {
+  if (shape_ == Shape::square) return centre_ + Vec3{2 * s - 1, 2 * t - 1, 0} * half_size_;
+  const auto [x, y] = disc_point(s, t);
+  return centre_ + Vec3{x, y, 0} * half_size_;
+}
+
+}  // namespace defray
