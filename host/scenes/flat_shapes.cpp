@@ -67,29 +67,29 @@ Bounds Polygon::bounds() const {
   return b;
 }
 
-Emitter::Emitter(const Vec3& centre, double half_size, Shape shape, const Vec3& radiance)
-    : centre_(centre), half_size_(half_size), shape_(shape), radiance_(radiance) {}
+Emitter::Emitter(const Vec3& centre, double radius, const Vec3& radiance)
+    : centre_(centre),
+      radius_(radius),
+      radiance_(radiance),
+      disc_(centre, radius, plain(radiance)) {}
 
 bool Emitter::intersect(const Ray& ray, Hit& hit) const {
-  const auto p = point_at(ray, hit, centre_.z);
-  if (!p) return false;
-  const double dx = p->x - centre_.x, dy = p->y - centre_.y, h = half_size_;
-  const bool is_square = shape_ == Shape::square;
-  if (is_square ? dx < -h || dx >= h || dy < -h || dy >= h : std::hypot(dx, dy) >= h) return false;
-  hit = {p->z, radiance_, {}, this};
+  if (!disc_.intersect(ray, hit)) return false;
+  hit.emitter = this;
   return true;
 }
 
-Bounds Emitter::bounds() const { return square_around(centre_, half_size_); }
-
-double Emitter::area() const {
-  return (shape_ == Shape::square ? 4 : std::numbers::pi) * half_size_ * half_size_;
-}
-
-Vec3 Emitter::point(double s, double t) const {
-  if (shape_ == Shape::square) return centre_ + Vec3{2 * s - 1, 2 * t - 1, 0} * half_size_;
-  const auto [x, y] = disc_point(s, t);
-  return centre_ + Vec3{x, y, 0} * half_size_;
+double disc_overlap(double distance, double radius) {
+  const double d = distance, r = radius;
+  if (d >= 1 + r) return 0;
+  if (d <= std::fabs(1 - r)) return r < 1 ? r * r : 1;
+  // Two segments, each a sector less its triangle.
+  const double x = (1 + d * d - r * r) / (2 * d);  // the common chord, from the unit disc's centre
+  const auto segment = [](double size, double at) {
+    const double cosine = std::clamp(at / size, -1.0, 1.0);
+    return size * size * (std::acos(cosine) - cosine * std::sqrt(1 - cosine * cosine));
+  };
+  return (segment(1, x) + segment(r, d - x)) / std::numbers::pi;
 }
 
 }  // namespace defray

@@ -33,31 +33,29 @@ class Polygon : public Primitive {
   Texture texture_;
 };
 
-/// A small shape that gives off light evenly. What it adds to a truth is found by aiming at it: a
+/// A small disc that gives off light evenly. What it adds to a truth is found by aiming at it: a
 /// ray that leaves the lens at random hardly ever meets it.
 class Emitter : public Primitive {
  public:
-  enum class Shape { disc, square };
-  /// `half_size` is the radius, or half a side.
-  Emitter(const Vec3& centre, double half_size, Shape shape, const Vec3& radiance);
+  Emitter(const Vec3& centre, double radius, const Vec3& radiance);
   bool intersect(const Ray& ray, Hit& hit) const override;
-  Bounds bounds() const override;
+  Bounds bounds() const override { return disc_.bounds(); }
 
   const Vec3& centre() const { return centre_; }
-  double half_size() const { return half_size_; }
+  double radius() const { return radius_; }
   const Vec3& radiance() const { return radiance_; }
-  double area() const;
-  /// A point of the shape, for s and t in [0, 1); area-preserving.
-  Vec3 point(double s, double t) const;
 
  private:
   Vec3 centre_;
-  double half_size_;
-  Shape shape_;
+  double radius_;
   Vec3 radiance_;
+  Disc disc_;
 };
 
 /// A point of the unit disc, area-preserving (Shirley & Chiu 1997 in polar form).
 std::array<double, 2> disc_point(double s, double t);
+
+/// Share of the unit disc that a disc of this radius covers whose centre is `distance` away.
+double disc_overlap(double distance, double radius);
 
 }  // namespace defray

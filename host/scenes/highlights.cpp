@@ -34,7 +34,7 @@ std::unique_ptr<Emitter> light(const Scene& scene, int i) {
   const double y = (cell / columns + 0.2 + 0.6 * hash01(i, 4)) / rows - 0.5;
   const double width = z * 640 / px_per_unit;
   const double height = width * scene.height / scene.width;
-  return std::make_unique<Emitter>(Vec3{x * width, y * height, z}, radius, Emitter::Shape::disc,
+  return std::make_unique<Emitter>(Vec3{x * width, y * height, z}, radius,
                                    hue_of(hash01(i, 5)) * intensity);
 }
 

@@ -1,11 +1,10 @@
 // What a lens makes of a built-in scene.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "error.h"
 #include "random.h"
-#include "scenes/flat_shapes.h"
+#include "scenes/target.h"
 #include "scenes/tracer.h"
 
 namespace defray {
@@ -40,41 +39,6 @@ std::array<double, 2> stratified(int i, int samples, Random& random) {
 struct Exposure {
   Vec3 colour;
   double alpha = 0;
-};
-
-/// An emitter as a point of the picture sees it through the lens: its image on the lens, in which
-/// the lens's rays through that point meet it, is smaller than the lens, so that it pays to aim.
-class Target {
- public:
-  Target(const Scene& scene, const Lens& lens, const Emitter& emitter)
-      : emitter_(&emitter),
-        scale_(1 / (1 - emitter.centre().z / lens.focus_distance_units) / aperture_radius(lens)),
-        share_(emitter.area() * scale_ * scale_ / std::numbers::pi),
-        pixel_reach_(std::fabs(scale_) * emitter.centre().z / pixel_focal_length(scene)) {}
-
-  const Emitter* emitter() const { return emitter_; }
-  bool pays() const { return share_ < 1; }
-  Vec3 light() const { return emitter_->radiance() * share_; }
-
-  /// Where a ray through the image point and a point of the emitter left the lens, in its radii.
-  std::array<double, 2> lens_point(const Ray& pinhole, const Vec3& at) const {
-    const Vec3 d = pinhole.direction * at.z;
-    return {(at.x - d.x) * scale_, (at.y - d.y) * scale_};
-  }
-
-  /// False where no point of the pixel can see the emitter.
-  bool is_near(const Ray& pixel_centre) const {
-    const auto [u, v] = lens_point(pixel_centre, emitter_->centre());
-    constexpr double diagonal = std::numbers::sqrt2;  // of a square emitter, the larger one
-    return std::hypot(u, v) <=
-           1 + diagonal * (std::fabs(scale_) * emitter_->half_size() + pixel_reach_);
-  }
-
- private:
-  const Emitter* emitter_;
-  double scale_;        ///< Radii of the lens for a scene unit at the emitter.
-  double share_;        ///< Area of the emitter's image on the lens, of the lens's.
-  double pixel_reach_;  ///< How far a pixel's width moves that image, in radii of the lens.
 };
 
 class LensSampler {
@@ -115,19 +79,21 @@ class LensSampler {
                        [&](const Target& target) { return target.emitter() == emitter; });
   }
 
-  /// The sum over `samples` rays to points of the emitter: those that left the lens and arrive.
+  /// The sum of an emitter's light over `samples` points of the pixel: the share of the lens that
+  /// it covers, where a ray from there arrives.
   Vec3 aimed(const Target& target, const PixelPoints& square, int samples, Random& random) const {
-    int arrived = 0;
+    double sum = 0;
     for (int i = 0; i < samples; ++i) {
       const auto [s, t] = stratified(i, samples, random);
       const auto [px, py] = square.point(i);
-      const auto from =
-          target.lens_point(tracer_.pinhole_ray(px, py), target.emitter()->point(s, t));
-      if (std::hypot(from[0], from[1]) > 1) continue;
+      const auto centre = target.centre(tracer_.pinhole_ray(px, py));
+      const double share = disc_overlap(std::hypot(centre[0], centre[1]), target.radius());
+      if (share == 0) continue;
+      const auto from = shared_point(centre, target.radius(), disc_point(s, t));
       const Hit hit = tracer_.trace(tracer_.lens_ray(lens_, px, py, from));
-      arrived += hit.emitter == target.emitter();
+      if (hit.emitter == target.emitter()) sum += share;
     }
-    return target.light() * arrived;
+    return target.emitter()->radiance() * sum;
   }
 
   Tracer tracer_;
