@@ -1,4 +1,5 @@
 // Truths of small bright lights against closed forms, and the flat shapes they are made of.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -68,7 +69,7 @@ TEST(Lights, AimingAgreesWithWaiting) {
   Scene discs = light_at(depth, radius_px, 8);
   discs.primitives.clear();
   discs.primitives.push_back(std::make_unique<Disc>(
-      Vec3{0, 0, depth}, radius_px * depth / pixel_focal_length(discs), plain({8, 0, 0})));
+      Vec3{0, 0, depth}, radius_px * depth / pixel_focal_length(discs), Vec3{8, 0, 0}));
   const Plane aimed = truth_of(with_post(light_at(depth, radius_px, 8)), 256);
   const Plane waited = truth_of(with_post(std::move(discs)), 4096);
   double squares = 0, energy = 0, off_energy = 0;
@@ -89,6 +90,36 @@ TEST(Lights, ALargeOneIsNotAimedAt) {
   EXPECT_NEAR(truth[side / 2 * side + side / 2], 8, 1e-6);
   EXPECT_NEAR(std::accumulate(truth.begin(), truth.end(), 0.0) / (8 * std::numbers::pi * 9), 1,
               0.02);
+}
+
+TEST(Cutout, AlphaIsNearlyFreeOfNoise) {
+  const Scene scene = make_scene("cutout", 80, 60);
+  for (const FocusSetting& setting : scene.settings) {
+    const Truth truth = render_truth(scene, lens_of(scene, setting), 1024, 1);
+    EXPECT_LT(truth.alpha_noise_rms, 1e-3);
+    EXPECT_GT(truth.alpha_noise_rms, 0);
+    EXPECT_LE(truth.alpha_noise_rms, truth.alpha_noise_worst);
+    const auto [least, most] = std::minmax_element(truth.alpha.begin(), truth.alpha.end());
+    EXPECT_EQ(*least, 0);
+    EXPECT_NEAR(*most, 1, 1e-6);
+  }
+}
+
+TEST(Cutout, LinesAgreeWithRays) {
+  Scene lines = make_scene("cutout", 40, 30), rays = make_scene("cutout", 40, 30);
+  rays.background = [](const Vec3&) { return Vec3{}; };  // a background takes rays
+  for (const FocusSetting& setting : lines.settings) {
+    const Truth a = render_truth(lines, lens_of(lines, setting), 1024, 1);
+    const Truth b = render_truth(rays, lens_of(rays, setting), 4096, 1);
+    double squares = 0;
+    for (std::size_t i = 0; i < a.alpha.size(); ++i) {
+      squares +=
+          std::pow(a.alpha[i] - b.alpha[i], 2) + std::pow(a.colour[0][i] - b.colour[0][i], 2);
+    }
+    EXPECT_GT(squares, 0);  // they are not the same samples
+    EXPECT_LT(std::sqrt(squares / 1200), 2e-3);
+    EXPECT_LT(a.alpha_noise_rms, b.alpha_noise_rms);  // with a quarter of the samples
+  }
 }
 
 TEST(Shapes, OverlapOfDiscs) {

@@ -18,7 +18,7 @@ Vec3 place(double x, double y, double depth) {
 /// `radius` and the disc's place in shares of the picture's width.
 void add_disc(Scene& scene, double x, double y, double radius, double depth, const Vec3& colour) {
   scene.primitives.push_back(
-      std::make_unique<Disc>(place(x, y, depth), place(radius, 0, depth).x, plain(colour)));
+      std::make_unique<Disc>(place(x, y, depth), place(radius, 0, depth).x, colour));
 }
 
 /// A regular polygon; with `inner` < 1 a star whose inner corners are that much nearer to its
@@ -32,7 +32,7 @@ void add_star(Scene& scene, double x, double y, double radius, int tips, double 
     const Vec3 corner = place(x + r * std::cos(angle), y + r * std::sin(angle), depth);
     corners.push_back({corner.x, corner.y});
   }
-  scene.primitives.push_back(std::make_unique<Polygon>(corners, depth, plain(colour)));
+  scene.primitives.push_back(std::make_unique<Polygon>(corners, depth, colour));
 }
 
 }  // namespace

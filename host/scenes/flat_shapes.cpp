@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace defray {
 namespace {
-
-/// Where the ray meets the plane of this depth, unless something lies before it.
-std::optional<Vec3> point_at(const Ray& ray, const Hit& hit, double depth) {
-  const double t = (depth - ray.origin.z) / ray.direction.z;
-  if (!(t > ray.from && t < hit.t)) return std::nullopt;
-  return Vec3{ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y, t};
-}
 
 Bounds square_around(const Vec3& centre, double half_size) {
   const Vec3 half{half_size, half_size, 0};
@@ -28,50 +20,61 @@ std::array<double, 2> disc_point(double s, double t) {
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
-Disc::Disc(const Vec3& centre, double radius, Texture texture)
-    : centre_(centre), radius_(radius), texture_(std::move(texture)) {}
-
-bool Disc::intersect(const Ray& ray, Hit& hit) const {
-  const auto p = point_at(ray, hit, centre_.z);
-  if (!p || std::hypot(p->x - centre_.x, p->y - centre_.y) >= radius_) return false;
-  hit = {p->z, texture_({p->x, p->y, 0}), {}};
+bool FlatShape::intersect(const Ray& ray, Hit& hit) const {
+  const double t = (depth_ - ray.origin.z) / ray.direction.z;
+  if (!(t > ray.from && t < hit.t)) return false;
+  if (!contains(ray.origin.x + t * ray.direction.x, ray.origin.y + t * ray.direction.y))
+    return false;
+  hit = {t, colour_, {}};
   return true;
+}
+
+Disc::Disc(const Vec3& centre, double radius, const Vec3& colour)
+    : FlatShape(centre.z, colour), centre_(centre), radius_(radius) {}
+
+bool Disc::contains(double x, double y) const {
+  return std::hypot(x - centre_.x, y - centre_.y) < radius_;
 }
 
 Bounds Disc::bounds() const { return square_around(centre_, radius_); }
 
-Polygon::Polygon(std::vector<std::array<double, 2>> corners, double depth, Texture texture)
-    : corners_(std::move(corners)), depth_(depth), texture_(std::move(texture)) {}
+void Disc::add_crossings(double y, std::vector<double>& xs) const {
+  const double off = y - centre_.y, squared = radius_ * radius_ - off * off;
+  if (!(squared > 0)) return;
+  xs.push_back(centre_.x - std::sqrt(squared));
+  xs.push_back(centre_.x + std::sqrt(squared));
+}
 
-bool Polygon::intersect(const Ray& ray, Hit& hit) const {
-  const auto p = point_at(ray, hit, depth_);
-  if (!p) return false;
-  bool is_inside = false;
+Polygon::Polygon(std::vector<std::array<double, 2>> corners, double depth, const Vec3& colour)
+    : FlatShape(depth, colour), corners_(std::move(corners)) {}
+
+bool Polygon::contains(double x, double y) const {
+  std::vector<double> xs;
+  add_crossings(y, xs);
+  return std::count_if(xs.begin(), xs.end(), [&](double at) { return x < at; }) % 2 == 1;
+}
+
+void Polygon::add_crossings(double y, std::vector<double>& xs) const {
+  const auto first = static_cast<std::ptrdiff_t>(xs.size());
   for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
     const auto [ax, ay] = corners_[i];
     const auto [bx, by] = corners_[j];
-    const bool crosses = (ay > p->y) != (by > p->y);
-    if (crosses && p->x < ax + (bx - ax) * (p->y - ay) / (by - ay)) is_inside = !is_inside;
+    if ((ay > y) != (by > y)) xs.push_back(ax + (bx - ax) * (y - ay) / (by - ay));
   }
-  if (!is_inside) return false;
-  hit = {p->z, texture_({p->x, p->y, 0}), {}};
-  return true;
+  std::sort(xs.begin() + first, xs.end());
 }
 
 Bounds Polygon::bounds() const {
-  Bounds b{{corners_[0][0], corners_[0][1], depth_}, {corners_[0][0], corners_[0][1], depth_}};
+  Bounds b{{corners_[0][0], corners_[0][1], depth()}, {corners_[0][0], corners_[0][1], depth()}};
   for (const auto& [x, y] : corners_) {
-    b.low = {std::min(b.low.x, x), std::min(b.low.y, y), depth_};
-    b.high = {std::max(b.high.x, x), std::max(b.high.y, y), depth_};
+    b.low = {std::min(b.low.x, x), std::min(b.low.y, y), depth()};
+    b.high = {std::max(b.high.x, x), std::max(b.high.y, y), depth()};
   }
   return b;
 }
 
 Emitter::Emitter(const Vec3& centre, double radius, const Vec3& radiance)
-    : centre_(centre),
-      radius_(radius),
-      radiance_(radiance),
-      disc_(centre, radius, plain(radiance)) {}
+    : centre_(centre), radius_(radius), radiance_(radiance), disc_(centre, radius, radiance) {}
 
 bool Emitter::intersect(const Ray& ray, Hit& hit) const {
   if (!disc_.intersect(ray, hit)) return false;

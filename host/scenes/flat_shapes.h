@@ -7,30 +7,50 @@
 
 namespace defray {
 
-/// A disc, unlit. Its texture gets (x, y, 0).
-class Disc : public Primitive {
+/// A shape of one colour, unlit.
+class FlatShape : public Primitive {
  public:
-  Disc(const Vec3& centre, double radius, Texture texture);
+  FlatShape(double depth, const Vec3& colour) : depth_(depth), colour_(colour) {}
   bool intersect(const Ray& ray, Hit& hit) const override;
+  double depth() const { return depth_; }
+  const Vec3& colour() const { return colour_; }
+  /// Adds where the line at height y enters and leaves the shape, ascending.
+  virtual void add_crossings(double y, std::vector<double>& xs) const = 0;
+
+ protected:
+  virtual bool contains(double x, double y) const = 0;
+
+ private:
+  double depth_;
+  Vec3 colour_;
+};
+
+class Disc : public FlatShape {
+ public:
+  Disc(const Vec3& centre, double radius, const Vec3& colour);
   Bounds bounds() const override;
+  void add_crossings(double y, std::vector<double>& xs) const override;
+
+ protected:
+  bool contains(double x, double y) const override;
 
  private:
   Vec3 centre_;
   double radius_;
-  Texture texture_;
 };
 
-/// A polygon of any form, even-odd where its sides cross, unlit. Its texture gets (x, y, 0).
-class Polygon : public Primitive {
+/// A polygon of any form, even-odd where its sides cross.
+class Polygon : public FlatShape {
  public:
-  Polygon(std::vector<std::array<double, 2>> corners, double depth, Texture texture);
-  bool intersect(const Ray& ray, Hit& hit) const override;
+  Polygon(std::vector<std::array<double, 2>> corners, double depth, const Vec3& colour);
   Bounds bounds() const override;
+  void add_crossings(double y, std::vector<double>& xs) const override;
+
+ protected:
+  bool contains(double x, double y) const override;
 
  private:
   std::vector<std::array<double, 2>> corners_;
-  double depth_;
-  Texture texture_;
 };
 
 /// A small disc that gives off light evenly. What it adds to a truth is found by aiming at it: a

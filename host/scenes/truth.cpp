@@ -4,27 +4,12 @@
 
 #include "error.h"
 #include "random.h"
+#include "scenes/line_sampler.h"
 #include "scenes/target.h"
 #include "scenes/tracer.h"
 
 namespace defray {
 namespace {
-
-double fraction(double value) { return value - std::floor(value); }
-
-/// Points of a pixel's square: the R2 sequence (Roberts 2018), shifted at random.
-class PixelPoints {
- public:
-  PixelPoints(int x, int y, Random& random)
-      : x_(x), y_(y), shift_x_(random.next()), shift_y_(random.next()) {}
-  std::array<double, 2> point(int i) const {
-    return {x_ + fraction(shift_x_ + 0.7548776662466927 * i),
-            y_ + fraction(shift_y_ + 0.5698402909980532 * i)};
-  }
-
- private:
-  double x_, y_, shift_x_, shift_y_;
-};
 
 /// The i-th of `samples` points of the unit square, at random in side x side strata; what does not
 /// fill a square of strata, at random.
@@ -34,12 +19,6 @@ std::array<double, 2> stratified(int i, int samples, Random& random) {
   const double s = (i % side + random.next()) / side;
   return {s, (i / side + random.next()) / side};
 }
-
-/// Light and coverage, of one ray or summed over many.
-struct Exposure {
-  Vec3 colour;
-  double alpha = 0;
-};
 
 class LensSampler {
  public:
@@ -117,6 +96,7 @@ Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint3
                    const Progress& progress) {
   check_samples("--truth-samples", samples);
   const LensSampler sampler(scene, lens);
+  const std::optional<LineSampler> lines = LineSampler::of(scene, lens);
   const int counts[2] = {samples - samples / 2, samples / 2};
   std::vector<Plane> planes = empty_planes(scene);
   Truth truth{planes, planes[0], {}};
@@ -127,7 +107,8 @@ Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint3
     for (const std::uint64_t h : {0, 1}) {
       if (counts[h] == 0) continue;
       const Random random(x, y, 2 * std::uint64_t{seed} + h);
-      const Exposure half = sampler.pixel(x, y, counts[h], random);
+      const Exposure half =
+          lines ? lines->pixel(x, y, counts[h], random) : sampler.pixel(x, y, counts[h], random);
       store(halves[h], at, half.colour);
       alphas[h][at] = static_cast<float>(half.alpha);
       sum.colour = sum.colour + half.colour * counts[h];
