@@ -57,15 +57,15 @@ Exposure LineSampler::along(const Line& line) const {
 }
 
 Exposure LineSampler::pixel(int x, int y, int samples, Random random) const {
-  const double shift = random.next(), shift_row = random.next(), shift_start = random.next();
+  const double shift = random.next();
+  const PixelPoints square(0, 0, random);
   Exposure sum;
   double weight_sum = 0;
   for (int i = 0; i < samples; ++i) {
     // Heights v = sin(angle), weighed by the chord's length: for even angles, weights sum exactly.
     const double angle = std::numbers::pi * ((i + shift) / samples - 0.5);
     const double v = std::sin(angle), half = std::cos(angle), weight = half * half;
-    const double row = fraction(shift_row + std::numbers::phi * i);  // evenest in one dimension
-    const double start = fraction(shift_start + std::numbers::sqrt2 * i);
+    const auto [start, row] = square.point(i);
     const double way =
         i % 2 ? 1 : -1;  // or one depth's points would stay in place, line after line
     const double u0 = way * half * (2 * start - 1), du = way * 2 * half;
