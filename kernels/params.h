@@ -63,6 +63,7 @@
 #define DEFRAY_TILTSHIFT_GROUP 64
 #define DEFRAY_GATHER_GROUP 64
 #define DEFRAY_GATHER_REACH_GROUP 16
+#define DEFRAY_PATTERN_GROUP 16
 
 /// Pixels of a row that one work-item of `linear` computes, as one vector.
 #define DEFRAY_LINEAR_RUN 16
@@ -70,6 +71,22 @@
 #define DEFRAY_GATHER_TILE 16
 /// Angles of the rotated sample set: a table, so that no device's sine matters.
 #define DEFRAY_GATHER_ROTATIONS 64
+
+/// What a pixel's word holds for `patterns` beside its 8-bit colour (r | g << 8 | b << 16).
+#define DEFRAY_PATTERN_KNOWN (1u << 24)   ///< May be matched and copied.
+#define DEFRAY_PATTERN_BEHIND (1u << 25)  ///< Has a synthesised fragment behind it.
+/// Sums over a window hold squared differences below this bit, the number of pairs from it on.
+/// A pair's squared difference is at most 3 x 255^2 < 2^17.6 and its weights add up to n^4 for a
+/// window of n x n pixels: below 2^22.4 for n <= 48, so that both fit, 2^40 and 2^62.4 at most.
+#define DEFRAY_PATTERN_COUNT_BIT 40
+#define DEFRAY_PATTERN_LARGEST_WINDOW 48
+/// Pixels of a row that one work-item compares, as one vector.
+#define DEFRAY_PATTERN_RUN 16
+/// One work-item of `patterns_columns`: so many columns, as one vector, and rows.
+#define DEFRAY_PATTERN_COLUMNS 8
+#define DEFRAY_PATTERN_STRIP 64
+/// Pixels of a row that one work-item of `patterns_match` goes through.
+#define DEFRAY_PATTERN_CHUNK 64
 
 /// Thin-lens constants of `coc`.
 typedef struct {
@@ -185,12 +202,34 @@ typedef struct {
   DEFRAY_UINT along_y;     ///< gather_reach: 0 looks along x, 1 along y.
 } DefrayTileParams;
 
+/// One band of target rows and one shift of `patterns`. The window holds the band and everything
+/// that a target pixel's neighbourhood, or its match's, can reach, nothing known outside the frame.
+typedef struct {
+  DEFRAY_UINT unit_count;  ///< Work-items of this launch.
+  DEFRAY_UINT width;       ///< Pixels in a row of the frame.
+  DEFRAY_UINT rows;        ///< Rows of the band.
+  DEFRAY_UINT stride;      ///< Pixels in a row of the window.
+  DEFRAY_UINT margin_x;    ///< Columns of the window before the frame's first.
+  DEFRAY_UINT margin_y;    ///< Rows of the window before the band's first.
+  DEFRAY_UINT source_row;  ///< The band's first row, counted in the rows of the colour planes.
+  DEFRAY_INT shift_x;      ///< From a pixel to its match, px.
+  DEFRAY_INT shift_y;
+  DEFRAY_INT window_px;          ///< Side n of the box whose square, convolved, weighs pairs.
+  DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
+  DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
+  DEFRAY_UINT is_first;          ///< 1: sums start at zero.
+} DefrayPatternParams;
+
 #ifndef __OPENCL_C_VERSION__
+<<<<<<< HEAD
 static_assert(sizeof(DefrayHighlightParams) == 16);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
+=======
+static_assert(sizeof(DefrayPatternParams) == 52);
+>>>>>>> 5d09eb4 (patterns: kernels, shifts, gain and twins (not yet wired in or tested))
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

@@ -8,6 +8,7 @@
 #include "gather.h"
 #include "lens.h"
 #include "lens_cells.h"
+#include "patterns.h"
 #include "rdb.h"
 
 namespace defray::reference {
@@ -81,5 +82,21 @@ std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples
 std::vector<Plane> render_gather(int width, int height, const std::vector<std::int32_t>& coc_quanta,
                                  const std::vector<Plane>& channels,
                                  const GatherSettings& settings);
+
+/// Twin of kernel `patterns_difference`.
+std::vector<std::uint32_t> pattern_difference(const PatternFrame& frame,
+                                              const std::vector<std::uint32_t>& pixels,
+                                              PatternShift shift, const PatternSettings& settings);
+
+/// Twin of kernel `patterns_columns`.
+std::vector<std::uint64_t> pattern_columns(const PatternFrame& frame,
+                                           const std::vector<std::uint32_t>& pixels,
+                                           PatternShift shift, const PatternSettings& settings);
+
+/// Twin of all three, `patterns_match` the last, for one shift after the other: equal bits.
+PatternSums match_patterns(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+                           const std::vector<Plane>& channels, const std::vector<Plane>& behind,
+                           const std::vector<PatternShift>& shifts,
+                           const PatternSettings& settings);
 
 }  // namespace defray::reference

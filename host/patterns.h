@@ -1,0 +1,98 @@
+#pragma once
+// What lies behind, continued from elsewhere in the picture: repeating surfaces look alike at a few
+// shifts (He & Sun 2012, "Statistics of patch offsets for image completion"). Where the
+// surroundings of a hidden pixel agree with those of its shifted selves, their colours replace the
+// smooth one, by as much as the agreement explains.
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "coc.h"
+#include "opencl/session.h"
+
+namespace defray {
+
+/// A frame with its synthesised layer. All planes are [height][width].
+struct PatternFrame {
+  int width, height;
+  /// sRGB-encoded colour clipped to 0...1, 8 bits each, r | g << 8 | b << 16, and
+  /// DEFRAY_PATTERN_KNOWN for a pure pixel whose own surface hides nothing.
+  const std::vector<std::uint32_t>& encoded;
+  const std::vector<std::int32_t>& coc_quanta;
+  const std::vector<std::int32_t>& behind_coc;  ///< Of the synthesised layer.
+  const std::vector<std::uint32_t>& behind;     ///< 1 where there is a synthesised fragment.
+};
+
+struct PatternSettings {
+  int window_px = 25;  ///< Side n of the box; pairs weigh (n - |dx|)(n - |dy|).
+  int shifts = 40;     ///< The best of one half plane: each counts with both its signs.
+  int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
+  /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
+  /// distance of each other, through all of the lens.
+  std::int32_t tolerance_quanta = 1 << DEFRAY_COC_FRACTION_BITS;
+  std::size_t memory_bytes = std::size_t{512} << 20;  ///< For one band's planes.
+};
+
+struct PatternShift {
+  int x, y;  ///< From a pixel to its match, px.
+  bool operator==(const PatternShift&) const = default;
+};
+
+/// The frame's colours with DEFRAY_PATTERN_KNOWN taken from pixels with a channel beyond -1...1 or
+/// not a number (a highlight belongs to its place: copies of it would be new ones, and clipped it
+/// matches anything as bright), and DEFRAY_PATTERN_BEHIND added.
+std::vector<std::uint32_t> pattern_pixels(const PatternFrame& frame,
+                                          const std::vector<Plane>& channels);
+
+/// The shifts at which known pixels agree best in the mean over the frame: local minima on a grid
+/// of 4 px, refined to 1 px, each followed by its opposite. Empty where too few pixels have
+/// partners.
+std::vector<PatternShift> find_pattern_shifts(const PatternFrame& frame,
+                                              const std::vector<std::uint32_t>& pixels,
+                                              const PatternSettings& settings);
+
+/// Sums over shifts; defined where there is a fragment behind.
+struct PatternSums {
+  std::vector<Plane> difference;  ///< Of w (match's colour - smooth colour), a channel each.
+  Plane weight;                   ///< Of w.
+  Plane weighted_square;          ///< Of w D, D the squared difference of surroundings, (1/255)^2.
+};
+
+PatternSums match_patterns(Session& session, const PatternFrame& frame,
+                           const std::vector<std::uint32_t>& pixels,
+                           const std::vector<Plane>& channels, const std::vector<Plane>& behind,
+                           const std::vector<PatternShift>& shifts, const PatternSettings& settings,
+                           const std::function<void(double)>& progress = {});
+
+/// Variance V of the known colours around each fragment, all three together, (1/255)^2. A shift's
+/// D is 2 (V - covariance).
+Plane pattern_variance(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+                       const PatternSettings& settings);
+
+/// Moves `behind` towards the matches' mean by the gain of linear regression, covariance / variance
+/// = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
+void blend_patterns(const PatternFrame& frame, const PatternSums& sums, const Plane& variance,
+                    std::vector<Plane>& behind);
+
+/// All of it. `channels` are the frame's linear colours, 1 to 4; `behind` as many planes, the
+/// synthesised fragments' smooth colours, improved in place. Other pixels keep theirs.
+void improve_by_patterns(Session& session, const PatternFrame& frame,
+                         const std::vector<Plane>& channels, const PatternSettings& settings,
+                         std::vector<Plane>& behind,
+                         const std::function<void(double)>& progress = {});
+
+// Single kernels over a whole frame, for one shift: [height][width].
+std::vector<std::uint32_t> pattern_difference_on_device(Session& session, const PatternFrame& frame,
+                                                        const std::vector<std::uint32_t>& pixels,
+                                                        PatternShift shift,
+                                                        const PatternSettings& settings);
+std::vector<std::uint64_t> pattern_columns_on_device(Session& session, const PatternFrame& frame,
+                                                     const std::vector<std::uint32_t>& pixels,
+                                                     PatternShift shift,
+                                                     const PatternSettings& settings);
+
+/// Weight of the pairs that a match needs: a tenth of a whole window's.
+std::uint32_t least_pairs(int window_px);
+
+}  // namespace defray

@@ -1,0 +1,138 @@
+// Twins of kernels/patterns.cl: sums over whole windows, nothing running along.
+#include "reference/reference.h"
+
+#include <cstdlib>
+
+#include "parallel.h"
+
+namespace defray::reference {
+namespace {
+
+std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
+
+class Frame {
+ public:
+  explicit Frame(const PatternFrame& frame) : frame_(frame) {}
+  bool has(int x, int y) const { return x >= 0 && y >= 0 && x < frame_.width && y < frame_.height; }
+  std::size_t at(int x, int y) const { return as_size(y) * as_size(frame_.width) + as_size(x); }
+
+ private:
+  const PatternFrame& frame_;
+};
+
+bool close(std::int32_t a, std::int32_t b, std::int32_t tolerance) {
+  return std::abs(std::int64_t{a} - b) <= tolerance;
+}
+
+std::uint32_t squared_difference(std::uint32_t a, std::uint32_t b) {
+  int sum = 0;
+  for (const int bit : {0, 8, 16}) {
+    const int d = static_cast<int>(a >> bit & 255) - static_cast<int>(b >> bit & 255);
+    sum += d * d;
+  }
+  return static_cast<std::uint32_t>(sum);
+}
+
+/// Weighted sum along a line of values: value(j), 0 outside the frame.
+template <typename Value>
+std::uint64_t line_sum(int window_px, const Value& value) {
+  std::uint64_t sum = 0;
+  for (int j = 1 - window_px; j < window_px; ++j) {
+    sum += static_cast<std::uint64_t>(window_px - std::abs(j)) * value(j);
+  }
+  return sum;
+}
+
+/// One shift at one pixel: its weight, and the squared difference times it.
+struct Weight {
+  explicit Weight(std::uint64_t sum) {
+    const std::uint64_t count = sum >> DEFRAY_PATTERN_COUNT_BIT;
+    const std::uint64_t squares = sum - (count << DEFRAY_PATTERN_COUNT_BIT);
+    const float mean = static_cast<float>(squares) / static_cast<float>(count) + 0.65025f;
+    const float ratio = 650.25f / mean, square = ratio * ratio;
+    w = square * square * square;
+    square_w = w * mean;
+  }
+  float w, square_w;
+};
+
+void add_shift(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+               const std::vector<Plane>& channels, const std::vector<Plane>& behind,
+               PatternShift shift, const PatternSettings& settings, PatternSums& out) {
+  const Frame f(frame);
+  const std::vector<std::uint64_t> columns = pattern_columns(frame, pixels, shift, settings);
+  parallel_for(frame.height, [&](int y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (!frame.behind[f.at(x, y)] || !f.has(x + shift.x, y + shift.y)) continue;
+      const std::size_t here = f.at(x, y), there = f.at(x + shift.x, y + shift.y);
+      if (!(pixels[there] & DEFRAY_PATTERN_KNOWN)) continue;
+      if (!close(frame.coc_quanta[there], frame.behind_coc[here], settings.tolerance_quanta)) {
+        continue;
+      }
+      const std::uint64_t sum = line_sum(
+          settings.window_px, [&](int j) { return f.has(x + j, y) ? columns[f.at(x + j, y)] : 0; });
+      if (sum >> DEFRAY_PATTERN_COUNT_BIT < least_pairs(settings.window_px)) continue;
+      const Weight weight(sum);
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        out.difference[c][here] += weight.w * (channels[c][there] - behind[c][here]);
+      }
+      out.weight[here] += weight.w;
+      out.weighted_square[here] += weight.square_w;
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> pattern_difference(const PatternFrame& frame,
+                                              const std::vector<std::uint32_t>& pixels,
+                                              PatternShift shift, const PatternSettings& settings) {
+  const Frame f(frame);
+  std::vector<std::uint32_t> out(pixels.size());
+  parallel_for(frame.height, [&](int y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (!f.has(x + shift.x, y + shift.y)) continue;
+      const std::size_t here = f.at(x, y), there = f.at(x + shift.x, y + shift.y);
+      const bool known =
+          pixels[here] & DEFRAY_PATTERN_KNOWN && pixels[there] & DEFRAY_PATTERN_KNOWN;
+      if (!known ||
+          !close(frame.coc_quanta[here], frame.coc_quanta[there], settings.tolerance_quanta)) {
+        continue;
+      }
+      out[here] = DEFRAY_PATTERN_KNOWN | squared_difference(pixels[here], pixels[there]);
+    }
+  });
+  return out;
+}
+
+std::vector<std::uint64_t> pattern_columns(const PatternFrame& frame,
+                                           const std::vector<std::uint32_t>& pixels,
+                                           PatternShift shift, const PatternSettings& settings) {
+  const Frame f(frame);
+  const std::vector<std::uint32_t> difference = pattern_difference(frame, pixels, shift, settings);
+  std::vector<std::uint64_t> out(pixels.size());
+  parallel_for(frame.height, [&](int y) {
+    for (int x = 0; x < frame.width; ++x) {
+      out[f.at(x, y)] = line_sum(settings.window_px, [&](int j) -> std::uint64_t {
+        if (!f.has(x, y + j)) return 0;
+        const std::uint64_t d = difference[f.at(x, y + j)];
+        return d ? (std::uint64_t{1} << DEFRAY_PATTERN_COUNT_BIT) + (d - DEFRAY_PATTERN_KNOWN) : 0;
+      });
+    }
+  });
+  return out;
+}
+
+PatternSums match_patterns(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+                           const std::vector<Plane>& channels, const std::vector<Plane>& behind,
+                           const std::vector<PatternShift>& shifts,
+                           const PatternSettings& settings) {
+  PatternSums out{std::vector<Plane>(channels.size(), Plane(pixels.size())), Plane(pixels.size()),
+                  Plane(pixels.size())};
+  for (const PatternShift& shift : shifts) {
+    add_shift(frame, pixels, channels, behind, shift, settings, out);
+  }
+  return out;
+}
+
+}  // namespace defray::reference
