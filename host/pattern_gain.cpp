@@ -17,7 +17,7 @@ void sum_line(const std::uint64_t* in, std::uint64_t* out, int count, std::size_
   const auto at = [&](int i) { return i < 0 || i >= count ? 0 : in[as_size(i) * step]; };
   // From where all is zero: sum(x + 1) = sum(x) + values x + 1 ... x + n - values x - n + 1 ... x.
   std::uint64_t sum = 0, before = 0, after = 0;
-  for (int x = -n; x < count; ++x) {
+  for (int x = -n - 1; x < count; ++x) {
     if (x >= 0) out[as_size(x) * step] = sum;
     sum += after - before;
     after += at(x + 1 + n) - at(x + 1);
