@@ -26,7 +26,7 @@ struct PatternFrame {
 
 struct PatternSettings {
   int window_px = 25;  ///< Side n of the box; pairs weigh (n - |dx|)(n - |dy|).
-  int shifts = 40;     ///< The best of one half plane: each counts with both its signs.
+  int shifts = 24;     ///< The best of one half plane: each counts with both its signs.
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
   /// distance of each other, through all of the lens.
@@ -75,8 +75,15 @@ Plane pattern_variance(const PatternFrame& frame, const std::vector<std::uint32_
 void blend_patterns(const PatternFrame& frame, const PatternSums& sums, const Plane& variance,
                     std::vector<Plane>& behind);
 
+/// `match_patterns`, or its twin, for a frame.
+using PatternMatcher = std::function<PatternSums(const std::vector<std::uint32_t>& pixels,
+                                                 const std::vector<PatternShift>& shifts)>;
+
 /// All of it. `channels` are the frame's linear colours, 1 to 4; `behind` as many planes, the
 /// synthesised fragments' smooth colours, improved in place. Other pixels keep theirs.
+void improve_by_patterns(const PatternFrame& frame, const std::vector<Plane>& channels,
+                         const PatternSettings& settings, std::vector<Plane>& behind,
+                         const PatternMatcher& match);
 void improve_by_patterns(Session& session, const PatternFrame& frame,
                          const std::vector<Plane>& channels, const PatternSettings& settings,
                          std::vector<Plane>& behind,

@@ -221,15 +221,12 @@ typedef struct {
 } DefrayPatternParams;
 
 #ifndef __OPENCL_C_VERSION__
-<<<<<<< HEAD
 static_assert(sizeof(DefrayHighlightParams) == 16);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
-=======
 static_assert(sizeof(DefrayPatternParams) == 52);
->>>>>>> 5d09eb4 (patterns: kernels, shifts, gain and twins (not yet wired in or tested))
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

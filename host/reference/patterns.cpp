@@ -1,9 +1,8 @@
 // Twins of kernels/patterns.cl: sums over whole windows, nothing running along.
-#include "reference/reference.h"
-
 #include <cstdlib>
 
 #include "parallel.h"
+#include "reference/reference.h"
 
 namespace defray::reference {
 namespace {
@@ -133,6 +132,15 @@ PatternSums match_patterns(const PatternFrame& frame, const std::vector<std::uin
     add_shift(frame, pixels, channels, behind, shift, settings, out);
   }
   return out;
+}
+
+void improve_by_patterns(const PatternFrame& frame, const std::vector<Plane>& channels,
+                         const PatternSettings& settings, std::vector<Plane>& behind) {
+  defray::improve_by_patterns(
+      frame, channels, settings, behind,
+      [&](const std::vector<std::uint32_t>& pixels, const std::vector<PatternShift>& shifts) {
+        return match_patterns(frame, pixels, channels, behind, shifts, settings);
+      });
 }
 
 }  // namespace defray::reference

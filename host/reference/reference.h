@@ -99,4 +99,8 @@ PatternSums match_patterns(const PatternFrame& frame, const std::vector<std::uin
                            const std::vector<PatternShift>& shifts,
                            const PatternSettings& settings);
 
+/// The whole stage with the twins.
+void improve_by_patterns(const PatternFrame& frame, const std::vector<Plane>& channels,
+                         const PatternSettings& settings, std::vector<Plane>& behind);
+
 }  // namespace defray::reference

@@ -10,6 +10,7 @@
 #include "rdb.h"
 #include "reference/reference.h"
 #include "tiltshift.h"
+#include "validation/checks_patterns.h"
 #include "validation/rdb_winners.h"
 
 namespace defray::validation {
@@ -229,8 +230,9 @@ Values twin_reach(const Case& c, const Input& in) {
 
 /// The whole table, by name.
 std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
-  const std::vector<KernelCheck> stages = stage_checks();
-  checks.insert(checks.end(), stages.begin(), stages.end());
+  for (const std::vector<KernelCheck>& more : {stage_checks(), pattern_checks()}) {
+    checks.insert(checks.end(), more.begin(), more.end());
+  }
   std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {
     return std::string_view(a.name) < b.name;
   });

@@ -1,0 +1,148 @@
+#include "validation/checks_patterns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pattern_window.h"
+#include "random.h"
+#include "reference/reference.h"
+
+namespace defray::validation {
+namespace {
+
+constexpr int shift_count = 4;
+
+int window_of(const Case& c) { return std::array{25, 1, 2, 7}[c.seed % 4]; }
+
+/// A frame of patterns made from a case's colours and radii.
+class PatternCase {
+ public:
+  /// `hides_everything`: a fragment behind every pixel, so that all of a kernel's output counts.
+  PatternCase(const Case& c, const Input& in, bool hides_everything)
+      : coc_(in.coc_quanta), frame{c.width, c.height, encoded_, in.coc_quanta, coc_, behind_} {
+    std::reverse(coc_.begin(), coc_.end());
+    for (int y = 0; y < c.height; ++y) {
+      for (int x = 0; x < c.width; ++x) add_pixel(Random(x, y, c.seed + 1), in, hides_everything);
+    }
+    for (const Plane& plane : in.channels) smooth.emplace_back(plane.rbegin(), plane.rend());
+    settings.window_px = window_of(c);
+    // Some pairs are of one surface, some are not.
+    settings.tolerance_quanta = 256 + static_cast<std::int32_t>(128 * c.coc_px);
+    add_shifts(c);
+    if (c.band_rows > 0) {
+      settings.memory_bytes =
+          pattern_band_bytes(c.width, PatternMargins(shifts, settings.window_px), c.band_rows);
+    }
+    pixels = pattern_pixels(frame, in.channels);
+  }
+
+ private:
+  void add_pixel(Random random, const Input& in, bool hides_everything) {
+    const std::size_t i = encoded_.size();
+    std::uint32_t word = random.next() < 0.8 ? DEFRAY_PATTERN_KNOWN : 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float v = in.channels[std::min(k, in.channels.size() - 1)][i];
+      word |= static_cast<std::uint32_t>(v > 0 ? 255 * std::min(v, 1.0f) : 0.0f) << (8 * k);
+    }
+    encoded_.push_back(word);
+    behind_.push_back(hides_everything || random.next() < 0.1);
+  }
+
+  /// Some lead out of the frame altogether.
+  void add_shifts(const Case& c) {
+    Random random(1, 2, c.seed);
+    const auto any = [&](int extent) {
+      const int most = std::min(extent, 40);
+      return static_cast<int>(std::floor((2 * most + 1) * random.next())) - most;
+    };
+    for (int i = 0; i < shift_count; ++i) {
+      const int x = any(c.width);
+      shifts.push_back({x, any(c.height)});
+    }
+  }
+
+  std::vector<std::uint32_t> encoded_, behind_;
+  std::vector<std::int32_t> coc_;
+
+ public:
+  PatternFrame frame;
+  PatternSettings settings;
+  std::vector<PatternShift> shifts;
+  std::vector<Plane> smooth;
+  std::vector<std::uint32_t> pixels;
+};
+
+template <typename T>
+Values integers(const std::vector<T>& values) {
+  return {{values.begin(), values.end()}, {}};
+}
+
+Values run_difference(Session& session, const Case& c, const Input& in) {
+  const PatternCase p(c, in, true);
+  return integers(
+      pattern_difference_on_device(session, p.frame, p.pixels, p.shifts[0], p.settings));
+}
+
+Values twin_difference(const Case& c, const Input& in) {
+  const PatternCase p(c, in, true);
+  return integers(reference::pattern_difference(p.frame, p.pixels, p.shifts[0], p.settings));
+}
+
+Values run_columns(Session& session, const Case& c, const Input& in) {
+  const PatternCase p(c, in, true);
+  return integers(pattern_columns_on_device(session, p.frame, p.pixels, p.shifts[0], p.settings));
+}
+
+Values twin_columns(const Case& c, const Input& in) {
+  const PatternCase p(c, in, true);
+  return integers(reference::pattern_columns(p.frame, p.pixels, p.shifts[0], p.settings));
+}
+
+/// Blended: one value from all sums of a pixel. With this variance gains are well inside 0...1.
+Values blended(const PatternCase& p, const PatternSums& sums) {
+  constexpr float variance = 6 * 255 * 255 / 12.0f;  // twice that of random colours
+  std::vector<Plane> behind = p.smooth;
+  blend_patterns(p.frame, sums, Plane(p.pixels.size(), variance), behind);
+  return {{}, behind};
+}
+
+Values run_match(Session& session, const Case& c, const Input& in) {
+  const PatternCase p(c, in, false);
+  return blended(
+      p, match_patterns(session, p.frame, p.pixels, in.channels, p.smooth, p.shifts, p.settings));
+}
+
+Values twin_match(const Case& c, const Input& in) {
+  const PatternCase p(c, in, false);
+  return blended(
+      p, reference::match_patterns(p.frame, p.pixels, in.channels, p.smooth, p.shifts, p.settings));
+}
+
+double pixels_of(const Case& c) { return static_cast<double>(c.width) * c.height; }
+double difference_work(const Case& c) { return pixels_of(c) * 4; }
+double columns_work(const Case& c) { return pixels_of(c) * (4 + 2.0 * window_of(c)); }
+
+double match_work(const Case& c) {
+  // A band comes with the rows around it, and its launches cost some devices most of a millisecond.
+  const double bands = c.band_rows > 0 ? std::ceil(c.height / double(c.band_rows)) : 1;
+  return shift_count * pixels_of(c) * (4 + 3.0 * window_of(c)) + 1e4 * bands * shift_count;
+}
+
+/// A weight is the sixth power of a quotient 5 u off, of another, 5 u off too, and a rounding: 72 u
+/// with its products. It counts twice, above and below the line, times differences up to 2 L, and
+/// once more in the gain.
+double match_roundings(const Case&) { return 3 * 2 * 72 + 20; }
+
+constexpr const char* integer_rule = "equal: integer arithmetic";
+constexpr const char* bits_rule = "equal bits: + - x / in one order";
+
+}  // namespace
+
+std::vector<KernelCheck> pattern_checks() {
+  return {{"patterns_columns", integer_rule, run_columns, twin_columns, columns_work},
+          {"patterns_difference", integer_rule, run_difference, twin_difference, difference_work},
+          {"patterns_match", bits_rule, run_match, twin_match, match_work, match_roundings}};
+}
+
+}  // namespace defray::validation
