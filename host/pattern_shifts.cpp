@@ -70,9 +70,12 @@ Picture block_means(const Picture& p) {
 struct Agreement {
   std::uint64_t squares = 0, pairs = 0;
 
-  /// Mean squared difference in 1/256; `none` with fewer pairs than `least`.
-  std::uint64_t mean(std::uint64_t least) const {
-    return pairs == 0 || pairs < least ? none : (squares << 8) / pairs;
+  /// The mean squared difference in 1/256, and what rounding to 8 bits hides of it (2/3) over the
+  /// share of `all` pixels that have a partner: of shifts that agree as well as can be seen, the
+  /// one that more pixels can use is the better. `none` with fewer pairs than `least`.
+  std::uint64_t cost(std::size_t all, std::size_t least) const {
+    constexpr std::uint64_t hidden = 2 * 256 / 3;
+    return pairs == 0 || pairs < least ? none : (squares << 8) / pairs + hidden * all / pairs;
   }
 };
 
@@ -116,29 +119,30 @@ Agreement agreement(const Picture& p, PatternShift s, int row_step, std::int32_t
 }
 
 struct Candidate {
-  std::uint64_t mean;
+  std::uint64_t cost;
   PatternShift shift;
 };
 
 /// One order for all machines: the best first, equal ones by place.
 void sort_candidates(std::vector<Candidate>& all) {
   std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-    return std::tie(a.mean, a.shift.y, a.shift.x) < std::tie(b.mean, b.shift.y, b.shift.x);
+    return std::tie(a.cost, a.shift.y, a.shift.x) < std::tie(b.cost, b.shift.y, b.shift.x);
   });
 }
 
-/// Means for shifts of whole blocks: y from 0, the other half plane being the same.
+/// Costs of shifts of whole blocks: y from 0, the other half plane being the same.
 class CoarseMap {
  public:
   CoarseMap(const Picture& blocks, const PatternSettings& s)
       : reach_x_(s.reach_x_px / block),
         reach_y_(s.reach_y_px / block),
-        means_(as_size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
-    constexpr std::uint64_t least_share = 50;
-    const std::uint64_t least = std::max<std::uint64_t>(1, blocks.r.size() / least_share);
+        costs_(as_size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
+    constexpr std::size_t least_share = 50;  // a fiftieth
+    const std::size_t all = blocks.r.size();
     parallel_for(reach_y_ + 1, [&](int y) {
       for (int x = -reach_x_; x <= reach_x_; ++x) {
-        means_[index(x, y)] = agreement(blocks, {x, y}, 1, s.tolerance_quanta).mean(least);
+        costs_[index(x, y)] =
+            agreement(blocks, {x, y}, 1, s.tolerance_quanta).cost(all, all / least_share);
       }
     });
   }
@@ -160,7 +164,7 @@ class CoarseMap {
 
   std::uint64_t at(int x, int y) const {
     if (y < 0) return at(-x, -y);
-    return std::abs(x) > reach_x_ || y > reach_y_ ? none : means_[index(x, y)];
+    return std::abs(x) > reach_x_ || y > reach_y_ ? none : costs_[index(x, y)];
   }
 
   bool is_minimum(int x, int y) const {
@@ -173,7 +177,7 @@ class CoarseMap {
   }
 
   int reach_x_, reach_y_;
-  std::vector<std::uint64_t> means_;
+  std::vector<std::uint64_t> costs_;
 };
 
 /// The best shift around each candidate, on pixels.
@@ -185,13 +189,13 @@ std::vector<Candidate> refined(const Picture& picture, const std::vector<Candida
     const PatternShift from = coarse[as_size(i / tries)].shift;
     const int k = i % tries;
     const PatternShift s{from.x + k % side - refine_px, from.y + k / side - refine_px};
-    all[as_size(i)] = {agreement(picture, s, refine_rows, tolerance).mean(1), s};
+    all[as_size(i)] = {agreement(picture, s, refine_rows, tolerance).cost(picture.r.size(), 1), s};
   });
   std::vector<Candidate> best;
   for (auto first = all.begin(); first != all.end(); first += tries) {
     std::vector<Candidate> around(first, first + tries);
     sort_candidates(around);
-    if (around.front().mean != none) best.push_back(around.front());
+    if (around.front().cost != none) best.push_back(around.front());
   }
   return best;
 }

@@ -243,10 +243,11 @@ TEST(Patterns, HighlightsAndNonsenseAreNotCopied) {
 }
 
 TEST(Patterns, AnotherSurfaceIsNotCopied) {
-  // The right half is another wall, brighter, of the same pattern: the bar hides the left one.
+  // The right half is another wall, brighter, of the same pattern: the bar hides the left one. Of a
+  // narrow bar: the left wall alone must be a tenth of a window, at the frame's edges too.
   const auto wall = [](int x, int y, int c) { return bricks(x, y, c) * (x < 104 ? 0.5f : 1.0f); };
   Scene s(picture);
-  s.paint(wall, bar);
+  s.paint(wall, [](int x, int) { return x >= 95 && x < 104; });
   for (int y = 0; y < s.size.height; ++y) {
     for (int x = 104; x < s.size.width; ++x) s.coc[s.at(x, y)] = 1024;
   }
