@@ -136,18 +136,20 @@ __kernel void patterns_match(
       const bool is_match = pixels[there] & DEFRAY_PATTERN_KNOWN &&
                             window >> DEFRAY_PATTERN_COUNT_BIT >= p.least_pairs &&
                             abs_diff(coc_quanta[there], behind_coc[target]) <= p.tolerance_quanta;
-      float4 total = p.is_first ? (float4)(0.0f) : sum[target];
-      float2 weights = p.is_first ? (float2)(0.0f) : weight[target];
-      if (is_match) {
-        const size_t source =
-            (size_t)((long)(p.source_row + y) + p.shift_y) * p.width + (x0 + i) + p.shift_x;
-        const float2 w = weight_of(window);
-        total += w.x * (colour_at(channel0, channel1, channel2, channel3, source) -
-                        colour_at(smooth0, smooth1, smooth2, smooth3, target));
-        weights += w;
+      if (is_match || p.is_first) {
+        float4 total = p.is_first ? (float4)(0.0f) : sum[target];
+        float2 weights = p.is_first ? (float2)(0.0f) : weight[target];
+        if (is_match) {
+          const size_t source =
+              (size_t)((long)(p.source_row + y) + p.shift_y) * p.width + (x0 + i) + p.shift_x;
+          const float2 w = weight_of(window);
+          total += w.x * (colour_at(channel0, channel1, channel2, channel3, source) -
+                          colour_at(smooth0, smooth1, smooth2, smooth3, target));
+          weights += w;
+        }
+        sum[target] = total;
+        weight[target] = weights;
       }
-      sum[target] = total;
-      weight[target] = weights;
     }
     window += after - before;
     const ulong passing = sums[at + 1];
