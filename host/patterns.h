@@ -25,7 +25,7 @@ struct PatternFrame {
 };
 
 struct PatternSettings {
-  int window_px = 25;  ///< Side n of the box; pairs weigh (n - |dx|)(n - |dy|).
+  int window_px = 25;  ///< Side n of the box, at most 48; pairs weigh (n - |dx|)(n - |dy|).
   int shifts = 24;     ///< The best of one half plane: each counts with both its signs.
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
@@ -45,9 +45,9 @@ struct PatternShift {
 std::vector<std::uint32_t> pattern_pixels(const PatternFrame& frame,
                                           const std::vector<Plane>& channels);
 
-/// The shifts at which known pixels agree best in the mean over the frame: local minima on a grid
-/// of 4 px, refined to 1 px, each followed by its opposite. Empty where too few pixels have
-/// partners.
+/// The shifts at which known pixels of one surface agree best in the mean over the frame: local
+/// minima on a grid of 4 px, refined to 1 px, each followed by its opposite. Empty where less than
+/// a fiftieth of the frame has partners.
 std::vector<PatternShift> find_pattern_shifts(const PatternFrame& frame,
                                               const std::vector<std::uint32_t>& pixels,
                                               const PatternSettings& settings);
