@@ -20,7 +20,7 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
     if (!o.frames.empty()) {
       fail(ExitCode::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
-    for (const std::string& name : {o.output, o.coc_out}) {
+    for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
       if (!name.empty() && has_frame_pattern(name)) {
         fail(ExitCode::usage, "{}: has a frame pattern, the input {} has none", name, o.input);
       }
@@ -28,7 +28,7 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
     return {std::nullopt};
   }
   const std::vector<int> numbers = o.frames.empty() ? find_frames(o.input) : parse_frames(o.frames);
-  for (const std::string& name : {o.output, o.coc_out}) {
+  for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
       fail(ExitCode::usage, "{}: {} frames would go to one file; put #### in its name", name,
            numbers.size());
@@ -38,9 +38,10 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
 }
 
 FramePaths paths_of(const RenderOptions& o, std::optional<int> frame) {
-  FramePaths paths{o.input, o.depth, o.output, o.coc_out};
+  FramePaths paths{o.input, o.depth, o.output, o.coc_out, o.confidence_out};
   if (!frame) return paths;
-  for (std::string* path : {&paths.input, &paths.depth, &paths.output, &paths.coc}) {
+  for (std::string* path :
+       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence}) {
     if (!path->empty()) *path = frame_path(*path, *frame);
   }
   return paths;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "aperture_options.h"
 #include "commands.h"
 #include "pipeline.h"
 
@@ -12,7 +13,7 @@ namespace defray::cli {
 
 /// The command line of `defray render` as typed; to_settings gives it meaning.
 struct RenderOptions {
-  std::string input, output, depth, coc_out, frames;
+  std::string input, output, depth, coc_out, confidence_out, frames;
   std::string layer, view, depth_channel;
   std::string depth_kind = "z", background, unit = "m";
   double near_units = 0, far_units = 0;
@@ -26,6 +27,9 @@ struct RenderOptions {
   std::string method = "rdb", nonfinite = "zero";
   std::optional<int> rdb, samples, passes;
   std::string gather;
+  bool literal = false, keep_depth = false;
+  std::string quality, hidden, edges, highlights, border;
+  ApertureOptions aperture;
   bool jitter = false, rotate = false;
   std::optional<std::uint32_t> seed;
   std::optional<double> band_centre, band_width, max_blur;
@@ -35,6 +39,10 @@ struct RenderOptions {
 };
 
 void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// What brings the RDB closer to the truth (render_defocus.cpp).
+void add_defocus_options(CLI::App& command, RenderOptions& options);
+DefocusSettings to_defocus(const RenderOptions& options);
 
 /// The lens and the method (render_method.cpp).
 void add_method_options(CLI::App& command, RenderOptions& options);

@@ -21,6 +21,20 @@ void reject_foreign_options(const RenderOptions& o) {
   const std::vector<std::string> lens{"rdb", "linear", "gather"};
   const std::vector<MethodOption> options{
       {"--rdb", o.rdb.has_value(), {"rdb"}},
+      {"--literal", o.literal, {"rdb"}},
+      {"--quality", !o.quality.empty(), {"rdb"}},
+      {"--hidden", !o.hidden.empty(), {"rdb"}},
+      {"--edges", !o.edges.empty(), {"rdb"}},
+      {"--highlights", !o.highlights.empty(), {"rdb"}},
+      {"--border", !o.border.empty(), {"rdb"}},
+      {"--keep-depth", o.keep_depth, {"rdb"}},
+      {"--confidence-out", !o.confidence_out.empty(), {"rdb"}},
+      {"--blades", o.aperture.blades.has_value(), {"rdb"}},
+      {"--blade-curvature", o.aperture.curvature.has_value(), {"rdb"}},
+      {"--blade-rotation", o.aperture.rotation_deg.has_value(), {"rdb"}},
+      {"--squeeze", o.aperture.squeeze.has_value(), {"rdb"}},
+      {"--aperture-image", !o.aperture.image.empty(), {"rdb"}},
+      {"--cats-eye", o.aperture.cats_eye.has_value(), {"rdb"}},
       {"--jitter", o.jitter, {"rdb"}},
       {"--samples", o.samples.has_value(), {"gather"}},
       {"--passes", o.passes.has_value(), {"gather"}},
@@ -69,6 +83,28 @@ void reject_foreign_options(const RenderOptions& o) {
       if (is_given) fail(ExitCode::usage, "{} means nothing to --device reference", name);
     }
   }
+  if (o.method == "rdb" && o.jitter && !o.literal) {
+    fail(ExitCode::usage, "--jitter goes with --literal: other lens points leave no pattern");
+  }
+  if (o.literal) {
+    const std::pair<const char*, bool> of_stages[] = {
+        {"--quality", !o.quality.empty()},
+        {"--hidden", !o.hidden.empty()},
+        {"--edges", !o.edges.empty()},
+        {"--highlights", !o.highlights.empty()},
+        {"--border", !o.border.empty()},
+        {"--keep-depth", o.keep_depth},
+        {"--confidence-out", !o.confidence_out.empty()},
+        {"--blades", o.aperture.blades.has_value()},
+        {"--blade-curvature", o.aperture.curvature.has_value()},
+        {"--blade-rotation", o.aperture.rotation_deg.has_value()},
+        {"--squeeze", o.aperture.squeeze.has_value()},
+        {"--aperture-image", !o.aperture.image.empty()},
+        {"--cats-eye", o.aperture.cats_eye.has_value()}};
+    for (const auto& [name, is_given] : of_stages) {
+      if (is_given) fail(ExitCode::usage, "{} means nothing to --literal", name);
+    }
+  }
   if (o.method == "rdb" && o.seed && !o.jitter) {
     fail(ExitCode::usage, "--seed goes with --jitter: without it nothing is random");
   }
@@ -83,8 +119,15 @@ void add_method_options(CLI::App& c, RenderOptions& o) {
                "nothing occluded (Potmesil); gather: Poisson-disk samples (Glatzel & Wilhelm); "
                "tiltshift: a vertical gradient, no depth, no lens")
       ->group(group);
-  c.add_option("--rdb", o.rdb, "rdb: lens cells a side, 1 to 64; default 9")->group(group);
-  c.add_flag("--jitter", o.jitter, "rdb: shift each pixel's lens samples, noise for patterns")
+  c.add_option("--rdb", o.rdb,
+               "rdb: lens cells a side, 1 to 64: as many lens points as round cells; default: by "
+               "--quality, 9 with --literal")
+      ->group(group);
+  c.add_flag("--literal", o.literal,
+             "rdb: the paper alone: a grid of lens cells, visible pixels only, none of the stages")
+      ->group(group);
+  c.add_flag("--jitter", o.jitter,
+             "rdb --literal: shift each pixel's lens samples, noise for patterns")
       ->group(group);
   c.add_option("--gather", o.gather,
                "gather: aware (default) weighs samples by whether their light arrives; literal is "
@@ -127,8 +170,12 @@ MethodSettings to_method(const RenderOptions& o) {
          memory_mib);
   }
   const auto memory_bytes = static_cast<std::size_t>(memory_mib * 1048576);
-  s.rdb = {o.rdb.value_or(9), o.jitter, o.seed.value_or(0), memory_bytes};
+  s.rdb.cells_per_side = o.rdb.value_or(9);
+  s.rdb.jitter = o.jitter;
+  s.rdb.seed = o.seed.value_or(0);
+  s.rdb.memory_bytes = memory_bytes;
   make_lens_cells(s.rdb.cells_per_side, o.jitter);
+  if (s.method == Method::rdb && !o.literal) s.defocus = to_defocus(o);
   s.linear = {memory_bytes};
   s.gather.kind =
       choice<GatherKind>("--gather", o.gather.empty() ? "aware" : o.gather,

@@ -28,6 +28,9 @@ void add_files(CLI::App& c, RenderOptions& o) {
   c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(no_empty_path);
   c.add_option("--coc-out", o.coc_out, "Write the signed CoC radius in px (.exr, .tif)")
       ->group(files);
+  c.add_option("--confidence-out", o.confidence_out,
+               "Write the share of each pixel's lens rays that the input determines (.exr, .tif)")
+      ->group(files);
   c.add_option("--frames", o.frames, "1-8, 1-10x2, 1,5,9-12; default: every file that matches")
       ->group(files);
   c.add_flag("--skip-existing", o.skip_existing, "Leave frames alone whose output exists")
@@ -146,6 +149,7 @@ void add_render_options(CLI::App& c, RenderOptions& o) {
   add_channels(c, o);
   add_lens(c, o);
   add_method_options(c, o);
+  add_defocus_options(c, o);
   const char* const group = "Output to the terminal";
   c.add_flag("--json", o.json, "One JSON line a frame instead of text")->group(group);
   c.add_flag("-q,--quiet", o.quiet, "No text and no progress bar, errors excepted")->group(group);

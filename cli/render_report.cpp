@@ -35,6 +35,26 @@ std::string lens_line(const FrameReport& r) {
                      l.focus_distance_units, l.metres_per_unit);
 }
 
+std::string defocus_line(const DefocusReport& d) {
+  std::string line = fmt::format("{} lens points, {:.2f} % of their rays determined by the input",
+                                 d.lens_points, 100 * d.confidence);
+  const std::pair<const char*, std::size_t> counts[] = {
+      {"px made up behind", d.behind}, {"px split", d.split}, {"highlights", d.highlights}};
+  for (const auto& [name, count] : counts) {
+    if (count > 0) line += fmt::format(", {} {}", count, name);
+  }
+  return line;
+}
+
+nlohmann::ordered_json defocus_json(const DefocusReport& d) {
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const StageTime& s : d.stages) stages[s.stage] = s.seconds;
+  return {{"lens_points", d.lens_points}, {"confidence", d.confidence},
+          {"repaired_px", d.repaired},    {"behind_px", d.behind},
+          {"split_px", d.split},          {"highlights", d.highlights},
+          {"border_px", d.border_px},     {"stages_s", stages}};
+}
+
 std::vector<std::string> notes_of(const FrameReport& r) {
   std::vector<std::string> notes = r.notes;
   if (r.nonfinite > 0) {
@@ -47,6 +67,14 @@ std::vector<std::string> notes_of(const FrameReport& r) {
   }
   if (r.coc_limited > 0) {
     notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
+  }
+  if (r.defocus && r.defocus->repaired > 0) {
+    notes.push_back(fmt::format("depth was anti-aliased: {} px repaired (--keep-depth keeps them)",
+                                r.defocus->repaired));
+  }
+  if (r.defocus && r.defocus->border_is_cut) {
+    notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",
+                                r.defocus->border_px));
   }
   return notes;
 }
@@ -79,6 +107,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
       {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
       {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
   report.update(lens_json(r));
+  if (r.defocus) report["defocus"] = defocus_json(*r.defocus);
   report.update({{"nearest_coc_px", r.nearest_coc_px},
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},
@@ -103,6 +132,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
+  if (r.defocus) fmt::print("  {}\n", defocus_line(*r.defocus));
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);

@@ -10,6 +10,8 @@
 #include "cats_eye.h"
 #include "lens_samples.h"
 #include "method.h"
+#include "metrics.h"
+#include "patterns.h"
 #include "reference/reference.h"
 #include "reference/stages.h"
 #include "stages.h"
@@ -62,7 +64,8 @@ std::vector<T> extended(const std::vector<T>& plane, int width, int height, int 
 }
 
 bool is_in_margin(const Extended& e, std::size_t pixel) {
-  const int x = static_cast<int>(pixel % size(e.width)), y = static_cast<int>(pixel / size(e.width));
+  const int x = static_cast<int>(pixel % size(e.width)),
+            y = static_cast<int>(pixel / size(e.width));
   return x < e.margin || y < e.margin || x >= e.width - e.margin || y >= e.height - e.margin;
 }
 
@@ -107,7 +110,8 @@ class Chain {
     done("border");
     if (settings_.repair_depth) repair_depth(e);
     Fragments fragments = make_fragments(e);
-    const LightSources lights = take_highlights(fragments, frame.light_channels());
+    const LightSources lights = take_highlights(
+        fragments, static_cast<int>(frame.channels.size()) - (frame.has_alpha ? 1 : 0));
     if (settings_.soften) fragments.channels = soften(fragments, points);
     done("soften");
     place(e, frame);
@@ -161,12 +165,34 @@ class Chain {
     }
     Surface behind = session_ ? fill(*session_, view, mixed) : reference::fill(view, mixed);
     done("fill");
+    if (settings_.hidden == Hidden::patterns) add_patterns(e, mixed, behind);
     // Without `split` no pixel counts as mixed: all keep their colour and surface.
     const Words to_split = settings_.split_edges ? mixed : Words(mixed.size());
     Surfaces s = session_ ? split(*session_, view, to_split, std::move(behind))
                           : reference::split(view, to_split, std::move(behind));
     done("split");
     return assembled(e, s);
+  }
+
+  void add_patterns(const Extended& e, const Words& mixed, Surface& behind) {
+    Words is_behind, encoded;
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+      is_behind.push_back(behind.inverse[i] >= 0);
+      std::uint32_t word = mixed[i] || is_behind[i] ? 0 : DEFRAY_PATTERN_KNOWN;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float v = e.channels[std::min(c, e.channels.size() - 1)][i];
+        word |= static_cast<std::uint32_t>(std::lround(255 * shown_value(v))) << (8 * c);
+      }
+      encoded.push_back(word);
+    }
+    const PatternFrame frame{e.width,      e.height,          encoded,
+                             e.coc_quanta, behind.coc_quanta, is_behind};
+    if (session_) {
+      improve_by_patterns(*session_, frame, e.channels, {}, behind.channels);
+    } else {
+      reference::improve_by_patterns(frame, e.channels, {}, behind.channels);
+    }
+    done("patterns");
   }
 
   /// One fragment a pixel.
@@ -239,9 +265,11 @@ class Chain {
     rdb_.origin_x = frame.origin_x - e.margin;
     rdb_.origin_y = frame.origin_y - e.margin;
     if (settings_.aperture.cats_eye == 0) return;
+    const int width = frame.display_width > 0 ? frame.display_width : frame.width;
+    const int height = frame.display_height > 0 ? frame.display_height : frame.height;
     const auto rim = [&](int x, int y) {
       return rim_centre(settings_.aperture.cats_eye, rdb_.origin_x + x + 0.5,
-                        rdb_.origin_y + y + 0.5, frame.display_width(), frame.display_height());
+                        rdb_.origin_y + y + 0.5, width, height);
     };
     for (int x = 0; x < e.width; ++x) rdb_.rim_x.push_back(rim(x, 0)[0]);
     for (int y = 0; y < e.height; ++y) rdb_.rim_y.push_back(rim(0, y)[1]);
@@ -261,9 +289,8 @@ class Chain {
     const int width = e.width - 2 * e.margin;
     double sum = 0;
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      const std::size_t open =
-          open_cells(rdb_, rdb_.samples, i % size(width) + size(e.margin),
-                     i / size(width) + size(e.margin));
+      const std::size_t open = open_cells(rdb_, rdb_.samples, i % size(width) + size(e.margin),
+                                          i / size(width) + size(e.margin));
       out.confidence.push_back(open == 0 ? 0.0f
                                          : static_cast<float>(seen[i]) / static_cast<float>(open));
       sum += out.confidence.back();

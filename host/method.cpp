@@ -54,7 +54,14 @@ const char* to_string(Method method) {
 }
 
 std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, Session* session,
-                                const std::function<void(double)>& progress) {
+                                const std::function<void(double)>& progress,
+                                DefocusResult* details) {
+  if (s.method == Method::rdb && s.defocus) {
+    DefocusResult result = defocus(f, *s.defocus, s.rdb, session, progress);
+    std::vector<Plane> colour = result.colour;
+    if (details) *details = std::move(result);
+    return colour;
+  }
   if (!session) return apply_twin(f, s, progress);
   switch (s.method) {
     case Method::rdb:

@@ -31,7 +31,7 @@ struct Frame {
 
 void check_paths(const FramePaths& paths) {
   std::error_code ignored;
-  for (const std::string& output : {paths.output, paths.coc}) {
+  for (const std::string& output : {paths.output, paths.coc, paths.confidence}) {
     if (output.empty()) continue;
     for (const std::string& input : {paths.input, paths.depth}) {
       if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
@@ -39,8 +39,15 @@ void check_paths(const FramePaths& paths) {
       }
     }
   }
-  if (is_same_file(paths.coc, paths.output)) {
-    fail(ExitCode::usage, "{}: -o and --coc-out are the same file", paths.coc);
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"-o", paths.output}, {"--coc-out", paths.coc}, {"--confidence-out", paths.confidence}};
+  for (const auto& [name, path] : outputs) {
+    for (const auto& [other, other_path] : outputs) {
+      if (&path == &other_path) break;
+      if (!path.empty() && is_same_file(path, other_path)) {
+        fail(ExitCode::usage, "{}: {} and {} are the same file", path, other, name);
+      }
+    }
   }
 }
 
@@ -152,6 +159,7 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   check_paths(paths);
   check_can_write(paths.output);
   if (!paths.coc.empty()) check_can_write(paths.coc);
+  if (!paths.confidence.empty()) check_can_write(paths.confidence);
 
   auto start = Clock::now();
   Frame frame = read_frame(paths, settings, report);
@@ -160,14 +168,25 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   start = Clock::now();
   const std::vector<std::int32_t> coc = find_coc(frame, settings, session, report);
   describe_coc(coc, report);
-  std::vector<Plane> result =
-      apply_method({report.data.width, report.data.height, coc, frame.depth, frame.colour},
-                   settings.method, session, progress);
+  const Window &data = report.data, &display = report.display;
+  DefocusResult details;
+  std::vector<Plane> result = apply_method(
+      {data.width, data.height, coc, frame.depth, frame.colour, frame.colour.size() == 4,
+       data.x - display.x, data.y - display.y, display.width, display.height},
+      settings.method, session, progress, &details);
+  if (settings.method.defocus) report.defocus = details.report;
   report.render_seconds = seconds_since(start);
 
   start = Clock::now();
   write_picture(paths.output, frame.file, frame.choice, result, report.notes);
-  if (!paths.coc.empty()) write_coc(paths.coc, frame.file, frame.choice.part, coc);
+  if (!paths.coc.empty()) {
+    Plane radii;
+    for (const std::int32_t q : coc) radii.push_back(static_cast<float>(q) * px_per_quantum);
+    write_plane(paths.coc, "coc", frame.file, frame.choice.part, radii);
+  }
+  if (!paths.confidence.empty()) {
+    write_plane(paths.confidence, "confidence", frame.file, frame.choice.part, details.confidence);
+  }
   report.write_seconds = seconds_since(start);
   return {std::move(report), std::move(result)};
 }

@@ -37,9 +37,9 @@ struct RenderSettings {
   TiltshiftSettings tiltshift;
 };
 
-/// Which files. Empty `depth`: depth is in `input`. Empty `coc`: not written.
+/// Which files. Empty `depth`: depth is in `input`. Empty `coc`, `confidence`: not written.
 struct FramePaths {
-  std::string input, depth, output, coc;
+  std::string input, depth, output, coc, confidence = {};
 };
 
 /// What was done, for people and machines.
@@ -55,7 +55,8 @@ struct FrameReport {
   std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
   std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
   bool nonfinite_kept = false;
-  std::vector<std::string> notes;  ///< Whatever else the user should know.
+  std::optional<DefocusReport> defocus;  ///< Of the RDB with its stages.
+  std::vector<std::string> notes;        ///< Whatever else the user should know.
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
 };
 

@@ -106,19 +106,16 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
   });
 }
 
-void write_coc(const std::string& path, const ImageFile& like, int part,
-               const std::vector<std::int32_t>& coc_quanta) {
+void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
+                 const Plane& values) {
   if (!is_exr(path) && extension(path) != ".tif" && extension(path) != ".tiff") {
-    fail(ExitCode::usage, "{}: a CoC has signs and sizes; --coc-out takes .exr or .tif", path);
-  }
-  Plane radii(coc_quanta.size());
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    radii[i] = static_cast<float>(coc_quanta[i]) / (1 << DEFRAY_COC_FRACTION_BITS);
+    fail(ExitCode::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
+         name);
   }
   ImageFile file = like.extract(part, {0});
-  file.rename_channel(0, 0, "coc");
-  file.set_plane(0, 0, radii);
-  write_safely(path, [&](const std::string& name) { file.write(name); });
+  file.rename_channel(0, 0, name);
+  file.set_plane(0, 0, values);
+  write_safely(path, [&](const std::string& temporary) { file.write(temporary); });
 }
 
 }  // namespace defray

@@ -22,9 +22,9 @@ std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Win
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes);
 
-/// Writes signed CoC radii (pixels) as the float channel "coc", with the windows and metadata of
-/// `part` of `like`.
-void write_coc(const std::string& path, const ImageFile& like, int part,
-               const std::vector<std::int32_t>& coc_quanta);
+/// Writes values as the float channel `name`, with the windows and metadata of `part` of `like`:
+/// signed CoC radii in pixels as "coc", "confidence".
+void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
+                 const Plane& values);
 
 }  // namespace defray

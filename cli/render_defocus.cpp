@@ -1,0 +1,67 @@
+// The options of defray render that bring the ray distribution buffer closer to the truth.
+#include "options.h"
+#include "render.h"
+
+namespace defray::cli {
+namespace {
+
+/// Settings that go together.
+DefocusSettings of_quality(const std::string& quality) {
+  DefocusSettings s;
+  const int cells = choice<int>("--quality", quality, {{"draft", 9}, {"normal", 13}, {"high", 33}});
+  s.cells_per_side = cells;
+  if (quality == "high") s.hidden = Hidden::patterns;
+  return s;
+}
+
+}  // namespace
+
+void add_defocus_options(CLI::App& c, RenderOptions& o) {
+  const char* const group = "Closer to the truth (rdb)";
+  c.add_option("--quality", o.quality,
+               "draft: --rdb 9; normal (default): --rdb 13; high: --rdb 33 --hidden patterns")
+      ->group(group);
+  c.add_option("--hidden", o.hidden,
+               "What lies behind near surfaces: off: nothing; on (default): made up smoothly from "
+               "what is around; patterns: and from where the picture repeats itself")
+      ->group(group);
+  c.add_option("--edges", o.edges,
+               "Anti-aliased pixels: split (default) into what is in front and behind, or keep")
+      ->group(group);
+  c.add_flag("--keep-depth", o.keep_depth, "Do not repair depth that was anti-aliased")
+      ->group(group);
+  c.add_option("--highlights", o.highlights,
+               "Small bright sources: discs (default) of the aperture's shape, or rays like others")
+      ->group(group);
+  c.add_option("--border", o.border,
+               "Outside the data window: clamp (default): its edge goes on; black; renormalise: "
+               "only known rays count")
+      ->group(group);
+  add_aperture_options(c, o.aperture);
+}
+
+DefocusSettings to_defocus(const RenderOptions& o) {
+  DefocusSettings s = of_quality(o.quality.empty() ? "normal" : o.quality);
+  if (o.rdb) s.cells_per_side = *o.rdb;
+  if (!o.hidden.empty()) {
+    s.hidden =
+        choice<Hidden>("--hidden", o.hidden,
+                       {{"off", Hidden::off}, {"on", Hidden::on}, {"patterns", Hidden::patterns}});
+  }
+  if (!o.edges.empty()) {
+    s.split_edges = choice<bool>("--edges", o.edges, {{"split", true}, {"keep", false}});
+  }
+  if (!o.highlights.empty()) {
+    s.highlights = choice<bool>("--highlights", o.highlights, {{"discs", true}, {"rays", false}});
+  }
+  if (!o.border.empty()) {
+    s.border = choice<Border>(
+        "--border", o.border,
+        {{"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}});
+  }
+  s.repair_depth = !o.keep_depth;
+  s.aperture = to_aperture(o.aperture);
+  return s;
+}
+
+}  // namespace defray::cli
