@@ -31,19 +31,22 @@ bool is_inside(const DefrayFillParams p, const int2 at) {
 }
 
 // CoC and depth of the surface at q, continued back along the ray. Its slant is taken from four
-// pixels further on, if they are still the same surface; the result keeps half the step.
+// pixels further on, if they are still the same surface; the result keeps half the step. Places are
+// whole pixels: the way back is measured along the line from q to that pixel.
 Found continue_back(const DefrayFillParams p, __global const int* restrict coc_quanta,
                     __global const float* restrict inverse, __global const uint* restrict mixed,
                     const int2 start, const float2 direction, const int t, const int own) {
-  const uint q = pixel_at(p.width, p.height, start + convert_int2(rint((float)t * direction)));
-  const int2 beyond = start + convert_int2(rint((float)(t + 4) * direction));
+  const int2 back = convert_int2(rint((float)t * direction));
+  const int2 on = convert_int2(rint(4.0f * direction));
+  const int2 beyond = start + back + on;
+  const uint q = pixel_at(p.width, p.height, start + back);
   Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q]};
   if (!is_inside(p, beyond)) return found;
   const uint b = pixel_at(p.width, p.height, beyond);
   const float slant = (float)(coc_of(coc_quanta, q) - coc_of(coc_quanta, b));
   const float most = 0.5f * (float)(coc_of(coc_quanta, q) - own);
   if (mixed[b] || fabs(slant) > 4.0f * DEFRAY_JUMP_QUANTA) return found;
-  const float steps = 0.25f * (float)t;
+  const float steps = (float)(back.x * on.x + back.y * on.y) / (float)(on.x * on.x + on.y * on.y);
   const float change = slant * steps;
   const float kept = clamp(change, -most, most);
   const float share = change != 0.0f ? kept / change : 0.0f;

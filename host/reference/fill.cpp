@@ -22,12 +22,14 @@ struct Way {
   Place start;
   float x, y;
 
-  Place after(int t) const {
+  /// What t steps add up to, in whole pixels.
+  Place steps(int t) const {
     const auto rounded = [&](float d) {
       return static_cast<int>(std::nearbyint(static_cast<float>(t) * d));
     };
-    return start + Place{rounded(x), rounded(y)};
+    return {rounded(x), rounded(y)};
   }
+  Place after(int t) const { return start + steps(t); }
 };
 
 class Filler {
@@ -93,16 +95,17 @@ class Filler {
 
   /// The surface after t steps, continued back to the start, no further than half the step in CoC.
   Found continued(const Way& way, int t, int own) const {
-    const std::size_t q = frame_.index(way.after(t));
+    const Place back = way.steps(t), on = way.steps(4), beyond = way.start + back + on;
+    const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
     Found found{q, static_cast<float>(t), static_cast<float>(coc), view_.inverse[q]};
-    const Place beyond = way.after(t + 4);
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
     const auto slant = static_cast<float>(coc - frame_.coc(b));  // over four pixels
     if (mixed_[b] || std::fabs(slant) > 4 * DEFRAY_JUMP_QUANTA) return found;
     const float most = 0.5f * static_cast<float>(coc - own);
-    const float steps = 0.25f * static_cast<float>(t);
+    const float steps = static_cast<float>(back.x * on.x + back.y * on.y) /
+                        static_cast<float>(on.x * on.x + on.y * on.y);
     const float change = slant * steps;
     const float kept = std::clamp(change, -most, most);
     const float share = change != 0 ? kept / change : 0;
