@@ -75,16 +75,23 @@ TEST(Fill, BehindABarInARowTheSlantIsExact) {
 TEST(Fill, ReachesAsFarAsTheLensSeesPastTheEdgeAndNoFurther) {
   Frame f(200, 3);
   f.add_bar(50, 200);
-  const Surface behind = f.filled();
-  int filled = 0;
-  for (int x = 50; x < 200; ++x) {
-    const bool is_there = behind.inverse[f.at(x, 1)] >= 0;
-    filled += is_there;
-    // 6 px of CoC, 2 more; the plane's last pixel is 49.
-    EXPECT_EQ(is_there, x - 49 <= 6 + 2) << x;
-    EXPECT_EQ(behind.coc_quanta[f.at(x, 1)], is_there ? 1536 : 0) << x;
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) f.coc[f.at(x, y)] = 20000;  // so far that ways go on past the plane
   }
-  EXPECT_EQ(filled, 8);
+  const Surface behind = f.filled();
+  for (int x = 50; x < 200; ++x) {
+    // 6 px of CoC, 2 more; the plane's last pixel is 49.
+    const bool is_plane = behind.inverse[f.at(x, 1)] >= 0 && behind.coc_quanta[f.at(x, 1)] < 20000;
+    EXPECT_EQ(is_plane, x - 49 <= 6 + 2) << x;
+    EXPECT_EQ(behind.coc_quanta[f.at(x, 1)] == 1536, is_plane) << x;
+    // Of what is farther, the last pixel is 4; steps on the way are up to 1 + a 16th of it.
+    const int distance = x - 4, reach = 20000 / 256 + 2;
+    if (distance > reach) {
+      EXPECT_EQ(behind.inverse[f.at(x, 1)], -1.0f) << x;
+    } else if (distance + distance / 16 <= reach) {
+      EXPECT_GE(behind.inverse[f.at(x, 1)], 0.0f) << x;
+    }
+  }
 }
 
 TEST(Fill, NothingLiesBehindTheFarthestOrBesideItself) {
