@@ -20,7 +20,7 @@
 // difference   bit 24: a pair; below: its squared difference
 // sums         number of pairs << 40 | squared differences, weighted
 // behind_coc   [rows][width]                  radius of the synthesised fragment
-// smooth0..3   [rows][width]                  its colour, before
+// channel_behind0..3  [rows][width]          its colour, before: smooth
 // channel0..3  [from source_row rows above the band on][width]   linear colours of the frame
 // sum          [rows][width]                  only where there is a fragment behind
 // weight       [rows][width]                  (w, w D), the same
@@ -106,8 +106,8 @@ __kernel void patterns_match(
     const DefrayPatternParams p, __global const uint2* restrict units,
     __global const uint* restrict pixels, __global const int* restrict coc_quanta,
     __global const ulong* restrict sums, __global const int* restrict behind_coc,
-    __global const float* restrict smooth0, __global const float* restrict smooth1,
-    __global const float* restrict smooth2, __global const float* restrict smooth3,
+    __global const float* restrict channel_behind0, __global const float* restrict channel_behind1,
+    __global const float* restrict channel_behind2, __global const float* restrict channel_behind3,
     __global const float* restrict channel0, __global const float* restrict channel1,
     __global const float* restrict channel2, __global const float* restrict channel3,
     __global float4* restrict sum, __global float2* restrict weight) {
@@ -144,7 +144,8 @@ __kernel void patterns_match(
               (size_t)((long)(p.source_row + y) + p.shift_y) * p.width + (x0 + i) + p.shift_x;
           const float2 w = weight_of(window);
           total += w.x * (colour_at(channel0, channel1, channel2, channel3, source) -
-                          colour_at(smooth0, smooth1, smooth2, smooth3, target));
+                          colour_at(channel_behind0, channel_behind1, channel_behind2,
+                                    channel_behind3, target));
           weights += w;
         }
         sum[target] = total;

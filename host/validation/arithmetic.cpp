@@ -37,7 +37,9 @@ std::vector<Substitution> native_divisions() {
       {"near_sum / fmax(near_weight, 1.0f)",
        "native_divide(near_sum, (float4)(fmax(near_weight, 1.0f)))"},
       {"(base_sum / base_weight)", "native_divide(base_sum, (float4)(base_weight))"},
-      {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"}};
+      {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"},
+      {"(float)squares / pairs", "native_divide((float)squares, pairs)"},
+      {"650.25f / d", "native_divide(650.25f, d)"}};
 }
 
 SessionOptions with(const std::string& build_options, std::vector<Substitution> substitutions = {},
