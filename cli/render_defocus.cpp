@@ -10,7 +10,7 @@ DefocusSettings of_quality(const std::string& quality) {
   DefocusSettings s;
   const int cells = choice<int>("--quality", quality, {{"draft", 9}, {"normal", 13}, {"high", 33}});
   s.cells_per_side = cells;
-  if (quality == "high") s.hidden = Hidden::patterns;
+  if (quality == "draft") s.hidden = Hidden::smooth;
   return s;
 }
 
@@ -19,11 +19,12 @@ DefocusSettings of_quality(const std::string& quality) {
 void add_defocus_options(CLI::App& c, RenderOptions& o) {
   const char* const group = "Closer to the truth (rdb)";
   c.add_option("--quality", o.quality,
-               "draft: --rdb 9; normal (default): --rdb 13; high: --rdb 33 --hidden patterns")
+               "draft: --rdb 9 --hidden smooth; normal (default): --rdb 13; high: --rdb 33")
       ->group(group);
-  c.add_option("--hidden", o.hidden,
-               "What lies behind near surfaces: off: nothing; on (default): made up smoothly from "
-               "what is around; patterns: and from where the picture repeats itself")
+  c.add_option(
+       "--hidden", o.hidden,
+       "What lies behind near surfaces: off: nothing; smooth: made up from what is around; on "
+       "(default): and from where the picture repeats itself")
       ->group(group);
   c.add_option("--edges", o.edges,
                "Anti-aliased pixels: split (default) into what is in front and behind, or keep")
@@ -46,7 +47,7 @@ DefocusSettings to_defocus(const RenderOptions& o) {
   if (!o.hidden.empty()) {
     s.hidden =
         choice<Hidden>("--hidden", o.hidden,
-                       {{"off", Hidden::off}, {"on", Hidden::on}, {"patterns", Hidden::patterns}});
+                       {{"off", Hidden::off}, {"smooth", Hidden::smooth}, {"on", Hidden::on}});
   }
   if (!o.edges.empty()) {
     s.split_edges = choice<bool>("--edges", o.edges, {{"split", true}, {"keep", false}});

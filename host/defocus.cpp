@@ -165,7 +165,7 @@ class Chain {
     }
     Surface behind = session_ ? fill(*session_, view, mixed) : reference::fill(view, mixed);
     done("fill");
-    if (settings_.hidden == Hidden::patterns) add_patterns(e, mixed, behind);
+    if (settings_.hidden == Hidden::on) add_patterns(e, mixed, behind);
     // Without `split` no pixel counts as mixed: all keep their colour and surface.
     const Words to_split = settings_.split_edges ? mixed : Words(mixed.size());
     Surfaces s = session_ ? split(*session_, view, to_split, std::move(behind))

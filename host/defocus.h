@@ -22,12 +22,12 @@ enum class Border {
 /// What is done about what lies behind.
 enum class Hidden {
   off,
-  on,        ///< Smoothly, from what is around.
-  patterns,  ///< And from where the picture repeats itself.
+  smooth,  ///< Made up from what is around.
+  on,      ///< And from where the picture repeats itself.
 };
 
 struct DefocusSettings {
-  int cells_per_side = 13;  ///< Lens points as many as round cells of such a grid.
+  int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
   Hidden hidden = Hidden::on;
   bool split_edges = true;
   bool repair_depth = true;
