@@ -117,8 +117,8 @@ void RdbRun::merge(const RdbPass& pass) {
   const DefrayRdbParams p = params_of(pass);
   const cl::Buffer(&channel)[4] = window_.channel;
   session_.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner_,
-                  window_.coverage, lens_, rim_x_, rim_y_, channel[0], channel[1], channel[2],
-                  channel[3], sum_, filled_, seen_);
+                  window_.coverage, window_.depth, lens_, rim_x_, rim_y_, channel[0], channel[1],
+                  channel[2], channel[3], sum_, filled_, seen_);
 }
 
 void RdbRun::add_light(const RdbPass& pass) {

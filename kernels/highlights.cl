@@ -7,12 +7,13 @@
 //
 // `highlights_add` gives each pixel the share of a source's light that falls into its square: the
 // light of a box of the aperture, from a summed-area table, in integers, so that the shares of all
-// pixels add up to 1. Light arrives where the RDB's cell nearest to its way through the lens is not
+// pixels add up to 1. Light arrives where the RDB's cells nearest to its way through the lens are not
 // held by a surface in front.
 //
 // highlights:
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
-// coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
+// coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. What is made up is no
+//                                       highlight.
 // channel0..3  [height][layers][width]
 // kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
 // Global size: (width, height x layers).
@@ -55,7 +56,7 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
   if (x >= p.width || row >= p.height * p.layers) return;
   const uint own = row * p.width + x;
   kept[own] = 1.0f;
-  const uint share = coverage[own] & ~DEFRAY_SYNTHESISED;
+  const uint share = coverage[own] < DEFRAY_SYNTHESISED ? coverage[own] : 0u;
   const float own_light =
       light_of(colour_at(channel0, channel1, channel2, channel3, own), p.light_channels);
   const int coc = coc_of(coc_quanta, own);
@@ -112,9 +113,9 @@ ulong light_at(__global const uint* restrict table, const int2 distance, const i
          light_before(table, u1, v0);
 }
 
-// The lens cell nearest to the way from a source to a pixel.
-uint cell_between(__global const uint* restrict cell_at, const int2 distance, const int coc) {
-  const long2 lens = (long2)(distance.x, distance.y) * (1L << 24) / coc;
+// The lens cell nearest to the way from a source to a point of a pixel, in eighths of a pixel.
+uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
+  const long2 lens = (long2)(eighths.x, eighths.y) * (1L << 21) / coc;
   const int shift = DEFRAY_LENS_FRACTION_BITS + 1 - DEFRAY_CELL_MAP_BITS;
   const long2 at = (lens + (1L << DEFRAY_LENS_FRACTION_BITS)) >> shift;
   const int2 c = convert_int2(clamp(at, 0L, (long)DEFRAY_CELL_MAP - 1L));
@@ -127,6 +128,12 @@ float rim_share(const int2 distance, const int coc, const int rim_x, const int r
   const float x = (float)distance.x - radius * ((float)rim_x * unit);
   const float y = (float)distance.y - radius * ((float)rim_y * unit);
   return clamp(fabs(radius) + 0.5f - sqrt(x * x + y * y), 0.0f, 1.0f);
+}
+
+// Whether the RDB's cell on the way from a source to a target is held by a surface in front of it.
+bool is_hidden(const uint2 held, __global const int* restrict coc_quanta, const int4 source) {
+  return held.x != DEFRAY_EMPTY && held.y < (uint)source.w &&
+         coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA;
 }
 
 __kernel void highlights_add(
@@ -147,19 +154,25 @@ __kernel void highlights_add(
   for (uint cell = 0; p.has_rim && cell < p.all_cells; ++cell) {
     open += passes_rim(lens[cell], rim_x[x], rim_y[y]) ? 1u : 0u;
   }
+  const size_t cells_apart = (size_t)p.band_rows * p.width;
   float4 light = 0.0f;
   for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
     const int4 h = where[list[i]];
     const int2 distance = (int2)((int)x - h.x, (int)y - h.y);
     const ulong arrives = light_at(table, distance, h.z);
     if (arrives == 0ul) continue;
-    const size_t cell = cell_between(cell_at, distance, h.z);
-    const uint2 held = winner[cell * p.band_rows * p.width + target];
-    const bool is_hidden = held.x != DEFRAY_EMPTY && held.y < (uint)h.w &&
-                           coc_of(coc_quanta, held.x) < h.z - DEFRAY_JUMP_QUANTA;
-    if (is_hidden) continue;
+    // A pixel that is large beside the disc sees many cells.
+    const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;
+    uint visible = 0u;
+    for (int k = 0; k < points * points; ++k) {
+      const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
+      const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
+      visible += is_hidden(winner[cell * cells_apart + target], coc_quanta, h) ? 0u : 1u;
+    }
+    if (visible == 0u) continue;
     const float passes = p.has_rim ? rim_share(distance, h.z, rim_x[x], rim_y[y]) : 1.0f;
-    light += ((float)arrives * l.share_of_light * passes) * excess[list[i]];
+    const float seen = (float)visible / (float)(points * points);
+    light += ((float)arrives * l.share_of_light * passes * seen) * excess[list[i]];
   }
   if (p.has_rim) light *= (float)p.all_cells / (float)max(open, 1u);
   sum[target] += light;

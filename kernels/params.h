@@ -45,6 +45,8 @@
 /// How much brighter than its surroundings a highlight is. Rays through n cells show a source as
 /// dots of 1/n of its brightness: up to here they are fainter than a hundredth or two.
 #define DEFRAY_HIGHLIGHT 10.0f
+/// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens cell.
+#define DEFRAY_WIDE_QUANTA 1024
 /// Side of the square tiles that highlights are sorted into, in pixels.
 #define DEFRAY_LIGHT_TILE 32
 /// Entries a side of the aperture's summed-area table: one more than texels.

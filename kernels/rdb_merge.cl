@@ -1,14 +1,15 @@
 // rdb_merge: the mean over the cells of each pixel's ray distribution buffer (Shinya 1994,
 // section 4, step 5).
 //
-// Cells that no ray reached do not count; a pixel without any ray keeps its own colour. Where all
-// cells have one colour, as in focus, it comes out bit for bit, not as a rounded mean; elsewhere
-// colours are simply added: sums of differences to one of them would lose dark cells beside a
-// bright one. The cells come in passes, and sums run over them in lens order whatever the passes:
-// one result, bit for bit, for every band height and memory budget.
+// Cells that no ray reached take what lies behind the pixel or beside it, if anything, or else do
+// not count; a pixel without any ray keeps its own colour. Where all cells have one colour, as in
+// focus, it comes out bit for bit, not as a rounded mean; elsewhere colours are simply added: sums
+// of differences to one of them would lose dark cells beside a bright one. The cells come in
+// passes, and sums run over them in lens order whatever the passes: one result, bit for bit, for
+// every band height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
-// coverage        [window_rows][layers][width]     only its flag matters here; if has_coverage
+// coverage, depth_bits  [window_rows][layers][width]  as in rdb_scatter
 // lens            [cells]                          u_k, 2^-16 of the aperture radius
 // rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim: cells that it
 // cuts
@@ -23,10 +24,28 @@
 #include "colour.h"
 #include "rim.h"
 
+// What shows through where no ray arrives: the farthest fragment behind the pixel and those around
+// it. Windows reach one row beyond their band: no band changes the answer.
+uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict coverage,
+                     __global const uint* restrict depth_bits, const int2 target) {
+  uint found = DEFRAY_EMPTY;
+  if (p.layers < 2u || !p.has_coverage) return found;
+  const int row = (int)(p.band_y - p.window_y) + target.y;
+  for (int y = max(row - 1, 0); y <= min(row + 1, (int)p.window_rows - 1); ++y) {
+    for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
+      const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
+      if (coverage[i] == 0u) continue;
+      if (found == DEFRAY_EMPTY || depth_bits[i] > depth_bits[found]) found = i;
+    }
+  }
+  return found;
+}
+
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
-                        __global const uint* restrict coverage, __global const int2* restrict lens,
-                        __global const int* restrict rim_x, __global const int* restrict rim_y,
-                        __global const float* restrict channel0,
+                        __global const uint* restrict coverage,
+                        __global const uint* restrict depth_bits,
+                        __global const int2* restrict lens, __global const int* restrict rim_x,
+                        __global const int* restrict rim_y, __global const float* restrict channel0,
                         __global const float* restrict channel1,
                         __global const float* restrict channel2,
                         __global const float* restrict channel3, __global float4* restrict sum,
@@ -46,8 +65,11 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
   float4 first = colour_at(channel0, channel1, channel2, channel3, f);
   int4 varies = (int4)((int)(state.x >> 16)) << (int4)(31, 30, 29, 28);  // in the sign bits
 
+  const uint behind = farthest_behind(p, coverage, depth_bits, (int2)((int)x, (int)row));
+
   for (uint cell = 0; cell < p.cell_count; ++cell) {
-    const uint s = winner[cell * cell_stride + target].x;
+    const uint held = winner[cell * cell_stride + target].x;
+    const uint s = held == DEFRAY_EMPTY ? behind : held;
     if (s == DEFRAY_EMPTY) continue;
     if (p.has_rim && !passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {
       continue;

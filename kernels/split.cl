@@ -69,8 +69,9 @@ Front front_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
 }
 
 // Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
-// sample decides: it most likely saw the larger share. Colours that are not finite, or whose
-// squares are not, say nothing: the pixel stays whole.
+// sample decides: it most likely saw the larger share. The more of C the two leave unexplained, the
+// less of it is taken apart. Colours that are not finite, or whose squares are not, say nothing: the
+// pixel stays whole.
 float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
   const float4 from_b = c - b, all = f - b;
   const float4 products = from_b * all, squares = all * all, sizes = f * f + b * b;
@@ -82,7 +83,11 @@ float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw
   if (!isfinite(along) || !isfinite(length2 + unsure)) return saw_front ? 1.0f : 0.0f;
   if (length2 + unsure == 0.0f) return likely;
   const float share = length2 > 0.0f ? clamp(along / length2, 0.0f, 1.0f) : 0.0f;
-  return (share * length2 + likely * unsure) / (length2 + unsure);
+  const float4 left = from_b - share * all, misfits = left * left;
+  const float misfit2 = misfits.x + misfits.y + misfits.z + misfits.w;
+  const float mean = (share * length2 + likely * unsure) / (length2 + unsure);
+  const float fit = (length2 + unsure) / (length2 + unsure + misfit2);
+  return saw_front ? 1.0f - (1.0f - mean) * fit : mean * fit;
 }
 
 // A coverage in 2^-16 and, of the very share that is stored, what is left of C for one surface when

@@ -2,13 +2,15 @@
 // Faults to put into the kernels, one at a time: 'defray validate' must find every one.
 #include <vector>
 
+#include "faults_highlights.h"
 #include "faults_stages.h"
 
 namespace defray::test {
 
 inline std::vector<Fault> with_stages(std::vector<Fault> faults) {
-  const std::vector<Fault> stages = stage_faults();
-  faults.insert(faults.end(), stages.begin(), stages.end());
+  for (const std::vector<Fault>& more : {stage_faults(), highlight_faults()}) {
+    faults.insert(faults.end(), more.begin(), more.end());
+  }
   return faults;
 }
 

@@ -44,14 +44,15 @@ std::uint64_t light_at(const ApertureTable& table, int dx, int dy, std::int32_t 
   const auto corner = [](std::int64_t a) {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(a, -(1 << 30), 1 << 30));
   };
-  const auto [u0, u1] = std::minmax(border(dx - 1), border(dx));
-  const auto [v0, v1] = std::minmax(border(dy - 1), border(dy));
+  const auto [u0, u1] = std::minmax({border(dx - 1), border(dx)});
+  const auto [v0, v1] = std::minmax({border(dy - 1), border(dy)});
   return light_in_box(table, corner(u0), corner(v0), corner(u1), corner(v1));
 }
 
+/// Distances in eighths of a pixel.
 std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int32_t coc) {
   const auto entry = [&](int d) {
-    const std::int64_t lens = std::int64_t{d} * (1 << 24) / coc;
+    const std::int64_t lens = std::int64_t{d} * (1 << 21) / coc;
     constexpr std::int64_t radius = 1 << DEFRAY_LENS_FRACTION_BITS;
     const auto at = static_cast<std::int64_t>(std::floor(
         static_cast<double>(lens + radius) * DEFRAY_CELL_MAP / static_cast<double>(2 * radius)));
@@ -81,7 +82,7 @@ Plane highlights(const Fragments& f, int light_channels) {
     const int y = static_cast<int>(i / static_cast<std::size_t>(f.width * f.layers));
     const float own = light_of(f, i, light_channels);
     const std::int32_t coc = tame(f.coc_quanta[i]);
-    if ((f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0 || coc == 0) continue;
+    if (f.coverage[i] == 0 || f.coverage[i] >= DEFRAY_SYNTHESISED || coc == 0) continue;
     if (!(own > 0) || std::isinf(own)) continue;
     const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
     std::vector<float> light = light_around(f, x, y, radius, light_channels);
@@ -120,13 +121,24 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
         if (arrives == 0) continue;
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
-        const std::int32_t held = winner[cell_between(lights, x - sx, y - sy, coc)][target];
-        const auto at = static_cast<std::size_t>(held);
-        if (held >= 0 && f.depth[at] < depth && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA) {
-          continue;
+        const auto is_hidden = [&, coc = coc](int dx, int dy) {
+          const std::int32_t held = winner[cell_between(lights, dx, dy, coc)][target];
+          const auto at = static_cast<std::size_t>(held);
+          return held >= 0 && f.depth[at] < depth &&
+                 tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
+        };
+        const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
+        int visible = 0;
+        for (int j = 0; j < across; ++j) {
+          for (int i = 0; i < across; ++i) {
+            const int du = across == 4 ? 2 * i - 3 : 0, dv = across == 4 ? 2 * j - 3 : 0;
+            visible += !is_hidden(8 * (x - sx) + du, 8 * (y - sy) + dv);
+          }
         }
+        if (visible == 0) continue;
+        const float seen = static_cast<float>(visible) / static_cast<float>(across * across);
         const float passes = rim_share(settings, x, y, x - sx, y - sy, coc);
-        const float share = static_cast<float>(arrives) * lights.share_of_light * passes;
+        const float share = static_cast<float>(arrives) * lights.share_of_light * passes * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];
         }

@@ -1,6 +1,7 @@
 // Twins of kernels/rdb_scatter.cl and kernels/rdb_merge.cl: Shinya 1994, section 4, steps 2 to 5.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -126,8 +127,36 @@ std::vector<std::int64_t> rdb_scatter(const FragmentView& f, const RdbSettings& 
 
 namespace {
 
-/// Calls visit(target, source) for every ray that wins a cell, cell by cell in lens order, and
-/// begin() before each cell.
+/// The fragment in front at a pixel.
+std::size_t front(const FragmentView& f, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(f.width);
+  return pixel / width * static_cast<std::size_t>(f.layers) * width + pixel % width;
+}
+
+/// What shows through where no ray arrives: the farthest fragment behind a pixel and those around
+/// it, two columns and one row to each side. -1: none.
+std::int64_t farthest_behind(const FragmentView& f, std::size_t pixel) {
+  if (f.layers < 2 || !f.coverage) return -1;
+  const int x0 = static_cast<int>(pixel % static_cast<std::size_t>(f.width));
+  const int y0 = static_cast<int>(pixel / static_cast<std::size_t>(f.width));
+  const auto bits = [&](std::size_t k) { return std::bit_cast<std::uint32_t>(f.depth[k]); };
+  std::int64_t found = -1;
+  for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
+    for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
+      const auto i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(f.layers) + 1) *
+                         static_cast<std::size_t>(f.width) +
+                     static_cast<std::size_t>(x);
+      if ((*f.coverage)[i] == 0) continue;
+      if (found < 0 || bits(i) > bits(static_cast<std::size_t>(found))) {
+        found = static_cast<std::int64_t>(i);
+      }
+    }
+  }
+  return found;
+}
+
+/// Calls visit(target, source, arrived) for every cell that shows a source, cell by cell in lens
+/// order, and begin() before each cell.
 template <typename Begin, typename Visit>
 void for_each_winner(const FragmentView& f, const RdbSettings& settings, const Begin& begin,
                      const Visit& visit, const std::function<void(double)>& progress) {
@@ -137,7 +166,8 @@ void for_each_winner(const FragmentView& f, const RdbSettings& settings, const B
     const auto winner = rdb_scatter(f, settings, cells, cell);
     begin();
     for (std::size_t i = 0; i < winner.size(); ++i) {
-      if (winner[i] >= 0) visit(i, static_cast<std::size_t>(winner[i]));
+      const std::int64_t shown = winner[i] >= 0 ? winner[i] : farthest_behind(f, i);
+      if (shown >= 0) visit(i, static_cast<std::size_t>(shown), winner[i] >= 0);
     }
     if (progress) progress(static_cast<double>(cell + 1) / static_cast<double>(count));
   }
@@ -150,12 +180,6 @@ bool is_cut_off(const RdbSettings& settings, int width, std::size_t pixel,
   const auto columns = static_cast<std::size_t>(width);
   return !passes_rim({settings.rim_x[pixel % columns], settings.rim_y[pixel / columns]}, u[0],
                      u[1]);
-}
-
-/// The fragment in front at a pixel.
-std::size_t front(const FragmentView& f, std::size_t pixel) {
-  const auto width = static_cast<std::size_t>(f.width);
-  return pixel / width * static_cast<std::size_t>(f.layers) * width + pixel % width;
 }
 
 }  // namespace
@@ -175,8 +199,8 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
     ++cell;
     if (has_light) winner.emplace_back(pixels, -1);
   };
-  const auto add = [&](std::size_t target, std::size_t source) {
-    if (has_light) winner.back()[target] = static_cast<std::int32_t>(source);
+  const auto add = [&](std::size_t target, std::size_t source, bool arrived) {
+    if (has_light && arrived) winner.back()[target] = static_cast<std::int32_t>(source);
     if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     if (filled[target]++ == 0) first[target] = source;
     if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
@@ -212,7 +236,7 @@ std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSetti
   std::vector<int> filled(pixel_count(f));
   const LensCells cells = lens_cells(settings);
   std::size_t cell = 0;
-  const auto add = [&](std::size_t target, std::size_t source) {
+  const auto add = [&](std::size_t target, std::size_t source, bool) {
     if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     ++filled[target];
     for (std::size_t c = 0; c < mean.size(); ++c) {

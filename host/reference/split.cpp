@@ -91,7 +91,11 @@ float coverage_of(const Colour& c, const Colour& f, const Colour& b, bool saw_fr
   if (!std::isfinite(along) || !std::isfinite(length2 + unsure)) return saw_front ? 1 : 0;
   if (length2 + unsure == 0) return likely;
   const float share = length2 > 0 ? std::clamp(along / length2, 0.0f, 1.0f) : 0;
-  return (share * length2 + likely * unsure) / (length2 + unsure);
+  Colour left = minus(c, b);
+  for (std::size_t i = 0; i < 4; ++i) left[i] -= share * all[i];
+  const float mean = (share * length2 + likely * unsure) / (length2 + unsure);
+  const float fit = (length2 + unsure) / (length2 + unsure + dot(left, left));
+  return saw_front ? 1 - (1 - mean) * fit : mean * fit;
 }
 
 /// C without the other surface's part, never below 0 where C is not.

@@ -49,24 +49,6 @@ Exact exact_coc(const Case& c, const Input& in) {
 
 // RDB ---------------------------------------------------------------------------------------------
 
-RdbSettings rdb_settings(const Case& c) {
-  RdbSettings s;
-  s.cells_per_side = c.cells;
-  s.jitter = c.jitter;
-  s.seed = c.seed;
-  s.origin_x = static_cast<int>(c.seed % 5) - 2;
-  s.origin_y = static_cast<int>(c.seed % 3);
-  if (c.seed % 4 == 1) {
-    for (int x = 0; x < c.width; ++x) s.rim_x.push_back(2000 * (x - c.width / 2));
-    for (int y = 0; y < c.height; ++y) s.rim_y.push_back(-1500 * (y - c.height / 3));
-  }
-  if (c.band_rows > 0) {
-    s.memory_bytes = static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) *
-                     (rdb_bytes_a_cell + rdb_bytes_a_sum);
-  }
-  return s;
-}
-
 Values run_rdb_clear(Session& session, const Case& c, const Input&) {
   return integers(cleared_on_device(session, c.width, c.height, c.cells));
 }
@@ -230,7 +212,8 @@ Values twin_reach(const Case& c, const Input& in) {
 
 /// The whole table, by name.
 std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
-  for (const std::vector<KernelCheck>& more : {stage_checks(), pattern_checks()}) {
+  for (const std::vector<KernelCheck>& more :
+       {stage_checks(), highlight_checks(), pattern_checks()}) {
     checks.insert(checks.end(), more.begin(), more.end());
   }
   std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {
@@ -244,6 +227,24 @@ constexpr const char* integer_rule = "equal: integer arithmetic";
 constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 }  // namespace
+
+RdbSettings rdb_settings(const Case& c) {
+  RdbSettings s;
+  s.cells_per_side = c.cells;
+  s.jitter = c.jitter;
+  s.seed = c.seed;
+  s.origin_x = static_cast<int>(c.seed % 5) - 2;
+  s.origin_y = static_cast<int>(c.seed % 3);
+  if (c.seed % 4 == 1) {
+    for (int x = 0; x < c.width; ++x) s.rim_x.push_back(2000 * (x - c.width / 2));
+    for (int y = 0; y < c.height; ++y) s.rim_y.push_back(-1500 * (y - c.height / 3));
+  }
+  if (c.band_rows > 0) {
+    s.memory_bytes = static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) *
+                     (rdb_bytes_a_cell + rdb_bytes_a_sum);
+  }
+  return s;
+}
 
 const std::vector<KernelCheck>& kernel_checks() {
   constexpr GatherKind literal = GatherKind::literal, aware = GatherKind::aware;

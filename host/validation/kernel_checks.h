@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "opencl/session.h"
+#include "rdb.h"
 #include "validation/case.h"
 #include "validation/input.h"
 
@@ -46,6 +47,10 @@ struct KernelCheck {
 
 /// Those of the stages before the RDB: a part of the table.
 std::vector<KernelCheck> stage_checks();
+std::vector<KernelCheck> highlight_checks();
+
+/// The case's way of running the RDB.
+RdbSettings rdb_settings(const Case& c);
 
 /// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();

@@ -1,0 +1,65 @@
+#pragma once
+// Faults to put into the kernels of the highlights.
+#include <vector>
+
+#include "fault.h"
+
+namespace defray::test {
+
+inline std::vector<Fault> highlight_faults() {
+  return {
+      {"rdb_merge", "nothing shows through", {"held == DEFRAY_EMPTY ? behind : held", "held"}},
+      {"rdb_merge", "what is not there shows through", {"if (coverage[i] == 0u) continue;", ""}},
+      {"highlights",
+       "half as many dim samples suffice",
+       {"dim <= count / 2u", "dim <= count / 4u"}},
+      {"highlights", "alpha is light", {"channels > 3u ? c.w : c.x", "c.w"}},
+      {"highlights",
+       "the sample above the median",
+       {"rank == count / 2u) kept", "rank == count / 2u + 1u) kept"}},
+      {"highlights",
+       "samples without the frame's last column",
+       {"q.x >= (int)p.width ||", "q.x + 1 >= (int)p.width ||"}},
+      {"highlights",
+       "surroundings from the layer behind",
+       {"(size_t)q.y * p.layers * p.width + (uint)q.x",
+        "((size_t)q.y * p.layers + p.layers - 1u) * p.width + (uint)q.x"}},
+      {"highlights", "sharp fragments too", {"share == 0u || coc == 0 ||", "share == 0u ||"}},
+      {"highlights", "stale output", {"  kept[own] = 1.0f;\n", ""}},
+      {"highlights_add",
+       "disc turned by half a turn",
+       {"(2L * i + 1L) * (1L << 23) / coc", "(2L * i + 1L) * (1L << 23) / -coc"}},
+      {"highlights_add", "off by half a pixel", {"(2L * i + 1L)", "(2L * i)"}},
+      {"highlights_add",
+       "texels not weighed",
+       {"const ulong right = x & 255u, below = y & 255u;",
+        "const ulong right = 0u, below = 0u; (void)x;"}},
+      {"highlights_add",
+       "nothing hides a source",
+       {"visible += is_hidden(winner", "visible += false && is_hidden(winner"}},
+      {"highlights_add",
+       "its own surface hides it",
+       {"coc_of(coc_quanta, held.x) < h.z - DEFRAY_JUMP_QUANTA", "true"}},
+      {"highlights_add",
+       "rows and columns of the cell map swapped",
+       {"cell_at[c.y * DEFRAY_CELL_MAP + c.x]", "cell_at[c.x * DEFRAY_CELL_MAP + c.y]"}},
+      {"highlights_add",
+       "band's first row forgotten",
+       {"const uint y = p.band_y + row;\n  const size_t target = (size_t)row * p.width + x;\n  "
+        "const uint tile",
+        "const uint y = row;\n  const size_t target = (size_t)row * p.width + x;\n  const uint "
+        "tile"}},
+      {"highlights_add",
+       "last source of a tile dropped",
+       {"i < first[tile + 1u]", "i + 1u < first[tile + 1u]"}},
+      {"highlights_add",
+       "what the rim takes is lost",
+       {"if (p.has_rim) light *= ", "if (0) light *= "}},
+      {"highlights_add",
+       "rim on the other side",
+       {"- radius * ((float)rim_x * unit)", "+ radius * ((float)rim_x * unit)"}},
+      {"highlights_add", "in the means' place", {"sum[target] += light;", "sum[target] = light;"}},
+  };
+}
+
+}  // namespace defray::test
