@@ -23,7 +23,8 @@ std::vector<Plane> crop(const std::vector<Plane>& planes, int width, int x0, int
   return out;
 }
 
-/// Kernel against twin on the middle of the frame.
+}  // namespace
+
 void check_against_twin(Session& session, const Subject& s, const MethodSettings& settings) {
   const int w = std::min(96, s.scene.width), h = std::min(64, s.scene.height);
   const int x0 = (s.scene.width - w) / 2, y0 = (s.scene.height - h) / 2;
@@ -36,17 +37,17 @@ void check_against_twin(Session& session, const Subject& s, const MethodSettings
   }
 }
 
-}  // namespace
+double seconds_of(const std::function<void()>& run) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  run();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 Timing time_of(int repetitions, const std::function<void()>& run) {
-  using Clock = std::chrono::steady_clock;
   run();
   std::vector<double> seconds;
-  for (int i = 0; i < repetitions; ++i) {
-    const auto start = Clock::now();
-    run();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-  }
+  for (int i = 0; i < repetitions; ++i) seconds.push_back(seconds_of(run));
   std::sort(seconds.begin(), seconds.end());
   const std::size_t middle = seconds.size() / 2;
   const double median =

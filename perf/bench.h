@@ -30,6 +30,8 @@ struct Timing {
   double spread = 0;  ///< (largest - smallest) / median.
 };
 
+double seconds_of(const std::function<void()>& run);
+
 /// Runs once to warm up, then `repetitions` times.
 Timing time_of(int repetitions, const std::function<void()>& run);
 
@@ -39,8 +41,11 @@ std::string to_text(const Timing& timing);
 /// A number with so many digits behind the point.
 std::string fixed(double value, int digits = 2);
 
-/// Times `render` after a check that the picture's middle (96 x 64 pixels) equals the scalar twin's
-/// within the RDB's bound, bit for bit elsewhere, and that every run gives the same picture.
+/// Kernel against twin on the picture's middle (96 x 64 pixels). Throws Error(internal) where they
+/// differ by a bit.
+void check_against_twin(Session& session, const Subject& subject, const MethodSettings& settings);
+
+/// Times `render` after check_against_twin, and a check that every run gives the same picture.
 /// Throws Error(internal) where it does not.
 Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings);
 

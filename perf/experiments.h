@@ -12,6 +12,7 @@ Section plate2(const Bench& bench);    ///< Shinya 1994, plate 2 and table 1: co
 Section figure7(const Bench& bench);   ///< Shinya 1994, figure 7: cost against cells.
 Section eye(const Bench& bench);       ///< Glatzel & Wilhelm, figures 8 and 9.
 Section tradeoff(const Bench& bench);  ///< Error against time, all methods.
+Section truth(const Bench& bench);     ///< The RDB with its stages: gain, cost, and what is left.
 
 struct Experiment {
   std::string about;

@@ -113,7 +113,8 @@ const std::map<std::string, Experiment>& experiments() {
       {"plate2", {"Shinya's plate 2 and table 1: time against an accumulation buffer", plate2}},
       {"figure7", {"Shinya's figure 7: time against cells a side", figure7}},
       {"eye", {"Glatzel & Wilhelm: miniatures, artefacts, the effect's cost", eye}},
-      {"tradeoff", {"Error against time for every method on three scenes", tradeoff}}};
+      {"tradeoff", {"Error against time for every method on three scenes", tradeoff}},
+      {"truth", {"What the stages around the RDB gain and cost, and what is left", truth}}};
   return all;
 }
 

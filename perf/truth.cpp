@@ -1,0 +1,94 @@
+// How close the RDB with its stages comes to the truth, what each stage costs and gains, and what
+// is left.
+#include "truth.h"
+
+#include <cmath>
+
+#include "experiments.h"
+#include "metrics.h"
+
+namespace defray::perf {
+
+double Setup::psnr_db(const std::vector<Plane>& picture) const {
+  return compare(picture, truth.colour, subject.scene.width).psnr_srgb_db;
+}
+
+Subject make_antialiased(Session& session, Scene scene, const std::string& setting,
+                         bool averages_depth) {
+  Subject s = make_subject(session, std::move(scene), setting);
+  s.pinhole.colour = render_pinhole(s.scene, {pinhole_samples}).colour;
+  if (!averages_depth) return s;
+  s.pinhole.depth = render_pinhole(s.scene, {pinhole_samples, true}).depth;
+  for (float& z : s.pinhole.depth) {
+    if (z >= static_cast<float>(nothing_there)) z = HUGE_VALF;
+  }
+  s.coc = coc_on_device(session, s.lens, s.scene.width, s.pinhole.depth);
+  return s;
+}
+
+std::vector<Setup> make_setups(const Bench& bench) {
+  struct Place {
+    std::string scene, setting;
+  };
+  std::vector<Place> places{{"fence", "bg"},
+                            {"fence", "fence"},
+                            {"spheres", "f2"},
+                            {"spheres", "f5"},
+                            {"plate1", "default"},
+                            {"blocks-lake", "miniature"},
+                            {"blocks-forest", "miniature"},
+                            {"highlights", "default"}};
+  if (bench.is_quick) places.resize(5);
+  std::vector<Setup> setups;
+  for (const Place& place : places) {
+    bench.step(place.scene + ": truth");
+    Subject s = make_antialiased(
+        bench.session, make_scene(place.scene, bench.size(384), bench.size(256)), place.setting);
+    Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 400, 1);
+    setups.push_back({place.scene, place.setting, std::move(s), std::move(truth)});
+  }
+  return setups;
+}
+
+MethodSettings default_chain(int cells_per_side) {
+  MethodSettings s;
+  s.defocus = DefocusSettings{};
+  s.defocus->cells_per_side = cells_per_side;
+  return s;
+}
+
+void add_pictures(const Bench& bench, const std::vector<Setup>& setups, Section& section) {
+  for (const Setup& setup : setups) {
+    bench.step(setup.name() + ": pictures");
+    const auto literal = render(bench.session, setup.subject, rdb_of(9));
+    const auto whole = render(bench.session, setup.subject, default_chain());
+    const auto difference = difference_picture(whole, setup.truth.colour, 4);
+    section.figures.push_back(
+        sheet(bench, "truth-" + setup.scene + "-" + setup.setting,
+              setup.name() + "; last: 4 times the difference of sRGB values, white is equal",
+              {{"pinhole", &setup.subject.pinhole.colour},
+               {"literal RDB 9x9", &literal},
+               {"default", &whole},
+               {"truth", &setup.truth.colour},
+               {"default against truth", &difference}},
+              setup.subject.scene.width, setup.subject.scene.height));
+  }
+}
+
+Section truth(const Bench& bench) {
+  Section section{"Closer to truth",
+                  "One pinhole picture does not show what lies behind near things, mixes surfaces "
+                  "in edge pixels, and small highlights fall between the rays. What do the stages "
+                  "around the RDB gain, what do they cost, and what is left?",
+                  {},
+                  {},
+                  {}};
+  const std::vector<Setup> setups = make_setups(bench);
+  add_mechanisms(bench, setups, section);
+  add_split(bench, setups, section);
+  add_motion(bench, section);
+  add_pictures(bench, setups, section);
+  return section;
+}
+
+}  // namespace defray::perf
