@@ -43,8 +43,8 @@ std::vector<Setup> make_setups(const Bench& bench) {
   for (const Place& place : places) {
     bench.step(place.scene + ": truth");
     Subject s = make_antialiased(
-        bench.session, make_scene(place.scene, bench.size(384), bench.size(256)), place.setting);
-    Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 400, 1);
+        bench.session, make_scene(place.scene, bench.size(320), bench.size(208)), place.setting);
+    Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 144, 1);
     setups.push_back({place.scene, place.setting, std::move(s), std::move(truth)});
   }
   return setups;

@@ -18,7 +18,7 @@ struct Film {
 
   Subject subject(int frame) const {
     return make_antialiased(bench.session,
-                            make_scene("drift", bench.size(320), bench.size(240), frame), setting);
+                            make_scene("drift", bench.size(160), bench.size(120), frame), setting);
   }
   /// `seed`: another one gives other noise.
   std::vector<Plane> truth(const Subject& s, int seed) const {
@@ -47,13 +47,13 @@ void add_motion(const Bench& bench, Section& section) {
       "truth-motion",
       fmt::format("drift, {} frames, {} x {}: RMS change from frame to frame, sRGB, in 255ths: "
                   "the truth's own, and by how much the methods' change is another",
-                  frames, bench.size(320), bench.size(240)),
+                  frames, bench.size(160), bench.size(120)),
       {"focus", "truth's change", "pinhole", "literal RDB 9x9", "default",
        "truth with other noise"},
       {}};
   Plot plot{"drift: change from frame to frame beside the truth's", "frame", "RMS, sRGB, 255ths"};
   for (const std::string setting : {"face", "fence"}) {
-    const Film film{bench, setting, bench.is_quick ? 9 : 256};
+    const Film film{bench, setting, bench.is_quick ? 9 : 100};
     Moment before = film.moment(1);
     Mean change, pinhole, literal, whole;
     Series literal_line{setting + ": literal", {}}, whole_line{setting + ": default", {}};
