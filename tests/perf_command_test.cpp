@@ -35,8 +35,9 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   expect_ok(result);
   EXPECT_EQ(result.err, "");  // no progress without a terminal
   const std::string html = text_of("report/index.html");
-  for (const std::string part : {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time",
-                                 "defray render spheres/pinhole.exr", "</html>"}) {
+  for (const std::string part :
+       {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time", "Closer to truth",
+        "defray render spheres/pinhole.exr", "</html>"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   std::size_t links = 0;
@@ -49,6 +50,27 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   EXPECT_GT(links, 20u);
   EXPECT_NE(html.find("rehearsal"), std::string::npos);
   EXPECT_EQ(text_of("report/plate1.csv").substr(0, 7), "method,");
+}
+
+TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
+  expect_ok(perf("experiment truth -o report --quick"));
+  const std::string mechanisms = text_of("report/truth-mechanisms.csv");
+  for (const std::string row : {"pinhole,", "literal RDB 9x9,", "default,", "--hidden off,",
+                                "--hidden smooth,", "--edges keep,", "--highlights rays,",
+                                "--border renormalise,", "--keep-depth,", "--quality high,"}) {
+    EXPECT_NE(mechanisms.find("\n" + row), std::string::npos) << row;
+  }
+  for (const std::string table : {"mechanisms", "cost", "split"}) {
+    const std::string csv = text_of("report/truth-" + table + ".csv");
+    const std::string head = csv.substr(0, csv.find('\n'));
+    EXPECT_NE(head.find("fence bg,fence fence,spheres f2,spheres f5,plate1"), std::string::npos)
+        << head;
+    EXPECT_EQ(csv.find("nan"), std::string::npos);
+  }
+  EXPECT_EQ(text_of("report/truth-motion.csv").substr(0, 6), "focus,");
+  for (const std::string picture : {"fence-bg", "spheres-f5", "plate1-default", "motion"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / ("report/truth-" + picture + ".png")));
+  }
 }
 
 TEST_F(PerfCommand, RefusesWhatItCannotDo) {
@@ -64,7 +86,8 @@ TEST_F(PerfCommand, RefusesWhatItCannotDo) {
 TEST_F(PerfCommand, HelpListsTheExperiments) {
   const Result help = perf("experiment --help");
   expect_ok(help);
-  for (const std::string name : {"plate1", "plate2", "figure7", "eye", "tradeoff", "Example"}) {
+  for (const std::string name :
+       {"plate1", "plate2", "figure7", "eye", "tradeoff", "truth", "Example"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
 }
