@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 #include "aperture_table.h"
 #include "cats_eye.h"
@@ -30,6 +31,7 @@ struct Extended {
   std::vector<std::int32_t> coc_quanta;
   Plane inverse;
   std::vector<Plane> channels;
+  Words data;  ///< The frame's pixel whose data each has; empty if nobody asks.
   FrameView view() const { return {width, height, coc_quanta, inverse, channels}; }
 };
 
@@ -69,9 +71,16 @@ bool is_in_margin(const Extended& e, std::size_t pixel) {
   return x < e.margin || y < e.margin || x >= e.width - e.margin || y >= e.height - e.margin;
 }
 
+/// Each pixel's own index.
+Words own_pixels(int width, int height) {
+  Words own(size(width) * size(height));
+  std::iota(own.begin(), own.end(), 0u);
+  return own;
+}
+
 Extended extend(const PinholeFrame& f, Border border, DefocusReport& report) {
   const int margin = margin_of(f, border, report);
-  Extended e{f.width + 2 * margin, f.height + 2 * margin, margin, {}, {}, {}};
+  Extended e{f.width + 2 * margin, f.height + 2 * margin, margin, {}, {}, {}, {}};
   e.coc_quanta = extended(f.coc_quanta, f.width, f.height, margin);
   e.inverse = extended(f.depth, f.width, f.height, margin);
   for (float& z : e.inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
@@ -107,6 +116,9 @@ class Chain {
     rdb_.samples = make_lens_samples(settings_.aperture, points);
     report_.lens_points = points;
     Extended e = extend(frame, settings_.border, report_);
+    if (rdb_.wants_nearest) {
+      e.data = extended(own_pixels(frame.width, frame.height), frame.width, frame.height, e.margin);
+    }
     done("border");
     if (settings_.repair_depth) repair_depth(e);
     Fragments fragments = make_fragments(e);
@@ -141,9 +153,11 @@ class Chain {
     if (between * mixed_a_ramp >= edge && between > 0) {
       const std::vector<std::int32_t> coc = e.coc_quanta;
       const Plane inverse = e.inverse;
+      const Words data = e.data;
       for (std::size_t i = 0; i < source.size(); ++i) {
         e.coc_quanta[i] = coc[source[i]];
         e.inverse[i] = inverse[source[i]];
+        if (!data.empty()) e.data[i] = data[source[i]];
         report_.repaired += source[i] != i && !is_in_margin(e, i);
       }
     }
@@ -199,6 +213,7 @@ class Chain {
   Fragments whole_pixels(const Extended& e) {
     Fragments f{e.width, e.height, 1, e.coc_quanta, {}, {}, e.channels};
     f.depth = depth_of(e.inverse);
+    f.data_of = e.data;
     for (std::size_t i = 0; i < f.depth.size(); ++i) f.coverage.push_back(flags(e, i));
     return f;
   }
@@ -219,6 +234,7 @@ class Chain {
           for (std::size_t c = 0; c < f.channels.size(); ++c) {
             f.channels[c].push_back(from.channels[c][i]);
           }
+          if (!e.data.empty()) f.data_of.push_back(data_of(e, from, layer, i));
           if (is_in_margin(e, i) || !is_there) continue;
           report_.behind += layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED;
           report_.split += layer == 0 && from.coverage[i] < DEFRAY_WHOLE;
@@ -226,6 +242,31 @@ class Chain {
       }
     }
     return f;
+  }
+
+  /// Whose data a fragment has. One on its pixel's own surface: the pixel's. One in front of it,
+  /// which `split` found beside the pixel: that of the nearest pixel on its surface. What was made
+  /// up: none.
+  static std::uint32_t data_of(const Extended& e, const Surface& from, int layer, std::size_t i) {
+    const auto is_on = [&](std::size_t pixel) {
+      return e.inverse[pixel] == from.inverse[i] && e.coc_quanta[pixel] == from.coc_quanta[i];
+    };
+    if (layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED) return DEFRAY_EMPTY;
+    if (is_on(i)) return e.data[i];
+    const int x = static_cast<int>(i % size(e.width)), y = static_cast<int>(i / size(e.width));
+    constexpr int reach = 3;  // as far as `split` looks
+    int least = 2 * reach * reach + 1;
+    std::uint32_t data = DEFRAY_EMPTY;
+    for (int j = std::max(0, y - reach); j <= std::min(e.height - 1, y + reach); ++j) {
+      for (int k = std::max(0, x - reach); k <= std::min(e.width - 1, x + reach); ++k) {
+        const std::size_t pixel = size(j) * size(e.width) + size(k);
+        const int distance = (j - y) * (j - y) + (k - x) * (k - x);
+        if (distance >= least || !is_on(pixel)) continue;
+        least = distance;
+        data = e.data[pixel];
+      }
+    }
+    return data;
   }
 
   static Plane depth_of(const Plane& inverse) {
@@ -295,6 +336,7 @@ class Chain {
                                          : static_cast<float>(seen[i]) / static_cast<float>(open));
       sum += out.confidence.back();
     }
+    if (rdb_.wants_nearest) out.nearest = or_own_pixel(cropped(result.nearest, e));
     report_.confidence = sum / static_cast<double>(seen.size());
     done("crop");
     out.report = std::move(report_);

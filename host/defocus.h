@@ -59,6 +59,9 @@ struct DefocusResult {
   std::vector<Plane> colour;
   /// Share of each pixel's lens rays that end on what the picture shows, 0 to 1.
   Plane confidence;
+  /// The pixel whose data (ids, normals) each pixel gets: that of the nearest surface its rays end
+  /// on, made-up ones left out; its own where there is none. If RdbSettings::wants_nearest.
+  std::vector<std::uint32_t> nearest = {};
   DefocusReport report;
 };
 

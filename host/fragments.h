@@ -17,6 +17,9 @@ struct Fragments {
   /// every fragment is whole, and all were seen.
   std::vector<std::uint32_t> coverage;
   std::vector<Plane> channels;  ///< 1 to 4.
+  /// The frame's pixel whose data (ids, normals) a fragment has; DEFRAY_EMPTY: none, it was made
+  /// up. Empty: each has its own pixel's.
+  std::vector<std::uint32_t> data_of = {};
 
   std::size_t index(int x, int y, int layer) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(layers) +
@@ -33,6 +36,7 @@ struct FragmentView {
   const Plane& depth;
   const std::vector<std::uint32_t>* coverage;  ///< Null: all whole and seen.
   const std::vector<Plane>& channels;
+  const std::vector<std::uint32_t>* data_of = nullptr;  ///< Null: each its own pixel's.
 
   FragmentView(int w, int h, const std::vector<std::int32_t>& coc, const Plane& z,
                const std::vector<Plane>& c)
@@ -44,7 +48,16 @@ struct FragmentView {
         coc_quanta(f.coc_quanta),
         depth(f.depth),
         coverage(f.coverage.empty() ? nullptr : &f.coverage),
-        channels(f.channels) {}
+        channels(f.channels),
+        data_of(f.data_of.empty() ? nullptr : &f.data_of) {}
+
+  /// The pixel whose data a fragment has.
+  std::uint32_t data_pixel(std::size_t fragment) const {
+    if (data_of) return (*data_of)[fragment];
+    const auto columns = static_cast<std::size_t>(width);
+    const std::size_t row = fragment / columns / static_cast<std::size_t>(layers);
+    return static_cast<std::uint32_t>(row * columns + fragment % columns);
+  }
 };
 
 /// The depth of no fragment: its bits are DEFRAY_EMPTY.

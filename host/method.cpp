@@ -19,12 +19,20 @@ std::vector<Plane> apply_tiltshift(const std::vector<Plane>& channels, const Lin
   return out;
 }
 
+std::vector<Plane> apply_rdb(const PinholeFrame& f, const RdbSettings& s, Session* session,
+                             const std::function<void(double)>& progress, DefocusResult* details) {
+  const FragmentView pixels(f.width, f.height, f.coc_quanta, f.depth, f.channels);
+  RdbResult result = session ? distribute_rays(*session, pixels, s, nullptr, progress)
+                             : reference::distribute_rays(pixels, s, nullptr, progress);
+  if (details) details->nearest = or_own_pixel(std::move(result.nearest));
+  return std::move(result.means);
+}
+
 std::vector<Plane> apply_twin(const PinholeFrame& f, const MethodSettings& s,
-                              const std::function<void(double)>& progress) {
+                              const std::function<void(double)>& progress, DefocusResult* details) {
   switch (s.method) {
     case Method::rdb:
-      return reference::render_rdb(f.width, f.height, f.coc_quanta, f.depth, f.channels, s.rdb,
-                                   progress);
+      return apply_rdb(f, s.rdb, nullptr, progress, details);
     case Method::gather:
       return reference::render_gather(f.width, f.height, f.coc_quanta, f.channels, s.gather);
     case Method::linear:
@@ -62,11 +70,10 @@ std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, 
     if (details) *details = std::move(result);
     return colour;
   }
-  if (!session) return apply_twin(f, s, progress);
+  if (!session) return apply_twin(f, s, progress, details);
   switch (s.method) {
     case Method::rdb:
-      return render_rdb(*session, f.width, f.height, f.coc_quanta, f.depth, f.channels, s.rdb,
-                        progress);
+      return apply_rdb(f, s.rdb, session, progress, details);
     case Method::gather:
       return render_gather(*session, f.width, f.height, f.coc_quanta, f.channels, s.gather,
                            progress);

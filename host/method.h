@@ -43,7 +43,7 @@ struct PinholeFrame {
 
 /// The lens picture, as many channels as there are. `session` null: the scalar twins.
 /// `progress` gets the share done, 0 to 1. Throws Error(usage) for settings out of range.
-/// `details` gets what the RDB's stages tell beside the picture.
+/// `details` gets what the RDB's stages tell beside the picture; of the RDB alone, nearest hits.
 std::vector<Plane> apply_method(const PinholeFrame& frame, const MethodSettings& settings,
                                 Session* session, const std::function<void(double)>& progress = {},
                                 DefocusResult* details = nullptr);

@@ -28,6 +28,13 @@ std::size_t open_cells(const RdbSettings& settings, const LensCells& cells, std:
                     [&](const auto& u) { return passes_rim(rim, u[0], u[1]); }));
 }
 
+std::vector<std::uint32_t> or_own_pixel(std::vector<std::uint32_t> nearest) {
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (nearest[i] == DEFRAY_EMPTY) nearest[i] = static_cast<std::uint32_t>(i);
+  }
+  return nearest;
+}
+
 RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSettings& settings,
                const LightSources* lights)
     : session_(session),
@@ -48,6 +55,7 @@ RdbRun::RdbRun(Session& session, const FragmentView& fragments, const RdbSetting
   sum_ = session.buffer(band * sizeof(cl_float4));
   filled_ = session.buffer(band * sizeof(cl_uint2));
   seen_ = session.buffer(band * sizeof(cl_uint));
+  if (settings_.wants_nearest) nearest_ = session.buffer(band * sizeof(cl_uint2));
   if (!lights_) return;
   light_ = {session.view(lights_->first), session.view(lights_->list),
             session.view(lights_->where), session.view(lights_->excess),
@@ -77,6 +85,7 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   p.origin_y = settings_.origin_y;
   p.has_rim = !settings_.rim_x.empty();
   p.all_cells = static_cast<std::uint32_t>(cells_.centres.size());
+  p.has_data_of = fragments_.data_of != nullptr;
   return p;
 }
 
@@ -89,8 +98,10 @@ void RdbRun::view_window(const RdbPass& pass) {
   const auto words = [&](const auto& plane) {
     return session_.view(&plane[first], count * sizeof(plane[0]));
   };
-  window_ = {pass.band_y, words(fragments_.coc_quanta), picture(fragments_.depth), lens_, {}};
+  window_ = {pass.band_y, words(fragments_.coc_quanta), picture(fragments_.depth), lens_, lens_,
+             {}};
   if (fragments_.coverage) window_.coverage = words(*fragments_.coverage);
+  if (fragments_.data_of) window_.data_of = words(*fragments_.data_of);
   // The kernel always sums four channels; a missing one repeats the last and is not read back.
   for (std::size_t c = 0; c < 4; ++c) {
     window_.channel[c] =
@@ -121,6 +132,14 @@ void RdbRun::merge(const RdbPass& pass) {
                   channel[2], channel[3], sum_, filled_, seen_);
 }
 
+void RdbRun::nearest(const RdbPass& pass) {
+  if (!settings_.wants_nearest) return;
+  view_window(pass);
+  const DefrayRdbParams p = params_of(pass);
+  session_.launch("rdb_nearest", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner_,
+                  window_.data_of, lens_, rim_x_, rim_y_, nearest_);
+}
+
 void RdbRun::add_light(const RdbPass& pass) {
   if (!lights_) return;
   const DefrayRdbParams p = params_of(pass);
@@ -138,6 +157,15 @@ void RdbRun::read_band(const RdbPass& pass, RdbResult& out) {
     for (std::size_t i = 0; i < means.size(); ++i) out.means[c][first + i] = means[i].s[c];
   }
   session_.read(seen_, &out.seen[first], means.size() * sizeof(cl_uint));
+  if (!settings_.wants_nearest) return;
+  std::vector<RdbWinner> nearest(means.size());
+  session_.read(nearest_, nearest.data(), nearest.size() * sizeof(RdbWinner));
+  const std::size_t window = pixels(fragments_.width * fragments_.layers, pass.window_y);
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    const std::uint32_t source = nearest[i].source;
+    out.nearest[first + i] =
+        source == DEFRAY_EMPTY ? DEFRAY_EMPTY : fragments_.data_pixel(window + source);
+  }
 }
 
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
@@ -154,10 +182,12 @@ RdbResult distribute_rays(Session& session, const FragmentView& fragments,
   const std::size_t count = pixels(fragments.width, fragments.height);
   RdbResult out{std::vector<Plane>(fragments.channels.size(), Plane(count)),
                 std::vector<std::uint32_t>(count)};
+  if (settings.wants_nearest) out.nearest.resize(count);
   double done = 0;
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     run.merge(pass);
+    run.nearest(pass);
     if (run.is_last_of_band(pass)) run.add_light(pass);
     run.finish();
     if (run.is_last_of_band(pass)) run.read_band(pass, out);

@@ -24,6 +24,7 @@ struct RdbSettings {
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
   /// host/cats_eye.h has it. Empty: none.
   std::vector<std::int32_t> rim_x = {}, rim_y = {};
+  bool wants_nearest = false;  ///< RdbResult::nearest is filled.
 };
 
 /// The lens points of these settings.
@@ -33,7 +34,13 @@ LensCells lens_cells(const RdbSettings& settings);
 struct RdbResult {
   std::vector<Plane> means;         ///< As many as there are channels.
   std::vector<std::uint32_t> seen;  ///< Cells of each pixel won by a fragment that was seen.
+  /// The pixel whose data each pixel gets: of the nearest fragment with data among all its cells'
+  /// winners (equal depths: the first in the frame). DEFRAY_EMPTY where there is none.
+  std::vector<std::uint32_t> nearest = {};
 };
+
+/// Nearest hits with each pixel itself where there is none.
+std::vector<std::uint32_t> or_own_pixel(std::vector<std::uint32_t> nearest);
 
 /// Lens points that the rim leaves open for a pixel; all of them without one.
 std::size_t open_cells(const RdbSettings& settings, const LensCells& cells, std::size_t x,
@@ -55,6 +62,9 @@ class RdbRun {
   /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
   void merge(const RdbPass& pass);
 
+  /// Looks for the nearest hit among the cells of the last scatter.
+  void nearest(const RdbPass& pass);
+
   /// Adds the light sources to the band's means.
   void add_light(const RdbPass& pass);
 
@@ -71,7 +81,7 @@ class RdbRun {
   /// The source rows that can reach a band, on the device.
   struct Window {
     int band_y = -1;
-    cl::Buffer coc, depth, coverage, channel[4];
+    cl::Buffer coc, depth, coverage, data_of, channel[4];
   };
   struct Light {
     cl::Buffer first, list, where, excess, table, cell_map;
@@ -85,7 +95,7 @@ class RdbRun {
   LensCells cells_;
   std::vector<RdbPass> passes_;
   Window window_;
-  cl::Buffer lens_, rim_x_, rim_y_, winner_, sum_, filled_, seen_;
+  cl::Buffer lens_, rim_x_, rim_y_, winner_, sum_, filled_, seen_, nearest_;
   const LightSources* lights_;
   Light light_;
 };

@@ -120,8 +120,9 @@ typedef struct {
   DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
-  DEFRAY_UINT has_rim;    ///< 1: the lens's rim cuts off cells, see rim.h.
-  DEFRAY_UINT all_cells;  ///< Lens cells of all passes.
+  DEFRAY_UINT has_rim;      ///< 1: the lens's rim cuts off cells, see rim.h.
+  DEFRAY_UINT all_cells;    ///< Lens cells of all passes.
+  DEFRAY_UINT has_data_of;  ///< 0: every fragment has data of its own (`rdb_nearest`).
 } DefrayRdbParams;
 
 /// A whole frame: `repair`, `edges`, `split`.
@@ -234,7 +235,7 @@ static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
-static_assert(sizeof(DefrayRdbParams) == 72);
+static_assert(sizeof(DefrayRdbParams) == 76);
 #endif
 
 #endif

@@ -92,6 +92,27 @@ inline const std::vector<Fault>& faults() {
        "second layer a row too low",
        {"p.window_y + row / p.layers", "p.window_y + (row + p.layers - 1) / p.layers"}},
       {"rdb_scatter", "jitter follows the data window", {"as_uint2(x + origin)", "as_uint2(x)"}},
+      {"rdb_nearest", "the farthest", {"w.y < best.y ||", "w.y > best.y ||"}},
+      {"rdb_nearest", "ties to the larger index", {"w.x < best.x);", "w.x > best.x);"}},
+      {"rdb_nearest",
+       "made-up fragments count",
+       {"(p.has_data_of && data_of[w.x] == DEFRAY_EMPTY)", "false"}},
+      {"rdb_nearest",
+       "minimum begun anew with each pass",
+       {"uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) :",
+        "uint2 best = 1 ? (uint2)(DEFRAY_EMPTY) :"}},
+      {"rdb_nearest",
+       "stale minimum of the band before",
+       {"uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) :",
+        "uint2 best = p.is_first_pass && p.band_y == 0 ? (uint2)(DEFRAY_EMPTY) :"}},
+      {"rdb_nearest",
+       "rim's row in the band",
+       {"passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {\n      "
+        "continue;\n    "
+        "}\n    best",
+        "passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[row])) {\n      continue;\n    }\n  "
+        "  "
+        "best"}},
       {"rdb_merge_seen", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},
       {"rdb_merge_seen", "count begun anew with each pass", {"? 0u : seen[target]", "? 0u : 0u"}},
       {"rdb_scatter_two_pass",

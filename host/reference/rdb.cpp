@@ -1,4 +1,5 @@
-// Twins of kernels/rdb_scatter.cl and kernels/rdb_merge.cl: Shinya 1994, section 4, steps 2 to 5.
+// Twins of kernels/rdb_scatter.cl, rdb_merge.cl (Shinya 1994, section 4, steps 2 to 5) and
+// rdb_nearest.cl.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -182,6 +183,14 @@ bool is_cut_off(const RdbSettings& settings, int width, std::size_t pixel,
                      u[1]);
 }
 
+/// The nearer of two fragments, of equal depths the first; -1: none yet.
+void keep_nearer(const FragmentView& f, std::int64_t source, std::int64_t& held) {
+  const auto depth = [&](std::int64_t i) { return f.depth[static_cast<std::size_t>(i)]; };
+  const bool is_nearer =
+      held < 0 || depth(source) < depth(held) || (depth(source) == depth(held) && source < held);
+  if (is_nearer) held = source;
+}
+
 }  // namespace
 
 RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
@@ -193,6 +202,7 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
   RdbResult out{sum, std::vector<std::uint32_t>(pixels)};
   const bool has_light = lights && !lights->empty();
   std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
+  std::vector<std::int64_t> nearest(settings.wants_nearest ? pixels : 0, -1);
   const LensCells cells = lens_cells(settings);
   std::size_t cell = 0;  // counts from 1 while its winners come
   const auto begin = [&] {
@@ -204,6 +214,9 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
     if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     if (filled[target]++ == 0) first[target] = source;
     if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
+    if (settings.wants_nearest && f.data_pixel(source) != DEFRAY_EMPTY) {
+      keep_nearer(f, static_cast<std::int64_t>(source), nearest[target]);
+    }
     for (std::size_t c = 0; c < channels; ++c) {
       sum[c][target] += f.channels[c][source];
       if (source != first[target] && f.channels[c][source] != f.channels[c][first[target]]) {
@@ -220,6 +233,9 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
     }
   }
   if (has_light) add_light(*lights, f, settings, winner, out.means);
+  for (const std::int64_t n : nearest) {
+    out.nearest.push_back(n < 0 ? DEFRAY_EMPTY : f.data_pixel(static_cast<std::size_t>(n)));
+  }
   return out;
 }
 

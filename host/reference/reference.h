@@ -26,7 +26,7 @@ std::vector<std::int64_t> rdb_scatter(const FragmentView& fragments, const RdbSe
                                       const LensCells& cells, std::size_t cell);
 
 /// Twins of `rdb_scatter` and `rdb_merge`, summed in float and in the kernel's order: equal bits.
-/// With light sources, the twin of `highlights_add` too.
+/// With light sources, the twin of `highlights_add` too; if wanted, that of `rdb_nearest`.
 RdbResult distribute_rays(const FragmentView& fragments, const RdbSettings& settings,
                           const LightSources* lights = nullptr,
                           const std::function<void(double)>& progress = {});

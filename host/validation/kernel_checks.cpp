@@ -91,6 +91,27 @@ Values twin_rdb_seen(const Case& c, const Input& in) {
   return integers(reference::distribute_rays(FragmentView(in.fragments), rdb_settings(c)).seen);
 }
 
+/// The case's fragments; those that were made up have no data, and others that of any pixel.
+RdbResult nearest_hits(Session* session, const Case& c, const Input& in) {
+  Fragments f = in.fragments;
+  for (std::size_t i = 0; i < f.coverage.size(); ++i) {
+    const bool is_made_up = (f.coverage[i] & DEFRAY_SYNTHESISED) != 0;
+    f.data_of.push_back(is_made_up ? DEFRAY_EMPTY : static_cast<std::uint32_t>(i));
+  }
+  RdbSettings s = rdb_settings(c);
+  s.wants_nearest = true;
+  const FragmentView view(f);
+  return session ? distribute_rays(*session, view, s) : reference::distribute_rays(view, s);
+}
+
+Values run_rdb_nearest(Session& session, const Case& c, const Input& in) {
+  return integers(nearest_hits(&session, c, in).nearest);
+}
+
+Values twin_rdb_nearest(const Case& c, const Input& in) {
+  return integers(nearest_hits(nullptr, c, in).nearest);
+}
+
 /// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
 /// (n n L u) / n + 5 L u.
 Exact exact_rdb(const Case& c, const Input& in) {
@@ -262,6 +283,7 @@ const std::vector<KernelCheck>& kernel_checks() {
       {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear, clear_work},
       {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, one_division, exact_rdb},
       {"rdb_merge_seen", integer_rule, run_rdb_seen, twin_rdb_seen, rdb_work},
+      {"rdb_nearest", integer_rule, run_rdb_nearest, twin_rdb_nearest, rdb_work},
       {"rdb_scatter", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work},
       {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work, nullptr,
        nullptr, true},

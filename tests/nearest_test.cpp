@@ -1,0 +1,185 @@
+// Nearest hits: kernel rdb_nearest, and whose data each pixel gets after the stages.
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "defocus.h"
+#include "method.h"
+#include "reference/reference.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+struct Scene {
+  Size size;
+  std::vector<std::int32_t> coc;
+  Plane depth;
+  std::vector<Plane> channels;
+  std::size_t count() const { return depth.size(); }
+  PinholeFrame frame() const { return {size.width, size.height, coc, depth, channels}; }
+};
+
+Scene random_scene(Size size, std::uint32_t seed) {
+  return {size,
+          random_coc(size, 4, seed),
+          random_depth(size, seed + 1),
+          {random_plane(size, seed + 2)}};
+}
+
+/// A near bar, out of focus, in front of a wall in focus, from column x0 up to x1; edges sharp.
+Scene bar(Size size, int x0, int x1) {
+  Scene s{size, {}, {}, {}};
+  s.channels.resize(3);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const bool is_bar = x >= x0 && x < x1;
+      s.coc.push_back(is_bar ? -4 * 256 : 0);
+      s.depth.push_back(is_bar ? 1.0f : 5.0f);
+      s.channels[0].push_back(is_bar ? 0.9f : 0.1f);
+      s.channels[1].push_back(is_bar ? 0.2f : 0.8f);
+      s.channels[2].push_back(0.5f);
+    }
+  }
+  return s;
+}
+
+RdbResult hits(const Scene& s, RdbSettings settings, Session* session) {
+  settings.wants_nearest = true;
+  const FragmentView view(s.size.width, s.size.height, s.coc, s.depth, s.channels);
+  return session ? distribute_rays(*session, view, settings)
+                 : reference::distribute_rays(view, settings);
+}
+
+DefocusResult through(const Scene& s, const DefocusSettings& settings, Session* session) {
+  RdbSettings rdb;
+  rdb.wants_nearest = true;
+  return defocus(s.frame(), settings, rdb, session);
+}
+
+TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
+  for (const Size size : awkward_sizes()) {
+    const Scene s = random_scene(size, 7);
+    RdbSettings settings;
+    settings.cells_per_side = is_slow_device() ? 3 : 7;
+    const Words expected = hits(s, settings, nullptr).nearest;
+    EXPECT_EQ(hits(s, settings, &session()).nearest, expected);
+    settings.memory_bytes =
+        static_cast<std::size_t>(size.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+    EXPECT_EQ(hits(s, settings, &session()).nearest, expected) << "one row and one cell a pass";
+    EXPECT_EQ(hits(s, settings, &session_without_int64()).nearest, expected);
+  }
+}
+
+TEST(Nearest, IsTheSmallestDepthOfAllCellsWinners) {
+  const Scene s = random_scene({23, 17}, 3);
+  RdbSettings settings;
+  settings.cells_per_side = 5;
+  const FragmentView view(23, 17, s.coc, s.depth, s.channels);
+  const LensCells cells = lens_cells(settings);
+  std::vector<std::set<std::pair<float, std::int64_t>>> met(s.count());
+  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
+    const auto winner = reference::rdb_scatter(view, settings, cells, cell);
+    for (std::size_t i = 0; i < winner.size(); ++i) {
+      if (winner[i] >= 0) met[i].emplace(s.depth[static_cast<std::size_t>(winner[i])], winner[i]);
+    }
+  }
+  const Words nearest = hits(s, settings, &session()).nearest;
+  int moved = 0;
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const std::uint32_t expected =
+        met[i].empty() ? DEFRAY_EMPTY : static_cast<std::uint32_t>(met[i].begin()->second);
+    EXPECT_EQ(nearest[i], expected) << i;
+    moved += nearest[i] != i;
+  }
+  EXPECT_GT(moved, 100);
+}
+
+TEST(Nearest, OnlyOnDemand) {
+  const Scene s = random_scene({9, 5}, 1);
+  EXPECT_TRUE(defocus(s.frame(), {}, {}, &session()).nearest.empty());
+  MethodSettings literal;
+  DefocusResult details;
+  apply_method(s.frame(), literal, &session(), {}, &details);
+  EXPECT_TRUE(details.nearest.empty());
+  literal.rdb.wants_nearest = true;
+  for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
+    apply_method(s.frame(), literal, on, {}, &details);
+    for (const std::uint32_t i : details.nearest) EXPECT_LT(i, s.count());
+    EXPECT_EQ(details.nearest.size(), s.count());
+  }
+}
+
+TEST(Nearest, ABlurredBarsDataReachAsFarAsItsLight) {
+  const Scene s = bar({48, 24}, 20, 30);
+  for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
+    const DefocusResult r = through(s, {}, on);
+    for (std::size_t i = 0; i < s.count(); ++i) {
+      const int x = static_cast<int>(i) % 48;
+      const float depth = s.depth[r.nearest[i]];
+      if (x >= 17 && x < 33) {
+        EXPECT_EQ(depth, 1.0f) << x;
+      }
+      if (x < 15 || x >= 35) {
+        EXPECT_EQ(depth, 5.0f) << x;
+      }
+      if (x < 15 || x >= 35) {
+        EXPECT_EQ(r.nearest[i], i) << "in focus, pixels keep their own";
+      }
+    }
+  }
+}
+
+// The wall is made up behind the bar: its fragments there stand in the bar's pixels, whose data are
+// the bar's.
+TEST(Nearest, MadeUpSurfacesHaveNoData) {
+  Scene s = bar({48, 24}, 23, 26);
+  for (std::size_t i = 0; i < s.count(); ++i) s.coc[i] = s.depth[i] == 1.0f ? 0 : 6 * 256;
+  const DefocusResult r = through(s, {}, &session());
+  EXPECT_GT(r.report.behind, 0u);
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const bool is_bar = s.depth[i] == 1.0f;
+    EXPECT_EQ(s.depth[r.nearest[i]] == 1.0f, is_bar) << i % 48;
+  }
+}
+
+// Edge pixels half covered, whose depth saw the wall: the bar's share has the bar's data.
+TEST(Nearest, WhatSplitTakesFromBesideHasTheDataFromThere) {
+  Scene s = bar({48, 24}, 20, 30);
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const int x = static_cast<int>(i) % 48;
+    if (x != 19 && x != 30) continue;
+    for (std::size_t c = 0; c < 2; ++c) s.channels[c][i] = 0.5f;
+  }
+  const DefocusResult r = through(s, {}, &session());
+  EXPECT_GT(r.report.split, 0u);
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const int x = static_cast<int>(i) % 48;
+    // The share in column 19 reaches columns 16 to 22, before the bar's own.
+    if (x >= 17 && x < 33) {
+      EXPECT_EQ(s.depth[r.nearest[i]], 1.0f) << x;
+    }
+  }
+}
+
+TEST(Nearest, BordersGiveTheEdgesData) {
+  Scene s = random_scene({20, 16}, 5);
+  s.coc.assign(s.count(), 5 * 256);
+  s.depth.assign(s.count(), 2.0f);
+  for (const Border border : {Border::clamp, Border::black, Border::renormalise}) {
+    DefocusSettings settings;
+    settings.border = border;
+    const DefocusResult r = through(s, settings, &session());
+    for (std::size_t i = 0; i < s.count(); ++i) {
+      ASSERT_LT(r.nearest[i], s.count());
+      const int dx = static_cast<int>(r.nearest[i] % 20) - static_cast<int>(i % 20);
+      const int dy = static_cast<int>(r.nearest[i] / 20) - static_cast<int>(i / 20);
+      EXPECT_LE(std::max(std::abs(dx), std::abs(dy)), 6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
