@@ -3,8 +3,9 @@
 // From each pixel rays go out over the picture in 16 directions until they leave its surface over a
 // jump in CoC and meet a farther one, close enough for the lens to look there past the edge: closer
 // than the step in CoC. The found pixels that lie on the surface of the nearest give colour (far
-// brighter ones than the median do not: highlights do not smear) and, continued along their slant,
-// CoC and depth: both are linear in the picture for a plane (depth as 1/z), and weighed alike.
+// brighter ones than their median do not: highlights do not smear) and, continued along their
+// slant, CoC and depth: both are linear in the picture for a plane (depth as 1/z), and weighed
+// alike.
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
@@ -129,6 +130,18 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   }
   if (count == 0u) return;
 
+  // The surface of the nearest alone: others' colours say nothing about its highlights.
+  const float surface = found[nearest].coc;
+  const float same = DEFRAY_JUMP_QUANTA + 0.125f * (surface - (float)own);
+  uint on_it = 0u;
+  for (uint i = 0; i < count; ++i) {
+    if (fabs(found[i].coc - surface) > same) continue;
+    found[on_it] = found[i];
+    bright[on_it] = bright[i];
+    ++on_it;
+  }
+  count = on_it;
+
   float median = 0.0f;
   for (uint i = 0; i < count; ++i) {
     uint rank = 0u;
@@ -137,12 +150,10 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     }
     if (rank == count / 2u) median = bright[i];
   }
-  const float same = DEFRAY_JUMP_QUANTA + 0.125f * (found[nearest].coc - (float)own);
   float weights = 0.0f, coc = 0.0f, inverse_sum = 0.0f, colour_weights = 0.0f;
   float4 colour = 0.0f;
   for (uint i = 0; i < count; ++i) {
     const Found f = found[i];
-    if (fabs(f.coc - found[nearest].coc) > same) continue;
     const float weight = 1.0f / (f.distance * f.distance);
     weights += weight;
     coc += weight * f.coc;
@@ -151,7 +162,6 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     colour_weights += weight;
     colour += weight * colour_at(channel0, channel1, channel2, channel3, f.source);
   }
-  if (!(colour_weights > 0.0f)) return;
   behind_coc[pixel] = convert_int_rte(coc / weights);
   const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;
   behind_inverse[pixel] = mean < most ? mean : most;

@@ -133,24 +133,23 @@ float upper_median(std::vector<float> values) {
   return *middle;
 }
 
-/// Weighted mean of what lies on the nearest surface found; nothing if no colour is left.
+/// Weighted mean of what lies on the nearest surface found.
 struct Mean {
   float coc, inverse;
   Colour colour;
 };
 
-std::optional<Mean> mean_of(const std::vector<Found>& all, const std::vector<Plane>& channels,
-                            int own) {
+Mean mean_of(std::vector<Found> all, const std::vector<Plane>& channels, int own) {
   const Found nearest = *std::min_element(all.begin(), all.end(),
                                           [](auto& a, auto& b) { return a.distance < b.distance; });
+  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (nearest.coc - static_cast<float>(own));
+  std::erase_if(all, [&](const Found& f) { return std::fabs(f.coc - nearest.coc) > alike; });
   std::vector<float> bright;
   for (const Found& f : all) bright.push_back(brightness(colour_at(channels, f.source)));
   const float median = upper_median(bright);
-  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (nearest.coc - static_cast<float>(own));
   float weights = 0, coc = 0, inverse = 0, colour_weights = 0;
   Colour colour{};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (std::fabs(all[i].coc - nearest.coc) > alike) continue;
     const float weight = 1 / (all[i].distance * all[i].distance);
     weights += weight;
     coc += weight * all[i].coc;
@@ -159,7 +158,6 @@ std::optional<Mean> mean_of(const std::vector<Found>& all, const std::vector<Pla
     colour_weights += weight;
     add(colour, weight, colour_at(channels, all[i].source));
   }
-  if (colour_weights == 0) return std::nullopt;
   return Mean{coc / weights, inverse / weights, divided(colour, colour_weights)};
 }
 
@@ -174,12 +172,11 @@ Surface fill(const FrameView& f, const std::vector<std::uint32_t>& mixed) {
     const auto [own, own_inverse] = filler.in_front(at);
     const std::vector<Found> all = filler.look_behind(at, own);
     if (all.empty()) return;
-    const auto mean = mean_of(all, f.channels, own);
-    if (!mean) return;
+    const Mean mean = mean_of(all, f.channels, own);
     const std::size_t pixel = frame.index(at);
-    out.coc_quanta[pixel] = static_cast<std::int32_t>(std::nearbyint(mean->coc));
-    out.inverse[pixel] = std::min(own_inverse * 0.99999f, mean->inverse);  // behind
-    set_colour(out.channels, pixel, mean->colour);
+    out.coc_quanta[pixel] = static_cast<std::int32_t>(std::nearbyint(mean.coc));
+    out.inverse[pixel] = std::min(own_inverse * 0.99999f, mean.inverse);  // behind
+    set_colour(out.channels, pixel, mean.colour);
   });
   return out;
 }
