@@ -129,7 +129,9 @@ class Chain {
     place(e, frame);
     RdbResult result = distribute(fragments, lights, progress);
     done("rays");
-    return finish(e, std::move(result));
+    DefocusResult out = finish(e, std::move(result));
+    if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
+    return out;
   }
 
  private:
@@ -321,6 +323,18 @@ class Chain {
     const FragmentView view(f);
     return session_ ? distribute_rays(*session_, view, rdb_, &lights, progress)
                     : reference::distribute_rays(view, rdb_, &lights, progress);
+  }
+
+  /// Discs and rays of one surface meet along other borders than pixels do: a little more than all
+  /// of it can come together. Light and alpha give way alike, so that colour stays premultiplied.
+  static void limit_alpha(const Plane& pinhole, std::vector<Plane>& colour) {
+    float most = 0;
+    for (const float a : pinhole) most = std::fmax(most, a);
+    for (std::size_t i = 0; i < pinhole.size(); ++i) {
+      const float alpha = colour.back()[i];
+      if (!(alpha > most * 1.000001f)) continue;
+      for (Plane& plane : colour) plane[i] *= most / alpha;
+    }
   }
 
   DefocusResult finish(const Extended& e, RdbResult result) {

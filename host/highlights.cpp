@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
+#include <numbers>
 
 namespace defray {
 namespace {
@@ -39,6 +41,27 @@ void sort_into_tiles(LightSources& lights, int width, int height) {
     lights.list.insert(lights.list.end(), tile.begin(), tile.end());
     lights.first.push_back(static_cast<std::uint32_t>(lights.list.size()));
   }
+}
+
+/// Median alpha around a fragment's disc, where `highlights` looks for the light around it; its own
+/// if all of that is beyond the frame.
+float alpha_around(const Fragments& f, const Plane& alpha, std::size_t own, std::int32_t coc) {
+  const int x = static_cast<int>(own % size(f.width));
+  const int y = static_cast<int>(own / size(f.width) / size(f.layers));
+  const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
+  std::vector<float> around;
+  for (int i = 0; i < 32; ++i) {
+    const double distance = std::fmax(radius, 3.0f) * (i < 16 ? 0.5f : 1.0f) + 2.0f;
+    const double angle = i % 16 * std::numbers::pi / 8;
+    const double qx = x + std::rint(distance * std::cos(angle));
+    const double qy = y + std::rint(distance * std::sin(angle));
+    if (qx < 0 || qy < 0 || qx >= f.width || qy >= f.height) continue;
+    around.push_back(alpha[f.index(static_cast<int>(qx), static_cast<int>(qy), 0)]);
+  }
+  if (around.empty()) return alpha[own];
+  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+  std::nth_element(around.begin(), middle, around.end());
+  return *middle;
 }
 
 }  // namespace
@@ -85,6 +108,8 @@ std::vector<std::uint32_t> map_cells(const LensCells& cells) {
 LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
                         const ApertureTable& aperture, const LensCells& cells) {
   LightSources lights;
+  const bool has_alpha = f.channels.size() > size(light_channels);
+  const Plane alpha = has_alpha ? f.channels.back() : Plane{};
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] == 1.0f) continue;
     const std::size_t row = i / size(f.width);
@@ -99,6 +124,12 @@ LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
       const float base = f.channels[c][i] * kept[i];
       excess[c] = (f.channels[c][i] - base) * share;
       f.channels[c][i] = base;
+    }
+    // Alpha stays with the light: before nothing all of it, before what is opaque none.
+    const float around = has_alpha ? alpha_around(f, alpha, i, coc) : 0;
+    if (has_alpha && around < alpha[i]) {
+      excess[f.channels.size() - 1] = (alpha[i] - std::fmax(around, 0.0f)) * share;
+      f.channels.back()[i] = std::fmax(around, 0.0f);
     }
     lights.excess.push_back(excess);
   }
