@@ -15,6 +15,7 @@ namespace defray::cli {
 struct RenderOptions {
   std::string input, output, depth, coc_out, confidence_out, frames;
   std::string layer, view, depth_channel;
+  std::optional<std::string> channels;
   std::string depth_kind = "z", background, unit = "m";
   double near_units = 0, far_units = 0;
   bool invert = false;

@@ -35,6 +35,7 @@ void reject_foreign_options(const RenderOptions& o) {
       {"--squeeze", o.aperture.squeeze.has_value(), {"rdb"}},
       {"--aperture-image", !o.aperture.image.empty(), {"rdb"}},
       {"--cats-eye", o.aperture.cats_eye.has_value(), {"rdb"}},
+      {"--channels", o.channels.has_value(), {"rdb"}},
       {"--jitter", o.jitter, {"rdb"}},
       {"--samples", o.samples.has_value(), {"gather"}},
       {"--passes", o.passes.has_value(), {"gather"}},

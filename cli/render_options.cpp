@@ -1,6 +1,7 @@
 // The options of defray render.
 #include <cmath>
 
+#include "image/further_channels.h"
 #include "options.h"
 #include "parse.h"
 #include "render.h"
@@ -45,6 +46,12 @@ void add_channels(CLI::App& c, RenderOptions& o) {
   c.add_option("--layer", o.layer, "Colour layer, 'ViewLayer.Combined'")->group(group);
   c.add_option("--view", o.view, "Stereo view, 'left'")->group(group);
   c.add_option("--depth-channel", o.depth_channel, "Depth channel by its full name, 'depth.Z'")
+      ->group(group);
+  c.add_option(
+       "--channels", o.channels,
+       "Further channels for the lens, 'diffuse.*,N.*': light is averaged as colour is; data "
+       "gets the value of the nearest hit. Data: " +
+           data_channel_rules())
       ->group(group);
   c.add_option("--depth-kind", o.depth_kind,
                "z: planar; distance: along the ray; inverse: 1/z; normalized: 0 near, 1 far")
@@ -162,6 +169,7 @@ RenderSettings to_settings(const RenderOptions& o) {
   s.method = to_method(o);
   s.tiltshift = to_tiltshift(o);
   s.request = {o.layer, o.view, o.depth_channel};
+  if (o.channels) s.channels = parse_channel_list(*o.channels);
   s.depth.kind = choice<DepthKind>("--depth-kind", o.depth_kind,
                                    {{"z", DepthKind::z},
                                     {"distance", DepthKind::distance},

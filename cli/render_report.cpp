@@ -104,6 +104,8 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
   nlohmann::ordered_json report = {
       {"method", to_string(r.method)},
       {"colour_channels", r.colour_channels},
+      {"light_channels", r.light_channels},
+      {"data_channels", r.data_channels},
       {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
       {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
   report.update(lens_json(r));
@@ -129,6 +131,10 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   const FrameReport& r = o.report;
   fmt::print("{} -> {}\n", r.paths.input, r.paths.output);
   fmt::print("  colour {}, {}\n", join(r.colour_channels, " "), depth_line(r));
+  if (!r.light_channels.empty()) fmt::print("  light {}\n", join(r.light_channels, " "));
+  if (!r.data_channels.empty()) {
+    fmt::print("  data of the nearest hit {}\n", join(r.data_channels, " "));
+  }
   fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "error.h"
+#include "image/further_channels.h"
 #include "image/output.h"
 #include "image/safe_output.h"
 #include "reference/reference.h"
@@ -26,6 +27,7 @@ struct Frame {
   ColourChoice choice;
   std::vector<Plane> colour;
   Plane depth;
+  FurtherChannels further = {};
   const PartInfo& part() const { return file.parts()[static_cast<std::size_t>(choice.part)]; }
 };
 
@@ -89,17 +91,67 @@ Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const 
   return file.plane(name.part, name.channel);
 }
 
+/// Planes of these channels, and what was not finite in them.
+std::vector<Plane> read_planes(const Frame& frame, const std::vector<int>& channels,
+                               const RenderSettings& settings, std::vector<std::string>& names,
+                               FrameReport& report) {
+  const PartInfo& part = frame.part();
+  std::vector<Plane> planes;
+  for (const int c : channels) {
+    names.push_back(part.channels[static_cast<std::size_t>(c)]);
+    planes.push_back(frame.file.plane(frame.choice.part, c));
+  }
+  report.nonfinite += handle_nonfinite(planes, settings.nonfinite, part.data, frame.file.path());
+  return planes;
+}
+
+void choose_further_channels(const FramePaths& paths, const RenderSettings& settings,
+                             Frame& frame) {
+  if (settings.channels.empty()) return;
+  frame.further = choose_further(frame.file, frame.choice, settings.channels);
+  if (!keeps_other_channels(paths.output, frame.file)) {
+    fail(ExitCode::usage, "{}: --channels needs a format that holds them: the input's own, {}",
+         paths.output, std::filesystem::path(paths.input).extension().string());
+  }
+}
+
+/// The lens once more for each group of light channels: with the colour's depth and CoC, but what
+/// lies behind and mixed pixels are estimated from the group's own values. Puts the planes into
+/// `choice` and `planes`, to be written with the colour.
+void render_light(const Frame& frame, const PinholeFrame& like, const RenderSettings& settings,
+                  Session* session, FrameReport& report, ColourChoice& choice,
+                  std::vector<Plane>& planes) {
+  MethodSettings method = settings.method;
+  method.rdb.wants_nearest = false;
+  for (const LightGroup& group : frame.further.light) {
+    const std::vector<Plane> in =
+        read_planes(frame, group.channels, settings, report.light_channels, report);
+    const std::vector<Plane> out =
+        apply_method({like.width, like.height, like.coc_quanta, like.depth, in, group.has_alpha,
+                      like.origin_x, like.origin_y, like.display_width, like.display_height},
+                     method, session);
+    choice.channels.insert(choice.channels.end(), group.channels.begin(), group.channels.end());
+    planes.insert(planes.end(), out.begin(), out.end());
+  }
+}
+
+/// Gives data channels the values of the nearest hits.
+void move_data(Frame& frame, const std::vector<std::uint32_t>& nearest, FrameReport& report) {
+  for (const int c : frame.further.data) {
+    report.data_channels.push_back(frame.part().channels[static_cast<std::size_t>(c)]);
+    frame.file.move_values(frame.choice.part, c, nearest);
+  }
+}
+
 Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameReport& report) {
   Frame frame{ImageFile::read(paths.input), {}, {}, {}};
   frame.choice = choose_colour(paths.input, frame.file.parts(), settings.request);
   const PartInfo& part = frame.part();
   report.data = part.data;
   report.display = part.display;
-  for (const int c : frame.choice.channels) {
-    report.colour_channels.push_back(part.channels[static_cast<std::size_t>(c)]);
-    frame.colour.push_back(frame.file.plane(frame.choice.part, c));
-  }
-  report.nonfinite = handle_nonfinite(frame.colour, settings.nonfinite, part.data, paths.input);
+  choose_further_channels(paths, settings, frame);
+  frame.colour =
+      read_planes(frame, frame.choice.channels, settings, report.colour_channels, report);
   report.nonfinite_kept = settings.nonfinite == Nonfinite::keep;
   if (settings.method.method == Method::tiltshift) return frame;
   frame.depth = read_depth(paths, settings, frame, report);
@@ -170,15 +222,22 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   describe_coc(coc, report);
   const Window &data = report.data, &display = report.display;
   DefocusResult details;
-  std::vector<Plane> result = apply_method(
-      {data.width, data.height, coc, frame.depth, frame.colour, frame.colour.size() == 4,
-       data.x - display.x, data.y - display.y, display.width, display.height},
-      settings.method, session, progress, &details);
+  MethodSettings method = settings.method;
+  method.rdb.wants_nearest = !frame.further.data.empty();
+  const PinholeFrame pinhole{data.width,         data.height,        coc,
+                             frame.depth,        frame.colour,       frame.colour.size() == 4,
+                             data.x - display.x, data.y - display.y, display.width,
+                             display.height};
+  std::vector<Plane> result = apply_method(pinhole, method, session, progress, &details);
+  ColourChoice choice = frame.choice;
+  std::vector<Plane> written = result;
+  render_light(frame, pinhole, settings, session, report, choice, written);
+  move_data(frame, details.nearest, report);
   if (settings.method.defocus) report.defocus = details.report;
   report.render_seconds = seconds_since(start);
 
   start = Clock::now();
-  write_picture(paths.output, frame.file, frame.choice, result, report.notes);
+  write_picture(paths.output, frame.file, choice, written, report.notes);
   if (!paths.coc.empty()) {
     Plane radii;
     for (const std::int32_t q : coc) radii.push_back(static_cast<float>(q) * px_per_quantum);

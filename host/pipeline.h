@@ -26,6 +26,7 @@ enum class Nonfinite {
 /// How to render, the same for every frame of a sequence.
 struct RenderSettings {
   ChannelRequest request;
+  std::vector<std::string> channels;  ///< Names or globs of further channels for the lens.
   DepthSettings depth;
   CameraValues camera;  ///< Explicit values; they win over metadata.
   bool camera_from_metadata = false;
@@ -47,6 +48,7 @@ struct FrameReport {
   FramePaths paths;
   Method method = Method::rdb;
   std::vector<std::string> colour_channels;
+  std::vector<std::string> light_channels, data_channels;  ///< Further ones, by what they hold.
   std::string depth_channel;  ///< Empty for a tilt-shift, which reads neither depth nor lens.
   Window data, display;
   Lens lens;

@@ -1,5 +1,6 @@
 #include "image/channel_names.h"
 
+#include <algorithm>
 #include <set>
 
 #include "error.h"
@@ -51,7 +52,83 @@ ChannelName take_apart(const std::vector<PartInfo>& parts, std::size_t part, std
   return name;
 }
 
+/// Layers or lone channels of data: the whole name, or its beginning where a * follows. Lower case.
+const std::vector<std::string> data_names{"n",
+                                          "normal*",
+                                          "p",
+                                          "pref",
+                                          "pworld",
+                                          "pos",
+                                          "position*",
+                                          "z",
+                                          "pz",
+                                          "zdepth*",
+                                          "vrayzdepth",
+                                          "depth*",
+                                          "denoising depth*",
+                                          "denoising normal*",
+                                          "vraynormals",
+                                          "id",
+                                          "ids",
+                                          "*_id",
+                                          "objectid*",
+                                          "object index",
+                                          "indexob",
+                                          "materialid*",
+                                          "material index",
+                                          "indexma",
+                                          "mtlid",
+                                          "renderid",
+                                          "nodeid",
+                                          "*crypto*",
+                                          "uv*",
+                                          "st",
+                                          "vector*",
+                                          "velocity*",
+                                          "vrayvelocity",
+                                          "motion*"};
+
+/// Bases that are data in whatever layer: components of vectors, depth.
+const std::set<std::string> data_bases{"x", "y", "z", "u", "v", "w", "id", "depth"};
+
+bool is_data_name(const std::string& name) {
+  return std::any_of(data_names.begin(), data_names.end(), [&](const std::string& pattern) {
+    return matches_glob(lower_case(name), pattern);
+  });
+}
+
 }  // namespace
+
+bool is_data_channel(const ChannelName& name) {
+  const std::size_t dot = name.layer.rfind('.');
+  const std::string layer = dot == std::string::npos ? name.layer : name.layer.substr(dot + 1);
+  if (layer.empty()) return is_data_name(name.base);
+  return is_data_name(layer) || data_bases.count(lower_case(name.base)) > 0;
+}
+
+std::string data_channel_rules() {
+  std::vector<std::string> bases(data_bases.begin(), data_bases.end());
+  return fmt::format("layers (or lone channels) called {}; in any layer {}; integers",
+                     join(data_names, " "), join(bases, " "));
+}
+
+bool matches_glob(const std::string& name, const std::string& pattern) {
+  std::size_t n = 0, p = 0, star = std::string::npos, retry = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      retry = n;
+    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+      ++n, ++p;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      n = ++retry;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', p) == std::string::npos;
+}
 
 std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts) {
   const std::set<std::string> views = view_names(parts);

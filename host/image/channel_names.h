@@ -17,6 +17,17 @@ struct ChannelName {
   std::string view;   ///< "left", or empty.
 };
 
+/// Whether a channel holds data, which cannot be averaged (ids, normals, positions, depth, masks'
+/// ids, coordinates, motion), and not light. By its name alone: its own layer, the last part of
+/// "ViewLayer.Normal", or, without a layer, its base. Any case.
+bool is_data_channel(const ChannelName& name);
+
+/// The rules of is_data_channel, for people.
+std::string data_channel_rules();
+
+/// Whether all of `name` is as `pattern` says: * stands for anything, ? for one character.
+bool matches_glob(const std::string& name, const std::string& pattern);
+
 /// Every channel of these parts.
 std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts);
 

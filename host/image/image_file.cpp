@@ -197,6 +197,25 @@ void ImageFile::set_plane(int part, int channel, const Plane& plane) {
       OIIO::AutoStride, OIIO::AutoStride);
 }
 
+bool ImageFile::holds_integers(int part, int channel) const {
+  const auto format = parts_.at(static_cast<std::size_t>(part)).spec.channelformat(channel);
+  return format == TypeDesc::UINT || format == TypeDesc::INT;
+}
+
+void ImageFile::move_values(int part, int channel, const std::vector<std::uint32_t>& from) {
+  Part& p = parts_.at(static_cast<std::size_t>(part));
+  const std::size_t stride = p.spec.pixel_bytes(true), offset = channel_offset(p.spec, channel);
+  const std::size_t bytes = p.spec.channel_bytes(channel, true);
+  std::vector<std::byte> values;
+  for (const std::uint32_t source : from) {
+    const auto first = p.pixels.begin() + static_cast<std::ptrdiff_t>(source * stride + offset);
+    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(bytes));
+  }
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::copy_n(&values[i * bytes], bytes, &p.pixels[i * stride + offset]);
+  }
+}
+
 std::optional<double> ImageFile::metadata_number(const std::string& name) const {
   for (const Part& part : parts_) {
     const OIIO::ParamValue* value = part.spec.find_attribute(name);

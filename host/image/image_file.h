@@ -53,6 +53,12 @@ class ImageFile {
   Plane plane(int part, int channel) const;
   void set_plane(int part, int channel, const Plane& plane);
 
+  /// Whether a channel is stored as 32-bit whole numbers: ids, which no float holds.
+  bool holds_integers(int part, int channel) const;
+
+  /// Gives each pixel of a channel the value that pixel `from` has in it, bit for bit.
+  void move_values(int part, int channel, const std::vector<std::uint32_t>& from);
+
   void rename_channel(int part, int channel, const std::string& name);
 
   /// A number among the metadata of any part, whatever type it was stored in (text included).

@@ -75,13 +75,17 @@ void check_output_format(const std::string& path) {
        join(allowed, " "));
 }
 
+bool keeps_other_channels(const std::string& path, const ImageFile& file) {
+  const bool same_format = extension(path) == extension(file.path());
+  return !is_ldr_path(path) && (same_format || (is_exr(path) && is_ldr_path(file.path())));
+}
+
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
-  const bool same_format = extension(path) == extension(file.path());
-  const bool keeps_all = same_format || (is_exr(path) && is_ldr_path(file.path()));
+  const bool keeps_all = keeps_other_channels(path, file);
   const bool has_more = file.parts().size() > 1 || part.channels.size() > choice.channels.size();
-  if (has_more && (is_ldr_path(path) || !keeps_all)) {
+  if (has_more && !keeps_all) {
     notes.push_back("only colour is written: other channels stay behind in a change of format");
   }
   if (is_ldr_path(path)) return write_display_encoded(path, part, colour, notes);

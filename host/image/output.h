@@ -16,6 +16,9 @@ void check_output_format(const std::string& path);
 std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Window& data,
                                      const Window& display);
 
+/// Whether `path` can be written with all that `file` has, and not only its colour.
+bool keeps_other_channels(const std::string& path, const ImageFile& file);
+
 /// Puts `colour` in place of the chosen channels of `file` and writes it. The input's own format
 /// keeps everything; another one keeps what it can hold, and `notes` says what was left out.
 /// PNG and JPEG get the display window.
