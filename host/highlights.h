@@ -29,7 +29,8 @@ struct LightSources {
 /// first `light_channels` channels are light; another is alpha.
 Plane highlights(Session& session, const Fragments& fragments, int light_channels);
 
-/// Takes from the fragments what `kept` does not leave them.
+/// Takes from the fragments what `kept` does not leave them, and of their alpha what they
+/// have more of than their surroundings.
 LightSources take_light(Fragments& fragments, const Plane& kept, int light_channels,
                         const ApertureTable& aperture, const LensCells& cells);
 
