@@ -214,7 +214,7 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
     if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
     if (filled[target]++ == 0) first[target] = source;
     if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
-    if (settings.wants_nearest && f.data_pixel(source) != DEFRAY_EMPTY) {
+    if (settings.wants_nearest && arrived && f.data_pixel(source) != DEFRAY_EMPTY) {
       keep_nearer(f, static_cast<std::int64_t>(source), nearest[target]);
     }
     for (std::size_t c = 0; c < channels; ++c) {
