@@ -24,12 +24,12 @@ __kernel void rdb_nearest(const DefrayRdbParams p, __global const uint2* restric
   const size_t target = (size_t)row * p.width + x;
   const size_t cell_stride = (size_t)p.band_rows * p.width;
   uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) : nearest[target];
-  for (uint cell = 0; cell < p.cell_count; ++cell) {
-    const uint2 w = winner[cell * cell_stride + target];
+  for (uint k = 0; k < p.cell_count; ++k) {
+    const uint2 w = winner[k * cell_stride + target];
     if (w.x == DEFRAY_EMPTY) continue;
     const bool is_nearer = w.y < best.y || (w.y == best.y && w.x < best.x);
     if (!is_nearer || (p.has_data_of && data_of[w.x] == DEFRAY_EMPTY)) continue;
-    if (p.has_rim && !passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {
+    if (p.has_rim && !passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[p.band_y + row])) {
       continue;
     }
     best = w;

@@ -3,7 +3,7 @@
 // With F the colour of the surface in front (pure pixels nearby), B that behind it (`fill`), the
 // pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha counts
 // like a colour). What the two colours do not explain goes to the surface that the depth sample
-// saw, so that both together still give C.
+// saw, so that both together still give C. An edge in focus stays as it is.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
@@ -128,6 +128,7 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
     nearest = min(nearest, coc);
     farthest = max(farthest, coc);
   }
+  if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
   const int middle = nearest + (farthest - nearest) / 2;
   const bool saw_front = coc_of(coc_quanta, pixel) < middle;
   const float4 b = behind[pixel];

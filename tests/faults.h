@@ -107,10 +107,10 @@ inline const std::vector<Fault>& faults() {
         "uint2 best = p.is_first_pass && p.band_y == 0 ? (uint2)(DEFRAY_EMPTY) :"}},
       {"rdb_nearest",
        "rim's row in the band",
-       {"passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {\n      "
+       {"passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[p.band_y + row])) {\n      "
         "continue;\n    "
         "}\n    best",
-        "passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[row])) {\n      continue;\n    }\n  "
+        "passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[row])) {\n      continue;\n    }\n  "
         "  "
         "best"}},
       {"rdb_merge_seen", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},

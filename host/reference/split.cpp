@@ -28,14 +28,14 @@ class Splitter {
   Splitter(const FrameView& f, const std::vector<std::uint32_t>& mixed)
       : view_(f), frame_{f.width, f.height, f.coc_quanta}, mixed_(mixed) {}
 
-  /// Halfway between the nearest and the farthest pixel around.
-  int middle(Place at) const {
+  /// CoC of the nearest and the farthest pixel around.
+  std::pair<int, int> range(Place at) const {
     int nearest = frame_.coc(at), farthest = nearest;
     for_each_around(at, 1, [&](Place q) {
       nearest = std::min(nearest, frame_.coc(q));
       farthest = std::max(farthest, frame_.coc(q));
     });
-    return nearest + (farthest - nearest) / 2;
+    return {nearest, farthest};
   }
 
   /// Pure pixels in front, weighed by 1 / distance^4; the nearest lends its depth.
@@ -128,7 +128,9 @@ Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surf
     const std::size_t pixel = frame.index(at);
     if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
     const Colour c = colour_at(f.channels, pixel), b = colour_at(behind.channels, pixel);
-    const int middle = splitter.middle(at);
+    const auto [nearest, farthest] = splitter.range(at);
+    if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;
+    const int middle = nearest + (farthest - nearest) / 2;
     const bool saw_front = frame.coc(at) < middle;
     auto found = splitter.pure_front(at, middle);
     if (!found) found = splitter.thin_front(at, middle, b);

@@ -31,14 +31,25 @@ Plane enlarged(const Plane& plane, int width, int scale, int padded_px) {
   return out;
 }
 
-/// The plane that holds the value `at`, whole numbers as floats; empty where the values are no
-/// picture (tiles).
-Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
-  if (at >= values.integers.size()) return values.planes[(at - values.integers.size()) / pixels];
+/// The picture's worth of values that holds the value `at`; empty where they are no picture
+/// (tiles).
+template <typename T>
+Plane picture_of(const std::vector<T>& values, std::size_t at, std::size_t pixels) {
   const std::size_t first = at / pixels * pixels;
-  if (first + pixels > values.integers.size()) return {};
-  const auto begin = values.integers.begin() + static_cast<std::int64_t>(first);
-  return {begin, begin + static_cast<std::int64_t>(pixels)};
+  if (first + pixels > values.size()) return {};
+  const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(pixels)};
+}
+
+/// The same among whole numbers, as floats, and planes after them.
+Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
+  if (at < values.integers.size()) return picture_of(values.integers, at, pixels);
+  at -= values.integers.size();
+  for (const Plane& plane : values.planes) {
+    if (at < plane.size()) return picture_of(plane, at, pixels);
+    at -= plane.size();
+  }
+  return {};
 }
 
 }  // namespace
