@@ -7,8 +7,8 @@
 //
 // `highlights_add` gives each pixel the share of a source's light that falls into its square: the
 // light of a box of the aperture, from a summed-area table, in integers, so that the shares of all
-// pixels add up to 1. Light arrives where the RDB's cells nearest to its way through the lens are not
-// held by a surface in front.
+// pixels add up to 1. Light arrives where the RDB's cells nearest to its way through the lens are
+// not held by a surface in front.
 //
 // highlights:
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px

@@ -70,8 +70,8 @@ Front front_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
 
 // Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
 // sample decides: it most likely saw the larger share. The more of C the two leave unexplained, the
-// less of it is taken apart. Colours that are not finite, or whose squares are not, say nothing: the
-// pixel stays whole.
+// less of it is taken apart. Colours that are not finite, or whose squares are not, say nothing:
+// the pixel stays whole.
 float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
   const float4 from_b = c - b, all = f - b;
   const float4 products = from_b * all, squares = all * all, sizes = f * f + b * b;

@@ -10,11 +10,13 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
+constexpr std::int32_t bar_coc = -512;  // an edge in focus would stay as it is
+
 /// A bar over the plane whose edges cover their pixels by `share`; depth sees the bar or the plane.
 Frame bar_with_mixed_edges(float share, bool saw_front) {
   Frame f(60, 20);
   const float front[3] = {2.0f, 1.5f, 0.1f}, behind[3] = {0.1f, 0.2f, 1.8f};
-  f.add_bar(saw_front ? 24 : 25, saw_front ? 36 : 35);
+  f.add_bar(saw_front ? 24 : 25, saw_front ? 36 : 35, bar_coc);
   f.each([&](int x, int y) {
     const float a = x == 24 || x == 35 ? share : x > 24 && x < 35 ? 1.0f : 0.0f;
     f.paint(x, y, a * front[0] + (1 - a) * behind[0], a * front[1] + (1 - a) * behind[1],
@@ -33,7 +35,7 @@ TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
           const std::size_t i = f.at(x, y);
           const double a = front.coverage[i] / 65536.0;
           EXPECT_NEAR(a, share, 1e-3);  // drawn to what is likely by 1e-3 |F|^2 / |F - B|^2
-          EXPECT_EQ(front.coc_quanta[i], 0);
+          EXPECT_EQ(front.coc_quanta[i], bar_coc);
           EXPECT_EQ(behind.coc_quanta[i], 1536);
           EXPECT_EQ(behind.coverage[i],
                     saw_front ? DEFRAY_WHOLE | DEFRAY_SYNTHESISED : DEFRAY_WHOLE);
@@ -48,6 +50,14 @@ TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
       }
     }
   }
+}
+
+TEST(Split, AnEdgeInFocusStaysAsItIs) {
+  Frame f = bar_with_mixed_edges(0.5f, true);
+  f.add_bar(24, 36, 255);
+  const auto [front, behind] = f.parted();
+  for (std::size_t c = 0; c < 3; ++c) expect_same_bits(front.channels[c], f.channels[c]);
+  for (std::size_t i = 0; i < f.count(); ++i) EXPECT_EQ(front.coverage[i], DEFRAY_WHOLE);
 }
 
 TEST(Split, WithoutAStepNothingChanges) {
@@ -70,13 +80,13 @@ TEST(Split, AThinBrightThingIsTakenApart) {
   Frame f(40, 20);
   for (int y = 0; y < f.height; ++y) f.paint(19, y, 4, 4, 4);  // the part that depth saw
   for (int y = 0; y < f.height; ++y) f.paint(20, y, 1, 1, 1);  // a quarter of it
-  f.add_bar(19, 20);
+  f.add_bar(19, 20, bar_coc);
   const auto [front, behind] = f.parted();
   for (int y = 3; y < f.height - 3; ++y) {
     EXPECT_EQ(front.coverage[f.at(19, y)], DEFRAY_WHOLE);
     EXPECT_NEAR(front.coverage[f.at(20, y)] / 65536.0, 0.25, 2e-3);
     EXPECT_EQ(front.channels[0][f.at(20, y)], 4.0f);
-    EXPECT_EQ(front.coc_quanta[f.at(20, y)], 0);
+    EXPECT_EQ(front.coc_quanta[f.at(20, y)], bar_coc);
     EXPECT_NEAR(behind.channels[0][f.at(20, y)], 0.0f, 1e-2f);
     EXPECT_EQ(behind.coc_quanta[f.at(20, y)], 1536);
   }

@@ -40,11 +40,11 @@ struct Frame {
       for (int x = 0; x < width; ++x) visit(x, y);
     }
   }
-  /// A bar in focus from column x0 up to x1, 1/depth 0.5.
-  void add_bar(int x0, int x1) {
+  /// A bar from column x0 up to x1, 1/depth 0.5, in focus unless said otherwise.
+  void add_bar(int x0, int x1, std::int32_t bar_coc = 0) {
     for (int y = 0; y < height; ++y) {
       for (int x = x0; x < x1; ++x) {
-        coc[at(x, y)] = 0;
+        coc[at(x, y)] = bar_coc;
         inverse[at(x, y)] = 0.5f;
       }
     }
