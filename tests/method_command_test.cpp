@@ -30,9 +30,10 @@ TEST_F(MethodCommand, MethodsAndTheirOptionsChangeThePicture) {
     EXPECT_TRUE(is_new) << options << " gives the picture of " << place->second;
   };
   for (const std::string options :
-       {"", "--rdb 5", "--jitter", "--jitter --seed 3", "--method linear", "--method gather",
-        "--method gather --samples 8", "--method gather --passes 1", "--method gather --rotate",
-        "--method gather --seed 3", "--method gather --gather literal"}) {
+       {"", "--rdb 5", "--literal", "--literal --jitter", "--literal --jitter --seed 3",
+        "--method linear", "--method gather", "--method gather --samples 8",
+        "--method gather --passes 1", "--method gather --rotate", "--method gather --seed 3",
+        "--method gather --gather literal"}) {
     expect_new(lens + options);
   }
   expect_new("--method tiltshift");
