@@ -210,8 +210,13 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   report.method = settings.method.method;
   check_paths(paths);
   check_can_write(paths.output);
-  if (!paths.coc.empty()) check_can_write(paths.coc);
-  if (!paths.confidence.empty()) check_can_write(paths.confidence);
+  const std::pair<const char*, const std::string&> data_files[] = {
+      {"coc", paths.coc}, {"confidence", paths.confidence}};
+  for (const auto& [name, path] : data_files) {
+    if (path.empty()) continue;
+    check_plane_format(path, name);
+    check_can_write(path);
+  }
 
   auto start = Clock::now();
   Frame frame = read_frame(paths, settings, report);

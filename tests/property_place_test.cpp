@@ -92,7 +92,8 @@ RC_GTEST_PROP(PlaceProperty, BandsDoNotShow, ()) {
   settings.rdb.jitter = *rc::gen::arbitrary<bool>();
   const std::uint64_t whole = bits(render(frame, settings));
   const auto width = static_cast<std::size_t>(frame.size.width);
-  settings.rdb.memory_bytes = width * 32 * *rc::gen::inRange<std::size_t>(1, 40);
+  settings.rdb.memory_bytes =
+      width * (rdb_bytes_a_cell + rdb_bytes_a_sum) * *rc::gen::inRange<std::size_t>(1, 40);
   const std::size_t out_row = 16 * (width + DEFRAY_LINEAR_RUN - 1);
   const std::size_t in_row = 20 * (width + DEFRAY_LINEAR_RUN - 1 + 2 * reach_px);
   settings.linear.memory_bytes =

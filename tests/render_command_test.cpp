@@ -79,11 +79,14 @@ TEST(Render, EveryOptionChangesThePicture) {
 TEST(Render, MemoryAndWorkGroupChangeNoBit) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {97, 61});
-  const std::uint64_t base = rendered(folder, lens);
-  for (const char* options : {"--memory 0.004", "--memory 1", "--work-group 7x3", "--work-group 16",
-                              "--memory 0.01 --work-group 1x1"}) {
+  const std::string literal = lens + "--literal ";
+  const std::uint64_t base = rendered(folder, lens), literal_base = rendered(folder, literal);
+  for (const char* options : {"--memory 0.3", "--memory 1", "--work-group 7x3", "--work-group 16",
+                              "--memory 0.3 --work-group 1x1"}) {
     EXPECT_EQ(rendered(folder, lens + options), base) << options;
+    EXPECT_EQ(rendered(folder, literal + options), literal_base) << options;
   }
+  EXPECT_EQ(rendered(folder, literal + "--memory 0.006"), literal_base);
 }
 
 TEST(Render, ReferenceDeviceAgrees) {

@@ -110,12 +110,16 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
   });
 }
 
-void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
-                 const Plane& values) {
+void check_plane_format(const std::string& path, const std::string& name) {
   if (!is_exr(path) && extension(path) != ".tif" && extension(path) != ".tiff") {
     fail(ExitCode::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
          name);
   }
+}
+
+void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
+                 const Plane& values) {
+  check_plane_format(path, name);
   ImageFile file = like.extract(part, {0});
   file.rename_channel(0, 0, name);
   file.set_plane(0, 0, values);

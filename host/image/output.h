@@ -25,6 +25,9 @@ bool keeps_other_channels(const std::string& path, const ImageFile& file);
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
                    const std::vector<Plane>& colour, std::vector<std::string>& notes);
 
+/// Throws Error(usage) unless `path` can hold the data `name`.
+void check_plane_format(const std::string& path, const std::string& name);
+
 /// Writes values as the float channel `name`, with the windows and metadata of `part` of `like`:
 /// signed CoC radii in pixels as "coc", "confidence".
 void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
