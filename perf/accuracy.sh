@@ -51,8 +51,11 @@ for subject in "${subjects[@]}"; do
   printf ' |'
 done
 echo
-row 'rdb, 9×9' --method rdb
-row 'rdb, 33×33' --method rdb --rdb 33
+row 'rdb --quality draft' --quality draft
+row 'rdb (default)'
+row 'rdb --quality high' --quality high
+row 'rdb --literal, 9×9' --literal
+row 'rdb --literal, 33×33' --literal --rdb 33
 row 'linear' --method linear
 row 'gather literal, 32 samples × 2' --method gather --gather literal
 row 'gather aware, 32 samples × 2' --method gather
