@@ -13,7 +13,7 @@ render=("$defray" render "$out/pinhole.exr" --camera "$out/camera.json")
 "${render[@]}" -o "$out/result.exr"
 "${render[@]}" -o "$out/result.png" --quiet
 "$defray" sheet "$out/pinhole.exr" "$out/result.exr" "$out/truth.exr" -o "$out/sheet.png" \
-  --captions "pinhole,result: RDB 9x9,truth: 256 lens rays a pixel" >/dev/null
+  --captions "pinhole,result,truth: 256 lens rays a pixel" >/dev/null
 
 echo
 echo "Pictures: $out/result.exr"
