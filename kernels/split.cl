@@ -3,7 +3,8 @@
 // With F the colour of the surface in front (pure pixels nearby), B that behind it (`fill`), the
 // pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha counts
 // like a colour). What the two colours do not explain goes to the surface that the depth sample
-// saw, so that both together still give C. An edge in focus stays as it is.
+// saw, so that both together still give C. The edge pixels of what is in focus
+// stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
@@ -128,7 +129,6 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
     nearest = min(nearest, coc);
     farthest = max(farthest, coc);
   }
-  if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
   const int middle = nearest + (farthest - nearest) / 2;
   const bool saw_front = coc_of(coc_quanta, pixel) < middle;
   const float4 b = behind[pixel];
@@ -137,6 +137,7 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
+    if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     const uint kept = stored(fmax(share, LEAST_OF_FRONT));
     front[pixel] = rest_of(c, b, 1.0f - (float)kept * 0x1p-16f);

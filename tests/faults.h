@@ -66,7 +66,7 @@ inline const std::vector<Fault>& faults() {
        {"v.x * v.x + v.y * v.y <= 1L << (2 * DEFRAY_LENS_FRACTION_BITS) &&", ""}},
       {"rdb_scatter",
        "first cell of the pass forgotten",
-       {"lens[p.first_cell + cell]", "lens[cell]"}},
+       {"convert_long2(lens[p.first_cell + cell])", "convert_long2(lens[cell])"}},
       {"rdb_scatter",
        "source window's first row forgotten",
        {"(int)(p.window_y + row / p.layers)", "(int)row"}},

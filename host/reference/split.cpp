@@ -129,13 +129,13 @@ Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surf
     if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
     const Colour c = colour_at(f.channels, pixel), b = colour_at(behind.channels, pixel);
     const auto [nearest, farthest] = splitter.range(at);
-    if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;
     const int middle = nearest + (farthest - nearest) / 2;
     const bool saw_front = frame.coc(at) < middle;
     auto found = splitter.pure_front(at, middle);
     if (!found) found = splitter.thin_front(at, middle, b);
     const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
     if (saw_front) {
+      if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;
       if (share > 1 - 0.03f) return;
       front.coverage[pixel] = stored(std::max(share, 0.25f));
       set_colour(front.channels, pixel, rest_of(c, b, 1 - share_of(front.coverage[pixel])));
