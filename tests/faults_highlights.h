@@ -39,7 +39,7 @@ inline std::vector<Fault> highlight_faults() {
        {"visible += is_hidden(winner", "visible += false && is_hidden(winner"}},
       {"highlights_add",
        "its own surface hides it",
-       {"coc_of(coc_quanta, held.x) < h.z - DEFRAY_JUMP_QUANTA", "true"}},
+       {"coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA", "true"}},
       {"highlights_add",
        "rows and columns of the cell map swapped",
        {"cell_at[c.y * DEFRAY_CELL_MAP + c.x]", "cell_at[c.x * DEFRAY_CELL_MAP + c.y]"}},
