@@ -113,13 +113,16 @@ ulong light_at(__global const uint* restrict table, const int2 distance, const i
          light_before(table, u1, v0);
 }
 
+// Row or column of the map of lens cells.
+int map_entry(const int eighths, const int coc) {
+  const long lens = (long)eighths * (1L << 21) / (long)coc + (1L << DEFRAY_LENS_FRACTION_BITS);
+  const long at = lens >> (DEFRAY_LENS_FRACTION_BITS + 1 - DEFRAY_CELL_MAP_BITS);
+  return (int)(at < 0 ? 0 : at > DEFRAY_CELL_MAP - 1 ? DEFRAY_CELL_MAP - 1 : at);
+}
+
 // The lens cell nearest to the way from a source to a point of a pixel, in eighths of a pixel.
 uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
-  const long2 lens = (long2)(eighths.x, eighths.y) * (1L << 21) / coc;
-  const int shift = DEFRAY_LENS_FRACTION_BITS + 1 - DEFRAY_CELL_MAP_BITS;
-  const long2 at = (lens + (1L << DEFRAY_LENS_FRACTION_BITS)) >> shift;
-  const int2 c = convert_int2(clamp(at, 0L, (long)DEFRAY_CELL_MAP - 1L));
-  return cell_at[c.y * DEFRAY_CELL_MAP + c.x];
+  return cell_at[map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)];
 }
 
 // Share of a source's light at a pixel that passes the rim, whose edge is soft over a pixel.

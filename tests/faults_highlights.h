@@ -42,7 +42,8 @@ inline std::vector<Fault> highlight_faults() {
        {"coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA", "true"}},
       {"highlights_add",
        "rows and columns of the cell map swapped",
-       {"cell_at[c.y * DEFRAY_CELL_MAP + c.x]", "cell_at[c.x * DEFRAY_CELL_MAP + c.y]"}},
+       {"map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)",
+        "map_entry(eighths.x, coc) * DEFRAY_CELL_MAP + map_entry(eighths.y, coc)"}},
       {"highlights_add",
        "band's first row forgotten",
        {"const uint y = p.band_y + row;\n  const size_t target = (size_t)row * p.width + x;\n  "
