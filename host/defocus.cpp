@@ -232,7 +232,8 @@ class Chain {
           const bool is_there = is_fragment(depths[layer][i]);
           f.coc_quanta.push_back(from.coc_quanta[i]);
           f.depth.push_back(depths[layer][i]);
-          f.coverage.push_back(is_there ? from.coverage[i] | flags(e, i) % DEFRAY_WHOLE : 0);
+          f.coverage.push_back(is_there ? from.coverage[i] | (flags(e, i) & DEFRAY_SYNTHESISED)
+                                        : 0);
           for (std::size_t c = 0; c < f.channels.size(); ++c) {
             f.channels[c].push_back(from.channels[c][i]);
           }
