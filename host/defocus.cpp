@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <numeric>
 
 #include "aperture_table.h"
+#include "assemble.h"
 #include "cats_eye.h"
 #include "lens_samples.h"
 #include "method.h"
@@ -25,84 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 std::size_t size(int value) { return static_cast<std::size_t>(value); }
 
-/// A frame with a margin of its own edge pixels.
-struct Extended {
-  int width, height, margin;
-  std::vector<std::int32_t> coc_quanta;
-  Plane inverse;
-  std::vector<Plane> channels;
-  Words data;  ///< The frame's pixel whose data each has; empty if nobody asks.
-  FrameView view() const { return {width, height, coc_quanta, inverse, channels}; }
-};
-
-/// How far rays come from outside the frame: the largest CoC on its edge. At most half the frame.
-int margin_of(const PinholeFrame& f, Border border, DefocusReport& report) {
-  if (border == Border::renormalise) return 0;
-  std::int32_t largest = 0;
-  const auto look = [&](int x, int y) {
-    largest = std::max(largest, std::abs(f.coc_quanta[size(y) * size(f.width) + size(x)]));
-  };
-  for (int x = 0; x < f.width; ++x) look(x, 0), look(x, f.height - 1);
-  for (int y = 0; y < f.height; ++y) look(0, y), look(f.width - 1, y);
-  const int wanted = largest == 0 ? 0 : rdb_reach(largest);
-  const int most = std::max(16, std::min(f.width, f.height) / 2);
-  report.border_px = std::min(wanted, most);
-  report.border_is_cut = wanted > most;
-  return report.border_px;
-}
-
-/// `plane` with its edge repeated around it.
-template <typename T>
-std::vector<T> extended(const std::vector<T>& plane, int width, int height, int margin) {
-  std::vector<T> out;
-  out.reserve((size(width) + 2 * size(margin)) * (size(height) + 2 * size(margin)));
-  for (int y = -margin; y < height + margin; ++y) {
-    const T* row = &plane[size(std::clamp(y, 0, height - 1)) * size(width)];
-    out.insert(out.end(), size(margin), row[0]);
-    out.insert(out.end(), row, row + width);
-    out.insert(out.end(), size(margin), row[width - 1]);
-  }
-  return out;
-}
-
-bool is_in_margin(const Extended& e, std::size_t pixel) {
-  const int x = static_cast<int>(pixel % size(e.width)),
-            y = static_cast<int>(pixel / size(e.width));
-  return x < e.margin || y < e.margin || x >= e.width - e.margin || y >= e.height - e.margin;
-}
-
-/// Each pixel's own index.
-Words own_pixels(int width, int height) {
-  Words own(size(width) * size(height));
-  std::iota(own.begin(), own.end(), 0u);
-  return own;
-}
-
-Extended extend(const PinholeFrame& f, Border border, DefocusReport& report) {
-  const int margin = margin_of(f, border, report);
-  Extended e{f.width + 2 * margin, f.height + 2 * margin, margin, {}, {}, {}, {}};
-  e.coc_quanta = extended(f.coc_quanta, f.width, f.height, margin);
-  e.inverse = extended(f.depth, f.width, f.height, margin);
-  for (float& z : e.inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
-  for (const Plane& plane : f.channels) {
-    e.channels.push_back(extended(plane, f.width, f.height, margin));
-    for (std::size_t i = 0; border == Border::black && i < e.channels.back().size(); ++i) {
-      if (is_in_margin(e, i)) e.channels.back()[i] = 0;
-    }
-  }
-  return e;
-}
-
-template <typename T>
-std::vector<T> cropped(const std::vector<T>& plane, const Extended& e) {
-  std::vector<T> out;
-  for (int y = e.margin; y < e.height - e.margin; ++y) {
-    const auto row = plane.begin() + static_cast<std::ptrdiff_t>(y) * e.width;
-    out.insert(out.end(), row + e.margin, row + e.width - e.margin);
-  }
-  return out;
-}
-
 /// The chain, stage by stage.
 class Chain {
  public:
@@ -115,15 +35,12 @@ class Chain {
         static_cast<int>(make_lens_cells(settings_.cells_per_side, false).centres.size());
     rdb_.samples = make_lens_samples(settings_.aperture, points);
     report_.lens_points = points;
-    Extended e = extend(frame, settings_.border, report_);
-    if (rdb_.wants_nearest) {
-      e.data = extended(own_pixels(frame.width, frame.height), frame.width, frame.height, e.margin);
-    }
+    ExtendedFrame e = extend(frame, settings_.border, rdb_.wants_nearest, report_);
     done("border");
     if (settings_.repair_depth) repair_depth(e);
     Fragments fragments = make_fragments(e);
     const LightSources lights = take_highlights(
-        fragments, static_cast<int>(frame.channels.size()) - (frame.has_alpha ? 1 : 0));
+        fragments, static_cast<int>(frame.channels.size()) - (frame.has_alpha ? 1 : 0), e);
     if (settings_.soften) fragments.channels = soften(fragments, points);
     done("soften");
     place(e, frame);
@@ -142,7 +59,7 @@ class Chain {
   }
 
   /// Depth that was anti-aliased has many pixels between two surfaces; elsewhere a few are wires.
-  void repair_depth(Extended& e) {
+  void repair_depth(ExtendedFrame& e) {
     const Words source = session_ ? repair(*session_, e.width, e.height, e.coc_quanta)
                                   : reference::repair(e.width, e.height, e.coc_quanta);
     const Words mixed = find_edges(e);
@@ -160,18 +77,18 @@ class Chain {
         e.coc_quanta[i] = coc[source[i]];
         e.inverse[i] = inverse[source[i]];
         if (!data.empty()) e.data[i] = data[source[i]];
-        report_.repaired += source[i] != i && !is_in_margin(e, i);
+        report_.repaired += source[i] != i && !e.is_in_margin(i);
       }
     }
     done("repair");
   }
 
-  Words find_edges(const Extended& e) const {
+  Words find_edges(const ExtendedFrame& e) const {
     return session_ ? edges(*session_, e.width, e.height, e.coc_quanta)
                     : reference::edges(e.width, e.height, e.coc_quanta);
   }
 
-  Fragments make_fragments(const Extended& e) {
+  Fragments make_fragments(const ExtendedFrame& e) {
     const FrameView view = e.view();
     const Words mixed = find_edges(e);
     done("edges");
@@ -187,10 +104,10 @@ class Chain {
     Surfaces s = session_ ? split(*session_, view, to_split, std::move(behind))
                           : reference::split(view, to_split, std::move(behind));
     done("split");
-    return assembled(e, s);
+    return assemble(e, s, report_);
   }
 
-  void add_patterns(const Extended& e, const Words& mixed, Surface& behind) {
+  void add_patterns(const ExtendedFrame& e, const Words& mixed, Surface& behind) {
     Words is_behind, encoded;
     for (std::size_t i = 0; i < mixed.size(); ++i) {
       is_behind.push_back(behind.inverse[i] >= 0);
@@ -211,88 +128,12 @@ class Chain {
     done("patterns");
   }
 
-  /// One fragment a pixel.
-  Fragments whole_pixels(const Extended& e) {
-    Fragments f{e.width, e.height, 1, e.coc_quanta, {}, {}, e.channels};
-    f.depth = depth_of(e.inverse);
-    f.data_of = e.data;
-    for (std::size_t i = 0; i < f.depth.size(); ++i) f.coverage.push_back(flags(e, i));
-    return f;
-  }
-
-  Fragments assembled(const Extended& e, const Surfaces& s) {
-    Fragments f{e.width, e.height, 2, {}, {}, {}, {}};
-    f.channels.resize(e.channels.size());
-    const Plane depths[2] = {depth_of(s.front.inverse), depth_of(s.behind.inverse)};
-    const Surface* const surfaces[2] = {&s.front, &s.behind};
-    for (int y = 0; y < e.height; ++y) {
-      for (int layer = 0; layer < 2; ++layer) {
-        const Surface& from = *surfaces[layer];
-        for (std::size_t i = size(y) * size(e.width); i < (size(y) + 1) * size(e.width); ++i) {
-          const bool is_there = is_fragment(depths[layer][i]);
-          f.coc_quanta.push_back(from.coc_quanta[i]);
-          f.depth.push_back(depths[layer][i]);
-          f.coverage.push_back(is_there ? from.coverage[i] | (flags(e, i) & DEFRAY_SYNTHESISED)
-                                        : 0);
-          for (std::size_t c = 0; c < f.channels.size(); ++c) {
-            f.channels[c].push_back(from.channels[c][i]);
-          }
-          if (!e.data.empty()) f.data_of.push_back(data_of(e, from, layer, i));
-          if (is_in_margin(e, i) || !is_there) continue;
-          report_.behind += layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED;
-          report_.split += layer == 0 && from.coverage[i] < DEFRAY_WHOLE;
-        }
-      }
-    }
-    return f;
-  }
-
-  /// Whose data a fragment has. One on its pixel's own surface: the pixel's. One in front of it,
-  /// which `split` found beside the pixel: that of the nearest pixel on its surface. What was made
-  /// up: none.
-  static std::uint32_t data_of(const Extended& e, const Surface& from, int layer, std::size_t i) {
-    const auto is_on = [&](std::size_t pixel) {
-      return e.inverse[pixel] == from.inverse[i] && e.coc_quanta[pixel] == from.coc_quanta[i];
-    };
-    if (layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED) return DEFRAY_EMPTY;
-    if (is_on(i)) return e.data[i];
-    const int x = static_cast<int>(i % size(e.width)), y = static_cast<int>(i / size(e.width));
-    constexpr int reach = 3;  // as far as `split` looks
-    int least = 2 * reach * reach + 1;
-    std::uint32_t data = DEFRAY_EMPTY;
-    for (int j = std::max(0, y - reach); j <= std::min(e.height - 1, y + reach); ++j) {
-      for (int k = std::max(0, x - reach); k <= std::min(e.width - 1, x + reach); ++k) {
-        const std::size_t pixel = size(j) * size(e.width) + size(k);
-        const int distance = (j - y) * (j - y) + (k - x) * (k - x);
-        if (distance >= least || !is_on(pixel)) continue;
-        least = distance;
-        data = e.data[pixel];
-      }
-    }
-    return data;
-  }
-
-  static Plane depth_of(const Plane& inverse) {
-    Plane depth;
-    depth.reserve(inverse.size());
-    for (const float i : inverse) {
-      depth.push_back(i < 0    ? no_fragment()
-                      : i == 0 ? std::numeric_limits<float>::infinity()
-                               : 1.0f / i);
-    }
-    return depth;
-  }
-
-  /// Coverage of a whole pixel; beyond the frame it was not seen.
-  static std::uint32_t flags(const Extended& e, std::size_t i) {
-    return is_in_margin(e, i) ? DEFRAY_WHOLE | DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
-  }
-
-  LightSources take_highlights(Fragments& f, int light_channels) {
+  LightSources take_highlights(Fragments& f, int light_channels, const ExtendedFrame& e) {
     LightSources lights;
     if (settings_.highlights) {
-      const Plane kept = session_ ? defray::highlights(*session_, f, light_channels)
-                                  : reference::highlights(f, light_channels);
+      Plane kept = session_ ? defray::highlights(*session_, f, light_channels)
+                            : reference::highlights(f, light_channels);
+      dim_margin(f, kept, light_channels, e);
       lights = take_light(f, kept, light_channels, make_aperture_table(mask_), rdb_.samples);
       report_.highlights = lights.where.size();
     }
@@ -300,12 +141,24 @@ class Chain {
     return lights;
   }
 
+  /// A lamp on the frame's edge does not go on outside: its margin keeps what its surroundings
+  /// have.
+  static void dim_margin(Fragments& f, const Plane& kept, int light_channels,
+                         const ExtendedFrame& e) {
+    for (std::size_t i = 0; e.margin > 0 && i < e.coc_quanta.size(); ++i) {
+      const std::size_t inside = e.nearest_inside(i);
+      const float share = kept[f.front_of(inside)];
+      if (inside == i || share == 1.0f) continue;
+      for (std::size_t c = 0; c < size(light_channels); ++c) f.channels[c][f.front_of(i)] *= share;
+    }
+  }
+
   std::vector<Plane> soften(const Fragments& f, int points) const {
     return session_ ? defray::soften(*session_, f, points) : reference::soften(f, points);
   }
 
   /// Where the frame lies: for what is random, and the lens's rim.
-  void place(const Extended& e, const PinholeFrame& frame) {
+  void place(const ExtendedFrame& e, const PinholeFrame& frame) {
     rdb_.origin_x = frame.origin_x - e.margin;
     rdb_.origin_y = frame.origin_y - e.margin;
     if (settings_.aperture.cats_eye == 0) return;
@@ -338,7 +191,7 @@ class Chain {
     }
   }
 
-  DefocusResult finish(const Extended& e, RdbResult result) {
+  DefocusResult finish(const ExtendedFrame& e, RdbResult result) {
     DefocusResult out;
     for (const Plane& plane : result.means) out.colour.push_back(cropped(plane, e));
     const Words seen = cropped(result.seen, e);

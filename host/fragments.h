@@ -27,6 +27,12 @@ struct Fragments {
                static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
+
+  /// Index of the front fragment of a pixel, counted row by row.
+  std::size_t front_of(std::size_t pixel) const {
+    const auto columns = static_cast<std::size_t>(width);
+    return pixel / columns * static_cast<std::size_t>(layers) * columns + pixel % columns;
+  }
 };
 
 /// The same, in someone else's memory, which must stay alive and unchanged.

@@ -1,0 +1,15 @@
+#pragma once
+// The stages' surfaces as sources of the ray distribution buffers.
+#include "border.h"
+#include "fragments.h"
+
+namespace defray {
+
+/// One fragment a pixel, whole; those of the margin were not seen.
+Fragments whole_pixels(const ExtendedFrame& frame);
+
+/// Two layers. `report` gets how many pixels of the frame were split and have something made up
+/// behind them.
+Fragments assemble(const ExtendedFrame& frame, const Surfaces& surfaces, DefocusReport& report);
+
+}  // namespace defray

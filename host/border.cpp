@@ -1,0 +1,72 @@
+#include "border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace defray {
+namespace {
+
+std::size_t size(int value) { return static_cast<std::size_t>(value); }
+
+int margin_of(const PinholeFrame& f, Border border, DefocusReport& report) {
+  if (border == Border::renormalise) return 0;
+  std::int32_t largest = 0;
+  const auto look = [&](int x, int y) {
+    largest = std::max(largest, std::abs(f.coc_quanta[size(y) * size(f.width) + size(x)]));
+  };
+  for (int x = 0; x < f.width; ++x) look(x, 0), look(x, f.height - 1);
+  for (int y = 0; y < f.height; ++y) look(0, y), look(f.width - 1, y);
+  const int wanted = largest == 0 ? 0 : rdb_reach(largest);
+  const int most = std::max(16, std::min(f.width, f.height) / 2);
+  report.border_px = std::min(wanted, most);
+  report.border_is_cut = wanted > most;
+  return report.border_px;
+}
+
+/// `plane` with its edge repeated around it.
+template <typename T>
+std::vector<T> extended(const std::vector<T>& plane, int width, int height, int margin) {
+  std::vector<T> out;
+  out.reserve((size(width) + 2 * size(margin)) * (size(height) + 2 * size(margin)));
+  for (int y = -margin; y < height + margin; ++y) {
+    const T* row = &plane[size(std::clamp(y, 0, height - 1)) * size(width)];
+    out.insert(out.end(), size(margin), row[0]);
+    out.insert(out.end(), row, row + width);
+    out.insert(out.end(), size(margin), row[width - 1]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t ExtendedFrame::nearest_inside(std::size_t pixel) const {
+  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
+  return size(std::clamp(y, margin, height - margin - 1)) * size(width) +
+         size(std::clamp(x, margin, width - margin - 1));
+}
+
+bool ExtendedFrame::is_in_margin(std::size_t pixel) const { return nearest_inside(pixel) != pixel; }
+
+ExtendedFrame extend(const PinholeFrame& f, Border border, bool wants_data, DefocusReport& report) {
+  const int margin = margin_of(f, border, report);
+  ExtendedFrame e{f.width + 2 * margin, f.height + 2 * margin, margin, {}, {}, {}, {}};
+  e.coc_quanta = extended(f.coc_quanta, f.width, f.height, margin);
+  e.inverse = extended(f.depth, f.width, f.height, margin);
+  for (float& z : e.inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
+  for (const Plane& plane : f.channels) {
+    e.channels.push_back(extended(plane, f.width, f.height, margin));
+    for (std::size_t i = 0; border == Border::black && i < e.channels.back().size(); ++i) {
+      if (e.is_in_margin(i)) e.channels.back()[i] = 0;
+    }
+  }
+  if (wants_data) {
+    std::vector<std::uint32_t> own(size(f.width) * size(f.height));
+    std::iota(own.begin(), own.end(), 0u);
+    e.data = extended(own, f.width, f.height, margin);
+  }
+  return e;
+}
+
+}  // namespace defray

@@ -1,0 +1,44 @@
+#pragma once
+// What is taken to be outside the frame: a margin around it.
+#include <cstdint>
+#include <vector>
+
+#include "defocus.h"
+#include "method.h"
+#include "stages.h"
+
+namespace defray {
+
+/// A frame with a margin, all planes [height][width] of the whole.
+struct ExtendedFrame {
+  int width, height, margin;
+  std::vector<std::int32_t> coc_quanta;  ///< Signed radius, 1/256 px.
+  Plane inverse;                         ///< 1/depth; 0: background.
+  std::vector<Plane> channels;
+  /// The frame's pixel whose data each has; empty if nobody asks.
+  std::vector<std::uint32_t> data;
+
+  FrameView view() const { return {width, height, coc_quanta, inverse, channels}; }
+  bool is_in_margin(std::size_t pixel) const;
+
+  /// The pixel itself; in the margin the frame's nearest.
+  std::size_t nearest_inside(std::size_t pixel) const;
+};
+
+/// The frame's edge pixels repeated around it, for Border::black without their light, as far as
+/// rays can come in: the largest CoC on the edge, at most half the frame. `report` gets how far.
+ExtendedFrame extend(const PinholeFrame& frame, Border border, bool wants_data,
+                     DefocusReport& report);
+
+/// The frame's part of a plane.
+template <typename T>
+std::vector<T> cropped(const std::vector<T>& plane, const ExtendedFrame& e) {
+  std::vector<T> out;
+  for (int y = e.margin; y < e.height - e.margin; ++y) {
+    const auto row = plane.begin() + static_cast<std::ptrdiff_t>(y) * e.width;
+    out.insert(out.end(), row + e.margin, row + e.width - e.margin);
+  }
+  return out;
+}
+
+}  // namespace defray
