@@ -25,6 +25,7 @@ typedef struct {
   float distance;  // in pixels; 0: nothing
   float coc;       // quanta, and
   float inverse;   // 1/depth: continued to where the ray began
+  float weight;    // of its colour
 } Found;
 
 bool is_inside(const DefrayFillParams p, const int2 at) {
@@ -41,7 +42,7 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
   const int2 on = convert_int2(rint(4.0f * direction));
   const int2 beyond = start + back + on;
   const uint q = pixel_at(p.width, p.height, start + back);
-  Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q]};
+  Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q], 0.0f};
   if (!is_inside(p, beyond)) return found;
   const uint b = pixel_at(p.width, p.height, beyond);
   const float slant = (float)(coc_of(coc_quanta, q) - coc_of(coc_quanta, b));
@@ -61,7 +62,7 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
 Found look_behind(const DefrayFillParams p, __global const int* restrict coc_quanta,
                   __global const float* restrict inverse, __global const uint* restrict mixed,
                   const int2 start, const float2 direction, const int own) {
-  const Found nothing = {0u, 0.0f, 0.0f, 0.0f};
+  const Found nothing = {0u, 0.0f, 0.0f, 0.0f, 0.0f};
   const int reach = (p.farthest_quanta - own) / 256 + 2;
   int before = own;
   for (int t = 1, step = 1; t <= reach; t += step) {
@@ -93,6 +94,46 @@ float brightness(const float4 c) {
   return isnan(sum) ? INFINITY : sum;
 }
 
+// Without alpha.
+float sum_of_squares(const float4 c) {
+  const float4 s = c * c;
+  return s.x + s.y + s.z;
+}
+
+// The found colour's weight: looks at four pixels further on, each four pixels from the last, if
+// they are still the same surface. A small highlight gives its place to the brightest of them,
+// unless it lies so close to the edge that it may well go on behind it.
+Found look_further(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                   __global const uint* restrict mixed, __global const float* restrict channel0,
+                   __global const float* restrict channel1, __global const float* restrict channel2,
+                   __global const float* restrict channel3, const int2 start,
+                   const float2 direction, Found found) {
+  const int coc = coc_of(coc_quanta, found.source);
+  const float4 colour = colour_at(channel0, channel1, channel2, channel3, found.source);
+  float change = 0.0f, size = sum_of_squares(colour), brightest = -1.0f;
+  uint source = found.source;
+  found.weight = 1.0f / (found.distance * found.distance);
+  for (int i = 1; i <= 4; ++i) {
+    const int2 at = start + convert_int2(rint((found.distance + (float)(4 * i)) * direction));
+    if (!is_inside(p, at)) break;
+    const uint q = pixel_at(p.width, p.height, at);
+    if (mixed[q] || abs(coc_of(coc_quanta, q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
+    const float4 c = colour_at(channel0, channel1, channel2, channel3, q);
+    change += sum_of_squares(c - colour);
+    size += sum_of_squares(c);
+    if (!(brightness(c) > brightest)) continue;
+    brightest = brightness(c);
+    source = q;
+  }
+  if (brightest < 0.0f) return found;
+  if (isfinite(change) && isfinite(size)) {
+    const float share = change > 0.0f ? fmin(change / size, 8.0f) : 0.0f;
+    found.weight /= 0.1f + share;
+  }
+  if (found.distance > 4.0f && brightness(colour) > 3.0f * brightest) found.source = source;
+  return found;
+}
+
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
                    __global const float* restrict inverse, __global const uint* restrict mixed,
                    __global const uint* restrict active, __global const float* restrict channel0,
@@ -121,8 +162,10 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-    const Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own);
+    Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own);
     if (f.distance == 0.0f) continue;
+    f = look_further(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at, sixteenth(i),
+                     f);
     found[count] = f;
     bright[count] = brightness(colour_at(channel0, channel1, channel2, channel3, f.source));
     if (f.distance < found[nearest].distance) nearest = count;
@@ -158,9 +201,9 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     weights += weight;
     coc += weight * f.coc;
     inverse_sum += weight * f.inverse;
-    if (bright[i] > 3.0f * median) continue;
-    colour_weights += weight;
-    colour += weight * colour_at(channel0, channel1, channel2, channel3, f.source);
+    if (bright[i] > 10.0f * median) continue;
+    colour_weights += f.weight;
+    colour += f.weight * colour_at(channel0, channel1, channel2, channel3, f.source);
   }
   behind_coc[pixel] = convert_int_rte(coc / weights);
   const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;

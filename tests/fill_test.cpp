@@ -140,5 +140,38 @@ TEST(Fill, ALoneHighlightDoesNotSmear) {
   }
 }
 
+TEST(Fill, ASmallHighlightIsNotAllThatLiesBehind) {
+  // From the middle of a wide bar only the way to the left is short enough.
+  Frame f(80, 3);
+  f.each([&](int x, int y) { f.paint(x, y, 0.5f, 0.5f, 0.5f); });
+  f.add_bar(30, 80);
+  for (int x = 26; x < 29; ++x) f.paint(x, 1, 50, 50, 50);
+  const Surface behind = f.filled();
+  ASSERT_GE(behind.inverse[f.at(34, 1)], 0);
+  EXPECT_NEAR(behind.channels[0][f.at(34, 1)], 0.5f, 0x1p-20f);
+}
+
+TEST(Fill, StripesGoOnInTheirDirection) {
+  const auto stripe = [](int n) { return n / 4 % 2 ? 0.8f : 0.1f; };
+  for (const bool along_rows : {true, false}) {
+    Frame f(64, 64);
+    f.each([&](int x, int y) {
+      const float v = stripe(along_rows ? y : x + y);
+      f.paint(x, y, v, v, v);
+    });
+    f.add_bar(28, 36);
+    const Surface behind = f.filled();
+    double error = 0, plain = 0;
+    for (int y = 20; y < 44; ++y) {
+      for (int x = 29; x < 35; ++x) {
+        const float expected = stripe(along_rows ? y : x + y);
+        error += std::fabs(behind.channels[0][f.at(x, y)] - expected);
+        plain += std::fabs(0.45 - expected);
+      }
+    }
+    EXPECT_LT(error, (along_rows ? 0.35 : 0.7) * plain);
+  }
+}
+
 }  // namespace
 }  // namespace defray::test

@@ -15,6 +15,7 @@ struct Found {
   float distance;  ///< In pixels.
   float coc;       ///< Quanta, and
   float inverse;   ///< 1/depth: continued to where the way began.
+  float weight;    ///< Of its colour.
 };
 
 /// A straight way over the picture: place after t steps of a pixel.
@@ -32,6 +33,15 @@ struct Way {
   Place after(int t) const { return start + steps(t); }
 };
 
+/// NaN counts as the brightest.
+float brightness(const Colour& c) {
+  const float sum = std::fabs(c[0] + c[1] + c[2]);
+  return std::isnan(sum) ? std::numeric_limits<float>::infinity() : sum;
+}
+
+/// Without alpha.
+float sum_of_squares(const Colour& c) { return c[0] * c[0] + c[1] * c[1] + c[2] * c[2]; }
+
 class Filler {
  public:
   Filler(const FrameView& f, const std::vector<std::uint32_t>& mixed)
@@ -48,7 +58,7 @@ class Filler {
     for (int i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
       const double angle = i * 2 * std::numbers::pi / DEFRAY_FILL_DIRECTIONS;
       const Way way{at, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-      if (const auto found = look_along(way, own)) all.push_back(*found);
+      if (const auto found = look_along(way, own)) all.push_back(looked_further(way, *found));
     }
     return all;
   }
@@ -98,7 +108,7 @@ class Filler {
     const Place back = way.steps(t), on = way.steps(4), beyond = way.start + back + on;
     const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
-    Found found{q, static_cast<float>(t), static_cast<float>(coc), view_.inverse[q]};
+    Found found{q, static_cast<float>(t), static_cast<float>(coc), view_.inverse[q], 0};
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
     const auto slant = static_cast<float>(coc - frame_.coc(b));  // over four pixels
@@ -115,17 +125,40 @@ class Filler {
     return found;
   }
 
+  /// With its colour's weight, from four pixels further on; a small highlight that does not lie at
+  /// the very edge gives its place to the brightest of them.
+  Found looked_further(const Way& way, Found found) const {
+    const int coc = frame_.coc(found.source), t = static_cast<int>(found.distance);
+    const Colour colour = colour_at(view_.channels, found.source);
+    float change = 0, size = sum_of_squares(colour), brightest = -1;
+    std::size_t source = found.source;
+    found.weight = 1 / (found.distance * found.distance);
+    for (int i = 1; i <= 4 && frame_.contains(way.after(t + 4 * i)); ++i) {
+      const std::size_t q = frame_.index(way.after(t + 4 * i));
+      if (mixed_[q] || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
+      const Colour c = colour_at(view_.channels, q);
+      Colour difference = c;
+      add(difference, -1, colour);
+      change += sum_of_squares(difference);
+      size += sum_of_squares(c);
+      if (!(brightness(c) > brightest)) continue;
+      brightest = brightness(c);
+      source = q;
+    }
+    if (brightest < 0) return found;
+    if (std::isfinite(change) && std::isfinite(size)) {
+      const float share = change > 0 ? std::fmin(change / size, 8.0f) : 0;
+      found.weight /= 0.1f + share;
+    }
+    if (found.distance > 4 && brightness(colour) > 3 * brightest) found.source = source;
+    return found;
+  }
+
   const FrameView& view_;
   CocFrame frame_;
   const std::vector<std::uint32_t>& mixed_;
   std::int32_t farthest_;
 };
-
-/// NaN counts as the brightest.
-float brightness(const Colour& c) {
-  const float sum = std::fabs(c[0] + c[1] + c[2]);
-  return std::isnan(sum) ? std::numeric_limits<float>::infinity() : sum;
-}
 
 float upper_median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -154,9 +187,9 @@ Mean mean_of(std::vector<Found> all, const std::vector<Plane>& channels, int own
     weights += weight;
     coc += weight * all[i].coc;
     inverse += weight * all[i].inverse;
-    if (bright[i] > 3 * median) continue;
-    colour_weights += weight;
-    add(colour, weight, colour_at(channels, all[i].source));
+    if (bright[i] > 10 * median) continue;
+    colour_weights += all[i].weight;
+    add(colour, all[i].weight, colour_at(channels, all[i].source));
   }
   return Mean{coc / weights, inverse / weights, divided(colour, colour_weights)};
 }
