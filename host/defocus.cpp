@@ -111,7 +111,7 @@ class Chain {
     Words is_behind, encoded;
     for (std::size_t i = 0; i < mixed.size(); ++i) {
       is_behind.push_back(behind.inverse[i] >= 0);
-      std::uint32_t word = mixed[i] || is_behind[i] ? 0 : DEFRAY_PATTERN_KNOWN;
+      std::uint32_t word = mixed[i] || is_behind[i] || e.is_in_margin(i) ? 0 : DEFRAY_PATTERN_KNOWN;
       for (std::size_t c = 0; c < 3; ++c) {
         const float v = e.channels[std::min(c, e.channels.size() - 1)][i];
         word |= static_cast<std::uint32_t>(std::lround(255 * shown_value(v))) << (8 * c);
@@ -120,10 +120,12 @@ class Chain {
     }
     const PatternFrame frame{e.width,      e.height,          encoded,
                              e.coc_quanta, behind.coc_quanta, is_behind};
+    PatternSettings patterns;
+    patterns.shifts = settings_.pattern_shifts;
     if (session_) {
-      improve_by_patterns(*session_, frame, e.channels, {}, behind.channels);
+      improve_by_patterns(*session_, frame, e.channels, patterns, behind.channels);
     } else {
-      reference::improve_by_patterns(frame, e.channels, {}, behind.channels);
+      reference::improve_by_patterns(frame, e.channels, patterns, behind.channels);
     }
     done("patterns");
   }

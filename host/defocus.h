@@ -29,6 +29,7 @@ enum class Hidden {
 struct DefocusSettings {
   int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
   Hidden hidden = Hidden::on;
+  int pattern_shifts = 24;  ///< Shifts at which Hidden::on looks, each with both its signs.
   bool split_edges = true;
   bool repair_depth = true;
   bool highlights = true;
