@@ -3,20 +3,6 @@
 #include "render.h"
 
 namespace defray::cli {
-namespace {
-
-/// Settings that go together.
-DefocusSettings of_quality(const std::string& quality) {
-  DefocusSettings s;
-  const int cells = choice<int>("--quality", quality, {{"draft", 9}, {"normal", 13}, {"high", 33}});
-  s.cells_per_side = cells;
-  if (quality == "draft") s.hidden = Hidden::smooth;
-  if (quality == "high") s.pattern_shifts = 48;
-  return s;
-}
-
-}  // namespace
-
 void add_defocus_options(CLI::App& c, RenderOptions& o) {
   const char* const group = "Closer to the truth (rdb)";
   c.add_option(
@@ -45,7 +31,9 @@ void add_defocus_options(CLI::App& c, RenderOptions& o) {
 }
 
 DefocusSettings to_defocus(const RenderOptions& o) {
-  DefocusSettings s = of_quality(o.quality.empty() ? "normal" : o.quality);
+  DefocusSettings s = settings_for(choice<Quality>(
+      "--quality", o.quality.empty() ? "normal" : o.quality,
+      {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}}));
   if (o.rdb) s.cells_per_side = *o.rdb;
   if (!o.hidden.empty()) {
     s.hidden =

@@ -223,6 +223,19 @@ class Chain {
 
 }  // namespace
 
+DefocusSettings settings_for(Quality quality) {
+  DefocusSettings s;
+  if (quality == Quality::draft) {
+    s.cells_per_side = 9;
+    s.hidden = Hidden::smooth;
+  }
+  if (quality == Quality::high) {
+    s.cells_per_side = 33;
+    s.pattern_shifts = 48;
+  }
+  return s;
+}
+
 DefocusResult defocus(const PinholeFrame& frame, const DefocusSettings& settings,
                       const RdbSettings& rdb, Session* session,
                       const std::function<void(double)>& progress) {

@@ -38,6 +38,11 @@ struct DefocusSettings {
   Aperture aperture;
 };
 
+enum class Quality { draft, normal, high };
+
+/// What goes together, the fastest first; Quality::normal is DefocusSettings().
+DefocusSettings settings_for(Quality quality);
+
 /// A stage and its time.
 struct StageTime {
   std::string stage;

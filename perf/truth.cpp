@@ -50,10 +50,9 @@ std::vector<Setup> make_setups(const Bench& bench) {
   return setups;
 }
 
-MethodSettings default_chain(int cells_per_side) {
+MethodSettings default_chain(Quality quality) {
   MethodSettings s;
-  s.defocus = DefocusSettings{};
-  s.defocus->cells_per_side = cells_per_side;
+  s.defocus = settings_for(quality);
   return s;
 }
 

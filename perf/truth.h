@@ -27,8 +27,8 @@ Subject make_antialiased(Session& session, Scene scene, const std::string& setti
 
 std::vector<Setup> make_setups(const Bench& bench);
 
-/// `defray render` without options, and with these lens points.
-MethodSettings default_chain(int cells_per_side = 13);
+/// `defray render` with --quality alone.
+MethodSettings default_chain(Quality quality = Quality::normal);
 
 /// PSNR and time with and without each mechanism.
 void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Section& section);

@@ -38,12 +38,8 @@ std::vector<Variant> variants() {
               "anti-aliased depth", [](auto&) {}, true),
           with(
               "anti-aliased depth, --keep-depth", [](auto& d) { d.repair_depth = false; }, true),
-          with("--quality draft",
-               [](auto& d) {
-                 d.cells_per_side = 9;
-                 d.hidden = Hidden::smooth;
-               }),
-          {"--quality high", default_chain(33)}};
+          {"--quality draft", default_chain(Quality::draft)},
+          {"--quality high", default_chain(Quality::high)}};
 }
 
 /// All variants once a round, so that what disturbs the machine disturbs them alike.
