@@ -2,8 +2,8 @@
 //
 // A lens cell either sees a source at a pixel or not: far brighter than what is around, it shows as
 // dots. `highlights` finds such fragments: brighter than DEFRAY_HIGHLIGHT times the median of 32
-// pixels around the disc they will fill. What they have above that median goes to `highlights_add`,
-// the median stays with the rays.
+// pixels around the disc they will fill, those that were seen. What they have above that median
+// goes to `highlights_add`, the median stays with the rays.
 //
 // `highlights_add` gives each pixel the share of a source's light that falls into its square: the
 // light of a box of the aperture, from a summed-area table, in integers, so that the shares of all
@@ -69,6 +69,7 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
     const int2 q = around(at, fabs((float)coc) * (1.0f / 256.0f), i);
     if (q.x < 0 || q.y < 0 || q.x >= (int)p.width || q.y >= (int)p.height) continue;
     const size_t front = (size_t)q.y * p.layers * p.width + (uint)q.x;
+    if (coverage[front] >= DEFRAY_SYNTHESISED) continue;
     light[count] =
         light_of(colour_at(channel0, channel1, channel2, channel3, front), p.light_channels);
     dim += light[count] * DEFRAY_HIGHLIGHT < own_light ? 1u : 0u;

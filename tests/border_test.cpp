@@ -58,5 +58,12 @@ TEST(Border, ALampOnTheFramesEdgeIsOneLamp) {
   }
 }
 
+TEST(Border, BlackDoesNotMakeHighlightsOfTheEdge) {
+  Scene scene;
+  scene.coc.assign(scene.coc.size(), 8 * 256);
+  scene.depth.assign(scene.depth.size(), 5.0f);
+  EXPECT_EQ(scene.through(Border::black).report.highlights, 0u);
+}
+
 }  // namespace
 }  // namespace defray::test

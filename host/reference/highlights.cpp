@@ -21,7 +21,7 @@ float light_of(const Fragments& f, std::size_t at, int light_channels) {
   return most;
 }
 
-/// Light of the front fragments at 32 points around a disc, those within the frame.
+/// Light of the front fragments at 32 points around a disc, those within the frame and seen.
 std::vector<float> light_around(const Fragments& f, int x, int y, float radius,
                                 int light_channels) {
   std::vector<float> light;
@@ -33,7 +33,9 @@ std::vector<float> light_around(const Fragments& f, int x, int y, float radius,
     };
     const int qx = x + rounded(std::cos(angle)), qy = y + rounded(std::sin(angle));
     if (qx < 0 || qy < 0 || qx >= f.width || qy >= f.height) continue;
-    light.push_back(light_of(f, f.index(qx, qy, 0), light_channels));
+    const std::size_t front = f.index(qx, qy, 0);
+    if (f.coverage[front] >= DEFRAY_SYNTHESISED) continue;
+    light.push_back(light_of(f, front, light_channels));
   }
   return light;
 }
