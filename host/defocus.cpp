@@ -7,6 +7,7 @@
 #include "aperture_table.h"
 #include "assemble.h"
 #include "cats_eye.h"
+#include "error.h"
 #include "lens_samples.h"
 #include "method.h"
 #include "metrics.h"
@@ -221,6 +222,17 @@ class Chain {
   Clock::time_point start_ = Clock::now();
 };
 
+/// The stages hold whole frames: about so many bytes a pixel in all, measured on PoCL.
+constexpr std::size_t bytes_a_pixel = 250;
+
+void require_memory(const PinholeFrame& frame, const DeviceInfo& device) {
+  const std::size_t needed = size(frame.width) * size(frame.height) * bytes_a_pixel;
+  if (needed <= device.global_memory_bytes) return;
+  fail(ExitCode::device,
+       "{}x{} pixels: the stages of rdb need about {} MiB, {} has {} MiB; --literal works in bands",
+       frame.width, frame.height, needed >> 20, device.name, device.global_memory_bytes >> 20);
+}
+
 }  // namespace
 
 DefocusSettings settings_for(Quality quality) {
@@ -239,6 +251,7 @@ DefocusSettings settings_for(Quality quality) {
 DefocusResult defocus(const PinholeFrame& frame, const DefocusSettings& settings,
                       const RdbSettings& rdb, Session* session,
                       const std::function<void(double)>& progress) {
+  if (session) require_memory(frame, session->info());
   return Chain(settings, rdb, session).run(frame, progress);
 }
 

@@ -65,5 +65,20 @@ TEST(Border, BlackDoesNotMakeHighlightsOfTheEdge) {
   EXPECT_EQ(scene.through(Border::black).report.highlights, 0u);
 }
 
+TEST(Defocus, AFrameThatDoesNotFitTheDeviceIsRefused) {
+  const Scene scene;
+  DeviceInfo small = device_under_test();
+  small.global_memory_bytes = 60 * 40 * 200;
+  Session device(small);
+  const PinholeFrame frame{size.width, size.height, scene.coc, scene.depth, scene.channels};
+  try {
+    defocus(frame, {}, {}, &device);
+    FAIL() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::device);
+    EXPECT_NE(std::string(error.what()).find("60x40 pixels"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace defray::test
