@@ -26,7 +26,8 @@ constexpr const char* footer = R"(Examples:
 
 'defray COMMAND --help' explains a command.
 Exit codes: 0 done; 1 some frames failed, a comparison missed its bound, or a kernel failed; 2 wrong usage;
-3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray.)";
+3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray;
+130, 143 interrupted, terminated.)";
 
 /// Every option name, or every command name, that `app` knows.
 std::vector<std::string> known_words(const CLI::App& app) {

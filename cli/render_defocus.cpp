@@ -18,7 +18,7 @@ void add_defocus_options(CLI::App& c, RenderOptions& o) {
   c.add_option("--edges", o.edges,
                "Anti-aliased pixels: split (default) into what is in front and behind, or keep")
       ->group(group);
-  c.add_flag("--keep-depth", o.keep_depth, "Do not repair depth that was anti-aliased")
+  c.add_flag("--keep-depth", o.keep_depth, "Do not repair depth that looks anti-aliased")
       ->group(group);
   c.add_option("--highlights", o.highlights,
                "Small bright sources: discs (default) of the aperture's shape, or rays like others")

@@ -26,13 +26,14 @@ void add_files(CLI::App& c, RenderOptions& o) {
   c.add_option("-o,--output", o.output, "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)")
       ->required();
   const char* const files = "Files";
-  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(no_empty_path);
+  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(not_empty);
   c.add_option("--coc-out", o.coc_out, "Write the signed CoC radius in px (.exr, .tif)")
       ->group(files);
   c.add_option("--confidence-out", o.confidence_out,
                "Write the share of each pixel's lens rays that the input determines (.exr, .tif)")
       ->group(files);
   c.add_option("--frames", o.frames, "1-8, 1-10x2, 1,5,9-12; default: every file that matches")
+      ->check(not_empty)
       ->group(files);
   c.add_flag("--skip-existing", o.skip_existing, "Leave frames alone whose output exists")
       ->group(files);

@@ -69,8 +69,9 @@ std::vector<std::string> notes_of(const FrameReport& r) {
     notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
   }
   if (r.defocus && r.defocus->repaired > 0) {
-    notes.push_back(fmt::format("depth was anti-aliased: {} px repaired (--keep-depth keeps them)",
-                                r.defocus->repaired));
+    notes.push_back(
+        fmt::format("depth looks anti-aliased: {} px repaired (--keep-depth leaves them)",
+                    r.defocus->repaired));
   }
   if (r.defocus && r.defocus->border_is_cut) {
     notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",

@@ -143,10 +143,10 @@ Run add_validate(CLI::App& app) {
   auto o = std::make_shared<ValidateOptions>();
   command->add_option("-o,--output", o->folder, "Folder for report.html and report.json")
       ->required()
-      ->check(no_empty_path);
+      ->check(not_empty);
   auto* device =
       command->add_option("--device", o->device, "OpenCL device: an index or a part of its name")
-          ->check(no_empty_path);
+          ->check(not_empty);
   auto* all = command->add_flag("--all", o->all, "Every device of every implementation");
   all->excludes(device);
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
@@ -156,7 +156,7 @@ Run add_validate(CLI::App& app) {
       command->add_option("--kernel", o->kernels, "Only these kernels, comma-separated or repeated")
           ->delimiter(',');
   auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it")
-                   ->check(no_empty_path);
+                   ->check(not_empty);
   auto* math =
       command->add_option("--math", o->math, "strict, or fast to see which rules it breaks");
   command

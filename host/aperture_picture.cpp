@@ -45,7 +45,7 @@ std::vector<double> stored_luminance(const ImageFile& file, const ColourChoice& 
   return sum;
 }
 
-/// Of the display window; no light where nothing is stored, or below 0.
+/// Of the display window; no light where nothing is stored.
 Luminance read_luminance(const std::string& path) {
   const ImageFile file = ImageFile::read(path);
   const ColourChoice choice = choose_light(file);
@@ -61,8 +61,12 @@ Luminance read_luminance(const std::string& path) {
       if (!std::isfinite(stored[i])) {
         fail(ExitCode::input, "{}: holds NaN or Inf at pixel {},{}: no aperture", path, x, y);
       }
+      if (stored[i] < 0) {
+        fail(ExitCode::input, "{}: {:.3g} at pixel {},{}: an aperture lets 0 or more light pass",
+             path, stored[i], x, y);
+      }
       const bool is_shown = x >= 0 && y >= 0 && x < light.width && y < light.height;
-      if (is_shown) light.at(x, y) = std::max(0.0, stored[i]);
+      if (is_shown) light.at(x, y) = stored[i];
     }
   }
   return light;

@@ -6,22 +6,29 @@
 namespace defray {
 namespace {
 
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
 /// Coverage of a whole pixel; beyond the frame it was not seen.
 std::uint32_t flags(const ExtendedFrame& e, std::size_t i) {
   return e.is_in_margin(i) ? DEFRAY_WHOLE | DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
 }
 
-Plane depth_of(const Plane& inverse) {
-  Plane depth;
-  depth.reserve(inverse.size());
-  for (const float i : inverse) {
-    depth.push_back(i < 0    ? no_fragment()
-                    : i == 0 ? std::numeric_limits<float>::infinity()
-                             : 1.0f / i);
+/// 1/depth becomes depth.
+void invert(Plane& inverse) {
+  for (float& i : inverse) {
+    i = i < 0 ? no_fragment() : i == 0 ? std::numeric_limits<float>::infinity() : 1.0f / i;
   }
-  return depth;
+}
+
+/// Two layers' planes row by row; they themselves are freed.
+template <typename T>
+std::vector<T> interleaved(std::vector<T>& front, std::vector<T>& behind, int width) {
+  std::vector<T> rows(front.size() + behind.size());
+  for (std::size_t at = 0; at < front.size(); at += size(width)) {
+    std::copy_n(&front[at], width, &rows[2 * at]);
+    std::copy_n(&behind[at], width, &rows[2 * at + size(width)]);
+  }
+  front = {};
+  behind = {};
+  return rows;
 }
 
 /// Whose data a fragment has. One on its pixel's own surface: the pixel's. One in front of it,
@@ -49,38 +56,56 @@ std::uint32_t data_of(const ExtendedFrame& e, const Surface& from, int layer, st
   return data;
 }
 
+void count(const ExtendedFrame& e, const Surfaces& s, DefocusReport& report) {
+  for (std::size_t i = 0; i < s.front.inverse.size(); ++i) {
+    if (e.is_in_margin(i)) continue;
+    report.split += !(s.front.inverse[i] < 0) && s.front.coverage[i] < DEFRAY_WHOLE;
+    report.behind += !(s.behind.inverse[i] < 0) && s.behind.coverage[i] >= DEFRAY_SYNTHESISED;
+  }
+}
+
 }  // namespace
 
-Fragments whole_pixels(const ExtendedFrame& e) {
-  Fragments f{e.width, e.height, 1, e.coc_quanta, {}, {}, e.channels};
-  f.depth = depth_of(e.inverse);
-  f.data_of = e.data;
+Fragments whole_pixels(ExtendedFrame& e) {
+  Fragments f{e.width,
+              e.height,
+              1,
+              std::move(e.coc_quanta),
+              std::move(e.inverse),
+              {},
+              std::move(e.channels),
+              std::move(e.data)};
+  invert(f.depth);
   for (std::size_t i = 0; i < f.depth.size(); ++i) f.coverage.push_back(flags(e, i));
   return f;
 }
 
-Fragments assemble(const ExtendedFrame& e, const Surfaces& s, DefocusReport& report) {
-  Fragments f{e.width, e.height, 2, {}, {}, {}, {}};
-  f.channels.resize(e.channels.size());
-  const Plane depths[2] = {depth_of(s.front.inverse), depth_of(s.behind.inverse)};
-  const Surface* const surfaces[2] = {&s.front, &s.behind};
-  for (int y = 0; y < e.height; ++y) {
-    for (int layer = 0; layer < 2; ++layer) {
-      const Surface& from = *surfaces[layer];
-      for (std::size_t i = size(y) * size(e.width); i < (size(y) + 1) * size(e.width); ++i) {
-        const bool is_there = is_fragment(depths[layer][i]);
-        f.coc_quanta.push_back(from.coc_quanta[i]);
-        f.depth.push_back(depths[layer][i]);
-        f.coverage.push_back(is_there ? from.coverage[i] | (flags(e, i) & DEFRAY_SYNTHESISED) : 0);
-        for (std::size_t c = 0; c < f.channels.size(); ++c) {
-          f.channels[c].push_back(from.channels[c][i]);
-        }
-        if (!e.data.empty()) f.data_of.push_back(data_of(e, from, layer, i));
-        if (e.is_in_margin(i) || !is_there) continue;
-        report.behind += layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED;
-        report.split += layer == 0 && from.coverage[i] < DEFRAY_WHOLE;
-      }
+Fragments assemble(ExtendedFrame& e, Surfaces s, DefocusReport& report) {
+  count(e, s, report);
+  Fragments f{e.width, e.height, 2, {}, {}, {}, {}, {}};
+  std::vector<std::uint32_t> data[2];
+  int layer = 0;
+  for (Surface* const from : {&s.front, &s.behind}) {
+    for (std::size_t i = 0; i < e.data.size(); ++i) {
+      data[layer].push_back(data_of(e, *from, layer, i));
     }
+    for (std::size_t i = 0; i < from->coverage.size(); ++i) {
+      const bool is_there = !(from->inverse[i] < 0);
+      from->coverage[i] = is_there ? from->coverage[i] | (flags(e, i) & DEFRAY_SYNTHESISED) : 0;
+    }
+    invert(from->inverse);
+    ++layer;
+  }
+  e.coc_quanta = {};
+  e.inverse = {};
+  e.channels = {};
+  e.data = {};
+  f.data_of = interleaved(data[0], data[1], e.width);
+  f.coc_quanta = interleaved(s.front.coc_quanta, s.behind.coc_quanta, e.width);
+  f.depth = interleaved(s.front.inverse, s.behind.inverse, e.width);
+  f.coverage = interleaved(s.front.coverage, s.behind.coverage, e.width);
+  for (std::size_t c = 0; c < s.front.channels.size(); ++c) {
+    f.channels.push_back(interleaved(s.front.channels[c], s.behind.channels[c], e.width));
   }
   return f;
 }

@@ -5,11 +5,11 @@
 
 namespace defray {
 
-/// One fragment a pixel, whole; those of the margin were not seen.
-Fragments whole_pixels(const ExtendedFrame& frame);
+/// One fragment a pixel, whole; those of the margin were not seen. Takes the frame's planes.
+Fragments whole_pixels(ExtendedFrame& frame);
 
 /// Two layers. `report` gets how many pixels of the frame were split and have something made up
-/// behind them.
-Fragments assemble(const ExtendedFrame& frame, const Surfaces& surfaces, DefocusReport& report);
+/// behind them. Empties the frame's planes.
+Fragments assemble(ExtendedFrame& frame, Surfaces surfaces, DefocusReport& report);
 
 }  // namespace defray

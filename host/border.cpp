@@ -8,8 +8,6 @@
 namespace defray {
 namespace {
 
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
 int margin_of(const PinholeFrame& f, Border border, DefocusReport& report) {
   if (border == Border::renormalise) return 0;
   std::int32_t largest = 0;
@@ -39,15 +37,60 @@ std::vector<T> extended(const std::vector<T>& plane, int width, int height, int 
   return out;
 }
 
-}  // namespace
+/// A line of front fragments from the frame's edge inwards, and outwards at negative places.
+struct Line {
+  const Fragments& fragments;
+  std::size_t edge;
+  std::ptrdiff_t inward;
 
-std::size_t ExtendedFrame::nearest_inside(std::size_t pixel) const {
-  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
-  return size(std::clamp(y, margin, height - margin - 1)) * size(width) +
-         size(std::clamp(x, margin, width - margin - 1));
+  std::size_t at(int place) const {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(edge) + place * inward);
+  }
+  /// How many fragments from the edge on are of one surface, at most so many.
+  int surface(int most) const {
+    const auto& coc = fragments.coc_quanta;
+    int count = 1;
+    while (count < most &&
+           std::abs(tame(coc[at(count)]) - tame(coc[at(count - 1)])) <= DEFRAY_JUMP_QUANTA)
+      ++count;
+    return count;
+  }
+};
+
+void continue_line(const Line& line, int surface, int margin, Plane& plane) {
+  const float edge = plane[line.at(0)];
+  float sum = 0;  // of differences: one colour stays that colour
+  for (int d = 0; d < margin; ++d) {
+    if (d < surface) sum += plane[line.at(d)] - edge;
+    const float colour = edge + sum / static_cast<float>(std::min(d + 1, surface));
+    if (std::isfinite(colour)) plane[line.at(-1 - d)] = colour;
+  }
 }
 
-bool ExtendedFrame::is_in_margin(std::size_t pixel) const { return nearest_inside(pixel) != pixel; }
+}  // namespace
+
+void continue_colours(const ExtendedFrame& e, Fragments& f) {
+  const int m = e.margin;
+  const auto go_on = [&](int x, int y, int step_x, int step_y, int length) {
+    const auto inward = static_cast<std::ptrdiff_t>(step_y) * f.layers * f.width + step_x;
+    const Line line{f, f.index(x, y, 0), inward};
+    const int surface = line.surface(std::min(length, m));
+    for (Plane& plane : f.channels) continue_line(line, surface, m, plane);
+  };
+  for (int y = m; m > 0 && y < e.height - m; ++y) {
+    go_on(m, y, 1, 0, e.width - 2 * m);
+    go_on(e.width - m - 1, y, -1, 0, e.width - 2 * m);
+  }
+  for (int x = 0; m > 0 && x < e.width; ++x) {
+    go_on(x, m, 0, 1, e.height - 2 * m);
+    go_on(x, e.height - m - 1, 0, -1, e.height - 2 * m);
+  }
+}
+
+bool ExtendedFrame::is_in_margin(std::size_t pixel) const {
+  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
+  return x < margin || y < margin || x >= width - margin || y >= height - margin;
+}
 
 ExtendedFrame extend(const PinholeFrame& f, Border border, bool wants_data, DefocusReport& report) {
   const int margin = margin_of(f, border, report);

@@ -20,15 +20,17 @@ struct ExtendedFrame {
 
   FrameView view() const { return {width, height, coc_quanta, inverse, channels}; }
   bool is_in_margin(std::size_t pixel) const;
-
-  /// The pixel itself; in the margin the frame's nearest.
-  std::size_t nearest_inside(std::size_t pixel) const;
 };
 
 /// The frame's edge pixels repeated around it, for Border::black without their light, as far as
 /// rays can come in: the largest CoC on the edge, at most half the frame. `report` gets how far.
 ExtendedFrame extend(const PinholeFrame& frame, Border border, bool wants_data,
                      DefocusReport& report);
+
+/// Front fragments of a margin made by Border::clamp: at distance d each has the mean colour of the
+/// d pixels inside that begin at the edge and are of its surface. The edge's own colour says ever
+/// less the farther out; repeated, what happens to be on it made streaks. Not finite: as it was.
+void continue_colours(const ExtendedFrame& frame, Fragments& fragments);
 
 /// The frame's part of a plane.
 template <typename T>

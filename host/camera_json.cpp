@@ -15,7 +15,8 @@ json parse(const std::string& text, const std::string& path) {
   try {
     return json::parse(text);
   } catch (const json::exception& error) {
-    fail(ExitCode::input, "{}: not valid JSON: {}", path, error.what());
+    const std::string what = error.what();  // begins with the library's own "[json...] "
+    fail(ExitCode::input, "{}: not valid JSON: {}", path, what.substr(what.find("] ") + 2));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The circle of confusion of every pixel, and what methods need to know of it.
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -8,11 +9,22 @@
 
 namespace defray {
 
+/// A width, height or count, which is never negative, for indices.
+inline std::size_t size(int value) { return static_cast<std::size_t>(value); }
+
+/// The same for kernels' parameters.
+inline std::uint32_t word(int value) { return static_cast<std::uint32_t>(value); }
+
 /// A plane of floats, row-major, width x height.
 using Plane = std::vector<float>;
 
 /// Pixels in a quantum of the CoC radius.
 inline constexpr float px_per_quantum = 1.0f / (1 << DEFRAY_COC_FRACTION_BITS);
+
+/// A CoC, limited so that differences stay in range: what is beyond has left every frame.
+inline std::int32_t tame(std::int32_t quanta) {
+  return std::clamp(quanta, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
+}
 
 /// Signed CoC radius of every pixel, in quanta (1/256 px). `depth` is planar, > 0, +inf:
 /// background.

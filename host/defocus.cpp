@@ -22,8 +22,6 @@ namespace {
 using Words = std::vector<std::uint32_t>;
 using Clock = std::chrono::steady_clock;
 
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
 /// The chain, stage by stage.
 class Chain {
  public:
@@ -41,11 +39,13 @@ class Chain {
     if (settings_.repair_depth) repair_depth(e);
     Fragments fragments = make_fragments(e);
     const LightSources lights = take_highlights(
-        fragments, static_cast<int>(frame.channels.size()) - (frame.has_alpha ? 1 : 0), e);
+        fragments, static_cast<int>(frame.channels.size()) - (frame.has_alpha ? 1 : 0));
+    if (settings_.border == Border::clamp) continue_colours(e, fragments);
     if (settings_.soften) fragments.channels = soften(fragments, points);
     done("soften");
     place(e, frame);
     RdbResult result = distribute(fragments, lights, progress);
+    fragments = {};
     done("rays");
     DefocusResult out = finish(e, std::move(result));
     if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
@@ -61,8 +61,9 @@ class Chain {
 
   /// Depth that was anti-aliased has many pixels between two surfaces; elsewhere a few are wires.
   void repair_depth(ExtendedFrame& e) {
-    const Words source = session_ ? repair(*session_, e.width, e.height, e.coc_quanta)
-                                  : reference::repair(e.width, e.height, e.coc_quanta);
+    const Words source = session_
+                             ? repair(*session_, e.width, e.height, e.coc_quanta, rdb_.memory_bytes)
+                             : reference::repair(e.width, e.height, e.coc_quanta);
     const Words mixed = find_edges(e);
     std::size_t between = 0, edge = 0;
     for (std::size_t i = 0; i < source.size(); ++i) {
@@ -85,11 +86,11 @@ class Chain {
   }
 
   Words find_edges(const ExtendedFrame& e) const {
-    return session_ ? edges(*session_, e.width, e.height, e.coc_quanta)
+    return session_ ? edges(*session_, e.width, e.height, e.coc_quanta, rdb_.memory_bytes)
                     : reference::edges(e.width, e.height, e.coc_quanta);
   }
 
-  Fragments make_fragments(const ExtendedFrame& e) {
+  Fragments make_fragments(ExtendedFrame& e) {
     const FrameView view = e.view();
     const Words mixed = find_edges(e);
     done("edges");
@@ -97,15 +98,16 @@ class Chain {
         std::find(mixed.begin(), mixed.end(), 1u) == mixed.end()) {
       return whole_pixels(e);
     }
-    Surface behind = session_ ? fill(*session_, view, mixed) : reference::fill(view, mixed);
+    Surface behind =
+        session_ ? fill(*session_, view, mixed, rdb_.memory_bytes) : reference::fill(view, mixed);
     done("fill");
     if (settings_.hidden == Hidden::on) add_patterns(e, mixed, behind);
     // Without `split` no pixel counts as mixed: all keep their colour and surface.
     const Words to_split = settings_.split_edges ? mixed : Words(mixed.size());
-    Surfaces s = session_ ? split(*session_, view, to_split, std::move(behind))
+    Surfaces s = session_ ? split(*session_, view, to_split, std::move(behind), rdb_.memory_bytes)
                           : reference::split(view, to_split, std::move(behind));
     done("split");
-    return assemble(e, s, report_);
+    return assemble(e, std::move(s), report_);
   }
 
   void add_patterns(const ExtendedFrame& e, const Words& mixed, Surface& behind) {
@@ -123,6 +125,7 @@ class Chain {
                              e.coc_quanta, behind.coc_quanta, is_behind};
     PatternSettings patterns;
     patterns.shifts = settings_.pattern_shifts;
+    patterns.memory_bytes = rdb_.memory_bytes;
     if (session_) {
       improve_by_patterns(*session_, frame, e.channels, patterns, behind.channels);
     } else {
@@ -131,12 +134,11 @@ class Chain {
     done("patterns");
   }
 
-  LightSources take_highlights(Fragments& f, int light_channels, const ExtendedFrame& e) {
+  LightSources take_highlights(Fragments& f, int light_channels) {
     LightSources lights;
     if (settings_.highlights) {
-      Plane kept = session_ ? defray::highlights(*session_, f, light_channels)
+      Plane kept = session_ ? defray::highlights(*session_, f, light_channels, rdb_.memory_bytes)
                             : reference::highlights(f, light_channels);
-      dim_margin(f, kept, light_channels, e);
       lights = take_light(f, kept, light_channels, make_aperture_table(mask_), rdb_.samples);
       report_.highlights = lights.where.size();
     }
@@ -144,20 +146,9 @@ class Chain {
     return lights;
   }
 
-  /// A lamp on the frame's edge does not go on outside: its margin keeps what its surroundings
-  /// have.
-  static void dim_margin(Fragments& f, const Plane& kept, int light_channels,
-                         const ExtendedFrame& e) {
-    for (std::size_t i = 0; e.margin > 0 && i < e.coc_quanta.size(); ++i) {
-      const std::size_t inside = e.nearest_inside(i);
-      const float share = kept[f.front_of(inside)];
-      if (inside == i || share == 1.0f) continue;
-      for (std::size_t c = 0; c < size(light_channels); ++c) f.channels[c][f.front_of(i)] *= share;
-    }
-  }
-
   std::vector<Plane> soften(const Fragments& f, int points) const {
-    return session_ ? defray::soften(*session_, f, points) : reference::soften(f, points);
+    return session_ ? defray::soften(*session_, f, points, rdb_.memory_bytes)
+                    : reference::soften(f, points);
   }
 
   /// Where the frame lies: for what is random, and the lens's rim.
@@ -222,14 +213,16 @@ class Chain {
   Clock::time_point start_ = Clock::now();
 };
 
-/// The stages hold whole frames: about so many bytes a pixel in all, measured on PoCL.
-constexpr std::size_t bytes_a_pixel = 250;
+/// The host holds whole frames between stages: about so many bytes a pixel in all, measured.
+constexpr std::size_t bytes_a_pixel = 200;
 
+/// Of host memory only a device that shares it tells how much there is.
 void require_memory(const PinholeFrame& frame, const DeviceInfo& device) {
   const std::size_t needed = size(frame.width) * size(frame.height) * bytes_a_pixel;
-  if (needed <= device.global_memory_bytes) return;
+  if (!device.shares_host_memory || needed <= device.global_memory_bytes) return;
   fail(ExitCode::device,
-       "{}x{} pixels: the stages of rdb need about {} MiB, {} has {} MiB; --literal works in bands",
+       "{}x{} pixels: the stages of rdb need about {} MiB of host memory, {} has {} MiB; --literal "
+       "needs a third",
        frame.width, frame.height, needed >> 20, device.name, device.global_memory_bytes >> 20);
 }
 

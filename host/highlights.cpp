@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "bands.h"
+
 namespace defray {
 namespace {
-
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
 
 /// Calls visit(tile) for every tile that a source's disc may meet.
 template <typename Visit>
@@ -66,22 +66,24 @@ float alpha_around(const Fragments& f, const Plane& alpha, std::size_t own, std:
 
 }  // namespace
 
-Plane highlights(Session& session, const Fragments& f, int light_channels) {
-  const DefrayHighlightParams p{
-      static_cast<std::uint32_t>(f.width), static_cast<std::uint32_t>(f.height),
-      static_cast<std::uint32_t>(f.layers), static_cast<std::uint32_t>(light_channels)};
-  cl::Buffer channel[4];
-  for (std::size_t c = 0; c < 4; ++c) {
-    const bool is_there = c < f.channels.size();
-    channel[c] =
-        is_there ? session.picture(f.channels[c].data(), f.channels[c].size()) : channel[c - 1];
-  }
-  const cl::Buffer coc = session.view(f.coc_quanta), coverage = session.view(f.coverage);
-  const cl::Buffer out = session.buffer(f.depth.size() * sizeof(cl_float));
-  session.launch("highlights", DEFRAY_STAGE_GROUP, {p.width, std::size_t{p.height} * p.layers}, p,
-                 coc, coverage, channel[0], channel[1], channel[2], channel[3], out);
+Plane highlights(Session& session, const Fragments& f, int light_channels,
+                 std::size_t memory_bytes) {
+  const std::size_t stride = size(f.width) * size(f.layers);
   Plane kept(f.depth.size());
-  session.read(out, kept.data(), kept.size() * sizeof(float));
+  // As `around` in the kernel has it.
+  const std::int64_t reach = std::max(tame(largest_coc(f.coc_quanta)) / 256 + 1, 3) + 3;
+  constexpr std::size_t bytes_a_fragment = 28;
+  for (const Band& b :
+       cut_into_bands(f.height, reach, 1, stride * bytes_a_fragment, memory_bytes)) {
+    BandOnDevice band(session, b, stride);
+    const DefrayHighlightParams p{word(f.width), word(b.window_rows), word(f.layers),
+                                  word(light_channels)};
+    const ChannelsOnDevice in(band, f.channels);
+    const cl::Buffer made = band.made<cl_float>();
+    band.launch("highlights", f.layers, p, band.view(f.coc_quanta), band.view(f.coverage), in.of[0],
+                in.of[1], in.of[2], in.of[3], made);
+    band.read(made, kept);
+  }
   return kept;
 }
 
@@ -113,7 +115,7 @@ LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] == 1.0f) continue;
     const std::size_t row = i / size(f.width);
-    const auto coc = std::clamp(f.coc_quanta[i], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
+    const std::int32_t coc = tame(f.coc_quanta[i]);
     lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
                             static_cast<std::int32_t>(row / size(f.layers)), coc,
                             std::bit_cast<std::int32_t>(f.depth[i])});

@@ -27,7 +27,8 @@ struct LightSources {
 
 /// Kernel `highlights`: the share of its colour that each fragment keeps, 1 but for highlights. The
 /// first `light_channels` channels are light; another is alpha.
-Plane highlights(Session& session, const Fragments& fragments, int light_channels);
+Plane highlights(Session& session, const Fragments& fragments, int light_channels,
+                 std::size_t memory_bytes = default_memory_bytes);
 
 /// Takes from the fragments what `kept` does not leave them, and of their alpha what they
 /// have more of than their surroundings.

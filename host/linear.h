@@ -13,7 +13,7 @@ namespace defray {
 inline constexpr int linear_max_radius_px = 1024;
 
 struct LinearSettings {
-  std::size_t memory_bytes = std::size_t{512} << 20;  ///< For one band's planes.
+  std::size_t memory_bytes = default_memory_bytes;  ///< For one band's planes.
 };
 
 /// Every pixel spread over its circle of confusion, nothing occluded. A pixel's shares add up to 1:

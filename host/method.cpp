@@ -66,7 +66,7 @@ std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, 
                                 DefocusResult* details) {
   if (s.method == Method::rdb && s.defocus) {
     DefocusResult result = defocus(f, *s.defocus, s.rdb, session, progress);
-    std::vector<Plane> colour = result.colour;
+    std::vector<Plane> colour = std::move(result.colour);
     if (details) *details = std::move(result);
     return colour;
   }

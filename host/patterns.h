@@ -31,7 +31,7 @@ struct PatternSettings {
   /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
   /// distance of each other, through all of the lens.
   std::int32_t tolerance_quanta = 1 << DEFRAY_COC_FRACTION_BITS;
-  std::size_t memory_bytes = std::size_t{512} << 20;  ///< For one band's planes.
+  std::size_t memory_bytes = default_memory_bytes;  ///< For one band's planes.
 };
 
 struct PatternShift {

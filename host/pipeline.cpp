@@ -170,6 +170,12 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
   report.depth = convert_depth(frame.depth, settings.depth, part.data, part.display,
                                pixel_focal_length(report.lens, part.display.width),
                                paths.depth.empty() ? paths.input : paths.depth);
+  if (!overlap(part.data, part.display)) {
+    report.notes.push_back(
+        fmt::format("the data window {} lies outside the display window {}: "
+                    "nothing of it is seen there",
+                    to_string(part.data), to_string(part.display)));
+  }
   const auto aspect = frame.file.metadata_number("PixelAspectRatio");
   if (aspect && std::fabs(*aspect - 1) > 1e-6) {
     report.notes.push_back(

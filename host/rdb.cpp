@@ -91,22 +91,16 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
 
 void RdbRun::view_window(const RdbPass& pass) {
   if (window_.band_y == pass.band_y) return;
-  const int stride = fragments_.width * fragments_.layers;
-  const std::size_t first = pixels(stride, pass.window_y);
-  const std::size_t count = pixels(stride, pass.window_rows);
-  const auto picture = [&](const Plane& plane) { return session_.picture(&plane[first], count); };
-  const auto words = [&](const auto& plane) {
-    return session_.view(&plane[first], count * sizeof(plane[0]));
-  };
-  window_ = {pass.band_y, words(fragments_.coc_quanta), picture(fragments_.depth), lens_, lens_,
-             {}};
-  if (fragments_.coverage) window_.coverage = words(*fragments_.coverage);
-  if (fragments_.data_of) window_.data_of = words(*fragments_.data_of);
-  // The kernel always sums four channels; a missing one repeats the last and is not read back.
-  for (std::size_t c = 0; c < 4; ++c) {
-    window_.channel[c] =
-        c < fragments_.channels.size() ? picture(fragments_.channels[c]) : window_.channel[c - 1];
-  }
+  const BandOnDevice band(session_, {pass.band_y, pass.band_rows, pass.window_y, pass.window_rows},
+                          pixels(fragments_.width, fragments_.layers));
+  window_ = {pass.band_y,
+             band.view(fragments_.coc_quanta),
+             band.picture(fragments_.depth),
+             lens_,
+             lens_,
+             ChannelsOnDevice(band, fragments_.channels)};
+  if (fragments_.coverage) window_.coverage = band.view(*fragments_.coverage);
+  if (fragments_.data_of) window_.data_of = band.view(*fragments_.data_of);
 }
 
 void RdbRun::scatter(const RdbPass& pass) {
@@ -126,7 +120,7 @@ void RdbRun::scatter(const RdbPass& pass) {
 void RdbRun::merge(const RdbPass& pass) {
   view_window(pass);
   const DefrayRdbParams p = params_of(pass);
-  const cl::Buffer(&channel)[4] = window_.channel;
+  const cl::Buffer(&channel)[4] = window_.channels->of;
   session_.launch("rdb_merge", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, winner_,
                   window_.coverage, window_.depth, lens_, rim_x_, rim_y_, channel[0], channel[1],
                   channel[2], channel[3], sum_, filled_, seen_);

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "coc.h"
+#include "bands.h"
 #include "fragments.h"
 #include "highlights.h"
 #include "lens_cells.h"
@@ -18,7 +19,7 @@ struct RdbSettings {
   int cells_per_side = 9;
   bool jitter = false;
   std::uint32_t seed = 0;
-  std::size_t memory_bytes = std::size_t{512} << 20;  ///< For cells and sums of one pass.
+  std::size_t memory_bytes = default_memory_bytes;  ///< For cells and sums of one pass.
   LensCells samples = {};          ///< Points of the lens to use instead of a grid of cells.
   int origin_x = 0, origin_y = 0;  ///< Of the frame in the display window: jitter follows it.
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
@@ -81,7 +82,8 @@ class RdbRun {
   /// The source rows that can reach a band, on the device.
   struct Window {
     int band_y = -1;
-    cl::Buffer coc, depth, coverage, data_of, channel[4];
+    cl::Buffer coc, depth, coverage, data_of;
+    std::optional<ChannelsOnDevice> channels;
   };
   struct Light {
     cl::Buffer first, list, where, excess, table, cell_map;

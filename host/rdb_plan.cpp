@@ -1,6 +1,7 @@
 #include "rdb_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "error.h"
 #include "params.h"
@@ -11,6 +12,8 @@ namespace {
 /// A pass that stays in the last-level cache scatters twice as fast as one that does not; below a
 /// band height of a few reaches, rows that two bands share cost more than that.
 constexpr std::size_t pass_bytes_in_cache = std::size_t{16} << 20;
+
+double mib(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
 }  // namespace
 
@@ -25,9 +28,10 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const std::size_t row_bytes =
       static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
   if (memory_bytes < row_bytes) {
-    fail(ExitCode::usage,
-         "--memory is {} bytes: one row of {} pixels with {} lens cells needs at least {} bytes",
-         memory_bytes, width, fewest, row_bytes);
+    fail(
+        ExitCode::usage,
+        "--memory is {:.4g} MiB: one row of {} pixels with {} lens cells needs at least {:.3f} MiB",
+        mib(memory_bytes), width, fewest, std::ceil(mib(row_bytes) * 1000) / 1000);
   }
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);

@@ -156,8 +156,9 @@ std::vector<int> parse_frames(const std::string& text) {
     const auto range = parse_range(part);
     if (!range) {
       fail(ExitCode::usage,
-           "--frames '{}': '{}' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12", text,
-           part);
+           "--frames '{}': '{}' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12, "
+           "numbers up to {}",
+           text, part, largest_frame);
     }
     count += range->count();
     ranges.push_back(*range);

@@ -3,165 +3,110 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bands.h"
+
 namespace defray {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-std::uint32_t word(int value) { return static_cast<std::uint32_t>(value); }
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
-/// Four channels on the device: a missing one repeats the last.
-struct Channels {
-  cl::Buffer of[4];
-  Channels(Session& session, const std::vector<Plane>& planes) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      of[c] = c < planes.size() ? session.picture(planes[c].data(), planes[c].size()) : of[c - 1];
-    }
-  }
-};
-
-template <typename T>
-std::vector<T> read(Session& session, const cl::Buffer& buffer, std::size_t count) {
-  std::vector<T> values(count);
-  session.read(buffer, values.data(), count * sizeof(T));
-  return values;
+DefrayFrameParams window_of(int width, const Band& band) {
+  return {word(width), word(band.window_rows)};
 }
 
-std::vector<Plane> read_channels(Session& session, const cl::Buffer& buffer, std::size_t pixels,
-                                 std::size_t channels) {
-  const auto colours = read<cl_float4>(session, buffer, pixels);
-  std::vector<Plane> planes(channels, Plane(pixels));
-  for (std::size_t c = 0; c < channels; ++c) {
-    for (std::size_t i = 0; i < pixels; ++i) planes[c][i] = colours[i].s[c];
-  }
-  return planes;
-}
+/// What an output plane holds: of indices, kernels count from the window's first pixel.
+enum class Holds { values, indices };
 
-/// Runs a kernel of one input and one output plane.
-Words words_of(Session& session, const char* kernel, int width, int height,
-               const std::vector<std::int32_t>& coc_quanta) {
-  const DefrayFrameParams p{word(width), word(height)};
-  const cl::Buffer in = session.view(coc_quanta);
-  const cl::Buffer out = session.buffer(coc_quanta.size() * sizeof(cl_uint));
-  session.launch(kernel, DEFRAY_STAGE_GROUP, {p.width, p.height}, p, in, out);
-  return read<std::uint32_t>(session, out, coc_quanta.size());
+/// Runs a kernel of one input and one output plane that looks `reach` pixels around.
+Words words_of(Session& session, const char* kernel, int width, int height, int reach,
+               const std::vector<std::int32_t>& coc_quanta, std::size_t memory_bytes,
+               Holds holds = Holds::values) {
+  constexpr std::size_t bytes_a_pixel = sizeof(cl_int) + sizeof(cl_uint);
+  Words out(coc_quanta.size());
+  for (const Band& b :
+       cut_into_bands(height, reach, 1, size(width) * bytes_a_pixel, memory_bytes)) {
+    BandOnDevice band(session, b, size(width));
+    const cl::Buffer made = band.made<cl_uint>();
+    band.launch(kernel, 1, window_of(width, b), band.view(coc_quanta), made);
+    band.read(made, out);
+    if (holds == Holds::values) continue;
+    const std::size_t first = size(b.y) * size(width), end = first + size(b.rows) * size(width);
+    for (std::size_t i = first; i < end; ++i) out[i] += static_cast<std::uint32_t>(band.first());
+  }
+  return out;
 }
 
 }  // namespace
 
-Words repair(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta) {
-  return words_of(session, "repair", width, height, coc_quanta);
+Words repair(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
+             std::size_t memory_bytes) {
+  return words_of(session, "repair", width, height, 3, coc_quanta, memory_bytes, Holds::indices);
 }
 
-Words edges(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta) {
-  return words_of(session, "edges", width, height, coc_quanta);
+Words edges(Session& session, int width, int height, const std::vector<std::int32_t>& coc_quanta,
+            std::size_t memory_bytes) {
+  return words_of(session, "edges", width, height, 1, coc_quanta, memory_bytes);
 }
 
-Words tiles_to_fill(int width, int height, const std::vector<std::int32_t>& coc_quanta,
-                    const Words& mixed) {
-  constexpr int side = DEFRAY_FILL_TILE;
-  const int across = (width + side - 1) / side, down = (height + side - 1) / side;
-  std::vector<std::int32_t> nearest(size(across) * size(down), DEFRAY_TAME_QUANTA);
-  Words has_mixed(nearest.size()), active(nearest.size());
-  std::int32_t farthest = -DEFRAY_TAME_QUANTA;
-  for (std::size_t i = 0; i < coc_quanta.size(); ++i) {
-    const std::size_t tile = i / size(width) / side * size(across) + i % size(width) / side;
-    const auto coc = std::clamp(coc_quanta[i], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
-    nearest[tile] = std::min(nearest[tile], coc);
-    farthest = std::max(farthest, coc);
-    has_mixed[tile] |= mixed[i];
-  }
-  for (int y = 0; y < down; ++y) {
-    for (int x = 0; x < across; ++x) {
-      const std::size_t tile = size(y) * size(across) + size(x);
-      const int reach = ((farthest - nearest[tile]) / 256 + 2) / side + 1;
-      for (int j = std::max(0, y - reach); j <= std::min(down - 1, y + reach); ++j) {
-        const std::size_t row = size(j) * size(across);
-        const auto first = has_mixed.begin() + std::max(0, x - reach);
-        const auto last = has_mixed.begin() + std::min(across - 1, x + reach) + 1;
-        const auto offset = static_cast<std::ptrdiff_t>(row);
-        if (std::find(first + offset, last + offset, 1u) != last + offset) active[tile] = 1;
-      }
-    }
-  }
-  return active;
-}
-
-Surface fill(Session& session, const FrameView& f, const Words& mixed) {
-  const Words active = tiles_to_fill(f.width, f.height, f.coc_quanta, mixed);
-  const auto tiles_x = (f.width + DEFRAY_FILL_TILE - 1) / DEFRAY_FILL_TILE;
-  const auto farthest = *std::max_element(f.coc_quanta.begin(), f.coc_quanta.end());
-  const DefrayFillParams p{word(f.width), word(f.height), word(tiles_x),
-                           std::clamp(farthest, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA)};
+Surfaces split(Session& session, const FrameView& f, const Words& mixed, Surface behind,
+               std::size_t memory_bytes) {
   const std::size_t pixels = f.coc_quanta.size();
-  const Channels in(session, f.channels);
-  const cl::Buffer coc = session.buffer(pixels * sizeof(cl_int));
-  const cl::Buffer inverse = session.buffer(pixels * sizeof(cl_float));
-  const cl::Buffer colour = session.buffer(pixels * sizeof(cl_float4));
-  const cl::Buffer coc_in = session.view(f.coc_quanta), inverse_in = session.view(f.inverse);
-  const cl::Buffer mixed_in = session.view(mixed), active_in = session.view(active);
-  session.launch("fill", DEFRAY_STAGE_GROUP, {p.width, p.height}, p, coc_in, inverse_in, mixed_in,
-                 active_in, in.of[0], in.of[1], in.of[2], in.of[3], coc, inverse, colour);
-  return {read<std::int32_t>(session, coc, pixels),
-          read<float>(session, inverse, pixels),
-          read_channels(session, colour, pixels, f.channels.size()),
-          {}};
-}
-
-Surfaces split(Session& session, const FrameView& f, const Words& mixed, Surface behind) {
-  const DefrayFrameParams p{word(f.width), word(f.height)};
-  const std::size_t pixels = f.coc_quanta.size(), channels = f.channels.size();
-  std::vector<cl_float4> colours(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      colours[i].s[c] = behind.channels[std::min(c, channels - 1)][i];
-    }
+  behind.coverage.resize(pixels);
+  Surface front{std::vector<std::int32_t>(pixels), Plane(pixels),
+                std::vector<Plane>(f.channels.size(), Plane(pixels)), Words(pixels)};
+  constexpr std::size_t bytes_a_pixel = 52 + 2 * sizeof(cl_float4);
+  constexpr int reach = 3;
+  for (const Band& b :
+       cut_into_bands(f.height, reach, 1, size(f.width) * bytes_a_pixel, memory_bytes)) {
+    BandOnDevice band(session, b, size(f.width));
+    const ChannelsOnDevice in(band, f.channels);
+    const cl::Buffer behind_coc = band.copy(behind.coc_quanta);
+    const cl::Buffer behind_inverse = band.copy(behind.inverse);
+    const cl::Buffer behind_colour = band.copy(behind.channels);
+    const cl::Buffer behind_flags = band.made<cl_uint>(), coverage = band.made<cl_uint>();
+    const cl::Buffer coc = band.made<cl_int>(), inverse = band.made<cl_float>();
+    const cl::Buffer colour = band.made<cl_float4>();
+    band.launch("split", 1, window_of(f.width, b), band.view(f.coc_quanta), band.view(f.inverse),
+                band.view(mixed), in.of[0], in.of[1], in.of[2], in.of[3], behind_coc,
+                behind_inverse, behind_colour, behind_flags, coc, inverse, colour, coverage);
+    const auto read = [&](Surface& s, const cl::Buffer& q, const cl::Buffer& i, const cl::Buffer& c,
+                          const cl::Buffer& flags) {
+      band.read(q, s.coc_quanta);
+      band.read(i, s.inverse);
+      band.read(c, s.channels);
+      band.read(flags, s.coverage);
+    };
+    read(front, coc, inverse, colour, coverage);
+    read(behind, behind_coc, behind_inverse, behind_colour, behind_flags);
   }
-  const auto copied = [&](const auto& values) {
-    const std::size_t bytes = values.size() * sizeof(values[0]);
-    const cl::Buffer buffer = session.buffer(bytes);
-    session.write(buffer, values.data(), bytes);
-    return buffer;
-  };
-  const Channels in(session, f.channels);
-  const cl::Buffer coc_in = session.view(f.coc_quanta), inverse_in = session.view(f.inverse);
-  const cl::Buffer mixed_in = session.view(mixed);
-  const cl::Buffer behind_coc = copied(behind.coc_quanta), behind_inverse = copied(behind.inverse);
-  const cl::Buffer behind_colour = copied(colours);
-  const cl::Buffer behind_flags = session.buffer(pixels * sizeof(cl_uint));
-  const cl::Buffer coc = session.buffer(pixels * sizeof(cl_int));
-  const cl::Buffer inverse = session.buffer(pixels * sizeof(cl_float));
-  const cl::Buffer colour = session.buffer(pixels * sizeof(cl_float4));
-  const cl::Buffer coverage = session.buffer(pixels * sizeof(cl_uint));
-  session.launch("split", DEFRAY_STAGE_GROUP, {p.width, p.height}, p, coc_in, inverse_in, mixed_in,
-                 in.of[0], in.of[1], in.of[2], in.of[3], behind_coc, behind_inverse, behind_colour,
-                 behind_flags, coc, inverse, colour, coverage);
-  const auto surface = [&](const cl::Buffer& q, const cl::Buffer& i, const cl::Buffer& c,
-                           const cl::Buffer& flags) {
-    return Surface{read<std::int32_t>(session, q, pixels), read<float>(session, i, pixels),
-                   read_channels(session, c, pixels, channels),
-                   read<std::uint32_t>(session, flags, pixels)};
-  };
-  return {surface(coc, inverse, colour, coverage),
-          surface(behind_coc, behind_inverse, behind_colour, behind_flags)};
+  return {std::move(front), std::move(behind)};
 }
 
 float cells_a_side(int samples) {
   return static_cast<float>(std::sqrt(samples * 4 / 3.14159265358979323846));
 }
 
-std::vector<Plane> soften(Session& session, const Fragments& f, int samples) {
-  const DefraySoftenParams p{word(f.width), word(f.height), word(f.layers), cells_a_side(samples)};
-  const std::size_t count = f.coc_quanta.size();
-  const Channels in(session, f.channels);
+std::vector<Plane> soften(Session& session, const Fragments& f, int samples,
+                          std::size_t memory_bytes) {
+  const std::size_t count = f.coc_quanta.size(), stride = size(f.width) * size(f.layers);
   const Words whole(f.coverage.empty() ? count : 0, DEFRAY_WHOLE);
-  const cl::Buffer coc = session.view(f.coc_quanta);
-  const cl::Buffer coverage = session.view(f.coverage.empty() ? whole : f.coverage);
-  const cl::Buffer out = session.buffer(count * sizeof(cl_float4));
-  session.launch("soften", DEFRAY_STAGE_GROUP, {p.width, std::size_t{p.height} * p.layers}, p, coc,
-                 coverage, in.of[0], in.of[1], in.of[2], in.of[3], out);
-  return read_channels(session, out, count, f.channels.size());
+  std::vector<Plane> out(f.channels.size(), Plane(count));
+  const float cells = cells_a_side(samples);
+  const auto reach = static_cast<std::int64_t>(
+      static_cast<float>(largest_coc(f.coc_quanta)) * px_per_quantum / cells + 1);
+  constexpr std::size_t bytes_a_fragment = 24 + sizeof(cl_float4);
+  for (const Band& b :
+       cut_into_bands(f.height, reach, 1, stride * bytes_a_fragment, memory_bytes)) {
+    BandOnDevice band(session, b, stride);
+    const DefraySoftenParams p{word(f.width), word(b.window_rows), word(f.layers), cells};
+    const ChannelsOnDevice in(band, f.channels);
+    const cl::Buffer made = band.made<cl_float4>();
+    band.launch("soften", f.layers, p, band.view(f.coc_quanta),
+                band.view(f.coverage.empty() ? whole : f.coverage), in.of[0], in.of[1], in.of[2],
+                in.of[3], made);
+    band.read(made, out);
+  }
+  return out;
 }
 
 }  // namespace defray

@@ -1,6 +1,8 @@
 #pragma once
 // The stages before the ray distribution buffers: what a frame's pixels are made of. Each runs one
-// kernel over a whole frame; the scalar twins have the same names in defray::reference.
+// kernel over a frame, in bands of rows that take at most `memory_bytes` of the device with the
+// rows that they look at (unless that is more already); the scalar twins have the same names in
+// defray::reference.
 #include <cstdint>
 #include <vector>
 
@@ -33,11 +35,13 @@ struct Surfaces {
 /// Kernel `repair`: for each pixel the index of the one whose depth it should have, itself but for
 /// pixels of anti-aliased depth, which lie between two surfaces.
 std::vector<std::uint32_t> repair(Session& session, int width, int height,
-                                  const std::vector<std::int32_t>& coc_quanta);
+                                  const std::vector<std::int32_t>& coc_quanta,
+                                  std::size_t memory_bytes = default_memory_bytes);
 
 /// Kernel `edges`: 1 where a pixel has neighbours on another surface.
 std::vector<std::uint32_t> edges(Session& session, int width, int height,
-                                 const std::vector<std::int32_t>& coc_quanta);
+                                 const std::vector<std::int32_t>& coc_quanta,
+                                 std::size_t memory_bytes = default_memory_bytes);
 
 /// Tiles of DEFRAY_FILL_TILE pixels a side with a mixed pixel close enough to matter: elsewhere
 /// nothing lies behind. [tiles_y][tiles_x]. Host code for kernel and twin alike.
@@ -47,14 +51,16 @@ std::vector<std::uint32_t> tiles_to_fill(int width, int height,
 
 /// Kernel `fill`: what lies behind each pixel, as far as the lens can uncover it; coverage is left
 /// empty.
-Surface fill(Session& session, const FrameView& frame, const std::vector<std::uint32_t>& mixed);
+Surface fill(Session& session, const FrameView& frame, const std::vector<std::uint32_t>& mixed,
+             std::size_t memory_bytes = default_memory_bytes);
 
 /// Kernel `split`: mixed pixels taken apart. `behind` is what `fill` gave.
 Surfaces split(Session& session, const FrameView& frame, const std::vector<std::uint32_t>& mixed,
-               Surface behind);
+               Surface behind, std::size_t memory_bytes = default_memory_bytes);
 
 /// Kernel `soften`: colours averaged over what one of `samples` lens points stands for.
-std::vector<Plane> soften(Session& session, const Fragments& fragments, int samples);
+std::vector<Plane> soften(Session& session, const Fragments& fragments, int samples,
+                          std::size_t memory_bytes = default_memory_bytes);
 
 /// Cells a side of a square grid as dense as `samples` points in a disc: sqrt(4 samples / pi).
 float cells_a_side(int samples);

@@ -2,10 +2,11 @@
 //
 // From each pixel rays go out over the picture in 16 directions until they leave its surface over a
 // jump in CoC and meet a farther one, close enough for the lens to look there past the edge: closer
-// than the step in CoC. The found pixels that lie on the surface of the nearest give colour (far
-// brighter ones than their median do not: highlights do not smear) and, continued along their
-// slant, CoC and depth: both are linear in the picture for a plane (depth as 1/z), and weighed
-// alike.
+// than the step in CoC. The found pixels that lie on the surface of the nearest, continued along
+// their slant, give CoC and depth: both are linear in the picture for a plane (depth as 1/z), and
+// weighed alike. Their colours are weighed by how little each changes further on along its ray:
+// stripes go on behind in their direction. Highlights do not smear: a colour far brighter than
+// those further on gives way to them, one far brighter than the median of all does not count.
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background

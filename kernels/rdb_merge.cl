@@ -11,9 +11,8 @@
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // coverage, depth_bits  [window_rows][layers][width]  as in rdb_scatter
 // lens            [cells]                          u_k, 2^-16 of the aperture radius
-// rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim: cells that it
-// cuts
-//                                                  off do not count
+// rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim: cells that
+//                                                  it cuts off do not count
 // channel0..3     [window_rows][layers][width]     colour planes of the source window
 // sum             [band_rows][width]               colours' sums; after the last pass the means
 // filled          [band_rows][width]               (x: cells that a ray has reached so far; bits 16

@@ -1,10 +1,10 @@
 // split: a mixed pixel's colour taken apart into the surface in front and the one behind it.
 //
-// With F the colour of the surface in front (pure pixels nearby), B that behind it (`fill`), the
-// pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha counts
-// like a colour). What the two colours do not explain goes to the surface that the depth sample
-// saw, so that both together still give C. The edge pixels of what is in focus
-// stay as they are.
+// With F the colour of the surface in front (pure pixels nearby), B that behind it (from `fill`, or
+// from pure pixels if the depth sample saw another one), the pixel's colour C = a F + (1 - a) B has
+// the coverage a nearest to it (least squares; alpha counts like a colour). What the two colours do
+// not explain goes to the surface that the depth sample saw, so that both together still give C.
+// The edge pixels of what is in focus stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
@@ -24,41 +24,50 @@
 #define MOST_OF_BEHIND 0.75f
 #define LEAST_OF_FRONT 0.25f
 
-// The surface in front, from the pixels around.
+// A surface, from the pixels around.
 typedef struct {
   float4 colour;
   uint source;  // whose depth it has
   bool is_found;
-} Front;
+} Nearby;
 
-Front front_nearby(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
+// depth.
+Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                    __global const uint* restrict mixed, __global const float* restrict channel0,
                    __global const float* restrict channel1, __global const float* restrict channel2,
-                   __global const float* restrict channel3, const int2 at, const int middle,
-                   const float4 back) {
-  Front front = {0.0f, 0u, false};
-  float weights = 0.0f, nearest = 0.0f, farthest_colour = -1.0f;
+                   __global const float* restrict channel3, const int2 at, const int low,
+                   const int high) {
+  Nearby found = {0.0f, 0u, false};
+  float weights = 0.0f, nearest = 0.0f;
   for (int i = 0; i < 49; ++i) {
     const int2 d = (int2)(i % 7 - 3, i / 7 - 3);
     const uint q = pixel_at(p.width, p.height, at + d);
-    if (mixed[q] || coc_of(coc_quanta, q) >= middle) continue;
+    const int coc = coc_of(coc_quanta, q);
+    if (mixed[q] || coc < low || coc > high) continue;
     const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
-    front.colour += weight * colour_at(channel0, channel1, channel2, channel3, q);
+    found.colour += weight * colour_at(channel0, channel1, channel2, channel3, q);
     weights += weight;
-    if (weight > nearest) front.source = q;
+    if (weight > nearest) found.source = q;
     nearest = fmax(nearest, weight);
   }
-  front.is_found = weights > 0.0f;
-  if (front.is_found) {
-    front.colour /= weights;
-    return front;
-  }
-  // Too thin for a pure pixel: the one least like what lies behind.
+  found.is_found = weights > 0.0f;
+  if (found.is_found) found.colour /= weights;
+  return found;
+}
+
+// Of a surface in front that is too thin for pure pixels, the one least like what lies behind.
+Nearby thin_front(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                  __global const float* restrict channel0, __global const float* restrict channel1,
+                  __global const float* restrict channel2, __global const float* restrict channel3,
+                  const int2 at, const int middle, const float4 behind) {
+  Nearby front = {0.0f, 0u, false};
+  float farthest_colour = -1.0f;
   for (int i = 0; i < 49; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
     if (coc_of(coc_quanta, q) >= middle) continue;
     const float4 c = colour_at(channel0, channel1, channel2, channel3, q);
-    const float4 d = c - back;
+    const float4 d = c - behind;
     const float far = d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w;
     if (!(far > farthest_colour)) continue;
     farthest_colour = far;
@@ -131,9 +140,19 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   }
   const int middle = nearest + (farthest - nearest) / 2;
   const bool saw_front = coc_of(coc_quanta, pixel) < middle;
-  const float4 b = behind[pixel];
-  const Front f =
-      front_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at, middle, b);
+  float4 b = behind[pixel];
+  Nearby f = pure_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at,
+                         -DEFRAY_TAME_QUANTA, middle - 1);
+  if (!f.is_found) {
+    f = thin_front(p, coc_quanta, channel0, channel1, channel2, channel3, at, middle, b);
+  }
+  // Where `fill` found another surface than the one that was seen there are three.
+  const int own = coc_of(coc_quanta, pixel);
+  if (!saw_front && abs(coc_of(behind_coc, pixel) - own) > DEFRAY_JUMP_QUANTA) {
+    const Nearby seen = pure_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3,
+                                    at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
+    if (seen.is_found) b = seen.colour;
+  }
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {

@@ -17,8 +17,6 @@ struct Layer {
   std::vector<std::uint32_t> coverage;
 };
 
-std::size_t size(int value) { return static_cast<std::size_t>(value); }
-
 /// The same view, so many pixels more on each side.
 Scene widened(const Scene& scene, int margin) {
   Scene wide = make_scene(scene.name, scene.width, scene.height);

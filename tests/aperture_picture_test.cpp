@@ -188,7 +188,7 @@ TEST(AperturePicture, RefusesPicturesWithoutLight) {
     expect_error(3, {path, why}, [&] { rasterise(picture(path)); });
   };
   refused(write_grey(folder, 3, 3, Plane(9, 0.0f)), "black");
-  refused(write_grey(folder, 3, 3, Plane(9, -1.0f)), "black");
+  refused(write_grey(folder, 2, 1, {1, -1.0f}), "-1 at pixel 1,0: an aperture lets 0 or more");
   refused(write_grey(folder, 2, 1, {1, NAN}), "NaN or Inf at pixel 1,0");
   refused(folder / "missing.png", "no such file");
 }

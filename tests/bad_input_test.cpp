@@ -112,7 +112,8 @@ TEST_F(BadInput, OptionValues) {
   }
   expect_render_refused(base + "--background blue", 2, {"'blue'"});
   expect_render_refused(base + "--memory 0", 2, {"--memory is 0"});
-  expect_render_refused(base + "--memory 0.001", 2, {"--memory", "one row"});
+  expect_render_refused(base + "--memory 0.001", 2,
+                        {"--memory is 0.0009995 MiB", "one row", "at least"});
   expect_render_refused(base + "--work-group 0x4", 2, {"'0x4'", "64x1"});
   expect_render_refused(base + "--work-group 99999x99", 2, {"at most"});
   expect_render_refused(base + "--device nonesuch", 5, {"'nonesuch'", "reference"});
@@ -127,6 +128,9 @@ TEST_F(BadInput, Frames) {
   for (const std::string frames : {"1-", "a", "1-2x0", "1,,2"}) {
     expect_render_refused("s.%04d.exr -o o.%04d.exr --frames " + frames + lens, 2, {"--frames"});
   }
+  expect_render_refused("s.%04d.exr -o o.%04d.exr --frames ''" + lens, 2, {"--frames: is empty"});
+  expect_render_refused("s.%04d.exr -o o.%04d.exr --frames 1-9999999999" + lens, 2,
+                        {"'1-9999999999'", "up to 999999999"});
   expect_render_refused("s.%04d.exr -o out.exr" + lens, 2, {"2 frames would go to one file"});
   expect_render_refused("t.%04d.exr -o o.%04d.exr" + lens, 3, {"no file matches"});
   expect_render_refused("in.exr -o o.####.exr" + lens, 2, {"the input in.exr has none"});
@@ -140,6 +144,8 @@ TEST_F(BadInput, Outputs) {
   expect_render_refused("in.exr -o small.exr --depth small.exr" + lens, 2, {"at once"});
   expect_render_refused("in.exr -o out.exr --coc-out out.exr" + lens, 2, {"the same file"});
   expect_render_refused("in.exr -o out.xyz" + lens, 2, {"'.xyz'", ".exr"});
+  expect_render_refused("in.exr -o out" + lens, 2, {"out: has no extension", ".exr"});
+  expect_render_refused("in.exr -o ." + lens, 2, {"is a folder", ".exr"});
   const Result full = defray(folder_, "devices >/dev/full");
   EXPECT_EQ(full.code, 4) << full.err;
 }

@@ -1,4 +1,11 @@
-// What lies beyond the frame: seen by the confidence, and no source of light that nobody saw.
+// What lies beyond the frame: goes on like the edge, seen by the confidence, and no source of light
+// that nobody saw.
+#include "border.h"
+
+#include <cmath>
+#include <limits>
+
+#include "assemble.h"
 #include "defocus.h"
 #include "method.h"
 #include "support.h"
@@ -27,7 +34,7 @@ struct Scene {
   }
 };
 
-TEST(Border, WhatIsMadeUpBeyondTheFrameIsNotSeen) {
+TEST(BorderPicture, WhatIsMadeUpBeyondTheFrameIsNotSeen) {
   const Scene scene;
   const DefocusResult clamped = scene.through(Border::clamp),
                       normalised = scene.through(Border::renormalise);
@@ -43,7 +50,34 @@ TEST(Border, WhatIsMadeUpBeyondTheFrameIsNotSeen) {
   EXPECT_LT(clamped.confidence[39 * 60 + 30], 1.0f);
 }
 
-TEST(Border, ALampOnTheFramesEdgeIsOneLamp) {
+TEST(BorderPicture, FartherOutTheEdgeFadesToTheMeanOfItsSurface) {
+  Scene scene;
+  scene.coc.assign(scene.coc.size(), 6 * 256);
+  for (std::size_t i = 0; i < scene.coc.size(); ++i) {
+    const std::size_t x = i % 60;
+    scene.channels[0][i] = static_cast<float>(x);
+    if (x >= 3 && x < 10) scene.coc[i] = 0;  // another surface
+    if (i / 60 == 20) scene.channels[0][i] = std::numeric_limits<float>::quiet_NaN();
+  }
+  DefocusReport report;
+  ExtendedFrame e =
+      extend({60, 40, scene.coc, scene.depth, scene.channels}, Border::clamp, false, report);
+  Fragments f = whole_pixels(e);
+  continue_colours(e, f);
+  const int m = report.border_px;
+  ASSERT_EQ(m, 7);
+  const auto at = [&](int x, int y) { return f.channels[0][f.index(x + m, y + m, 0)]; };
+  const float left[7] = {0, 0.5, 1, 1, 1, 1, 1}, right[7] = {59, 58.5, 58, 57.5, 57, 56.5, 56};
+  for (int d = 0; d < 7; ++d) {
+    EXPECT_EQ(at(-1 - d, 5), left[d]) << d;
+    EXPECT_EQ(at(60 + d, 5), right[d]) << d;
+    EXPECT_EQ(at(30, -1 - d), 30) << d;  // one colour stays that colour
+    EXPECT_EQ(at(-1 - d, -1 - d), left[d]) << d;
+    EXPECT_TRUE(std::isnan(at(-1 - d, 20))) << d;
+  }
+}
+
+TEST(BorderPicture, ALampOnTheFramesEdgeIsOneLamp) {
   for (const int y : {20, 0}) {
     Scene scene;
     scene.coc.assign(scene.coc.size(), 8 * 256);
@@ -58,17 +92,18 @@ TEST(Border, ALampOnTheFramesEdgeIsOneLamp) {
   }
 }
 
-TEST(Border, BlackDoesNotMakeHighlightsOfTheEdge) {
+TEST(BorderPicture, BlackDoesNotMakeHighlightsOfTheEdge) {
   Scene scene;
   scene.coc.assign(scene.coc.size(), 8 * 256);
   scene.depth.assign(scene.depth.size(), 5.0f);
   EXPECT_EQ(scene.through(Border::black).report.highlights, 0u);
 }
 
-TEST(Defocus, AFrameThatDoesNotFitTheDeviceIsRefused) {
+TEST(Defocus, AFrameThatDoesNotFitTheHostIsRefused) {
   const Scene scene;
   DeviceInfo small = device_under_test();
-  small.global_memory_bytes = 60 * 40 * 200;
+  small.global_memory_bytes = 60 * 40 * 100;
+  small.shares_host_memory = true;  // only then it is the host's
   Session device(small);
   const PinholeFrame frame{size.width, size.height, scene.coc, scene.depth, scene.channels};
   try {

@@ -143,10 +143,11 @@ TEST(Output, InterruptedRunLeavesNothingBehind) {
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {640, 480});
   std::filesystem::create_directory(folder / "out");
   for (const char* delay : {"0.1", "0.3", "0.6"}) {
-    const Result result = shell(folder, "timeout -s INT " + std::string(delay) + " " + program() +
-                                            " render in.exr -o out/o.exr --rdb 33" + lens);
+    const Result result =
+        shell(folder, "timeout --preserve-status -s INT " + std::string(delay) + " " + program() +
+                          " render in.exr -o out/o.exr --rdb 33" + lens);
     if (result.code == 0) continue;
-    EXPECT_EQ(result.code, 124) << result.err;
+    EXPECT_EQ(result.code, 130) << result.err;
     EXPECT_EQ(shell(folder, "ls -A out").out, "");
   }
 }

@@ -114,7 +114,7 @@ TEST(Nearest, OnlyOnDemand) {
   }
 }
 
-TEST(Nearest, ABlurredBarsDataReachAsFarAsItsLight) {
+TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
   const Scene s = bar({48, 24}, 20, 30);
   for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
     const DefocusResult r = through(s, {}, on);
@@ -136,7 +136,7 @@ TEST(Nearest, ABlurredBarsDataReachAsFarAsItsLight) {
 
 // The wall is made up behind the bar: its fragments there stand in the bar's pixels, whose data are
 // the bar's.
-TEST(Nearest, MadeUpSurfacesHaveNoData) {
+TEST(NearestPicture, MadeUpSurfacesHaveNoData) {
   Scene s = bar({48, 24}, 23, 26);
   for (std::size_t i = 0; i < s.count(); ++i) s.coc[i] = s.depth[i] == 1.0f ? 0 : 6 * 256;
   const DefocusResult r = through(s, {}, &session());
@@ -148,7 +148,7 @@ TEST(Nearest, MadeUpSurfacesHaveNoData) {
 }
 
 // Edge pixels half covered, whose depth saw the wall: the bar's share has the bar's data.
-TEST(Nearest, WhatSplitTakesFromBesideHasTheDataFromThere) {
+TEST(NearestPicture, WhatSplitTakesFromBesideHasTheDataFromThere) {
   Scene s = bar({48, 24}, 20, 30);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const int x = static_cast<int>(i) % 48;
@@ -166,7 +166,7 @@ TEST(Nearest, WhatSplitTakesFromBesideHasTheDataFromThere) {
   }
 }
 
-TEST(Nearest, BordersGiveTheEdgesData) {
+TEST(NearestPicture, BordersGiveTheEdgesData) {
   Scene s = random_scene({20, 16}, 5);
   s.coc.assign(s.count(), 5 * 256);
   s.depth.assign(s.count(), 2.0f);

@@ -9,9 +9,9 @@ export OCL_ICD_VENDORS=/etc/OpenCL/vendors/pocl.icd
 export LSAN_OPTIONS=suppressions=$tests/lsan.supp:print_suppressions=0
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=suppressions=$tests/tsan.supp:print_suppressions=0
-# Left out where memory or time grows: what only costs time there (huge frames, whole pictures against
-# truths, cold caches, damaged
-# files once more, which host_tests reads too), and the real window, whose toolkit leaks.
+# Left out where memory or time grows: what only costs time there (huge frames, whole pictures
+# against truths, cold caches, damaged files once more, which host_tests reads too), and the real
+# window, whose toolkit leaks.
 left_out=*Huge*:*SharedDamaged*:KernelCache.Parallel*:Show.Opens*:*Closer*:HighlightDisc*
 case $name in
   tsan) left_out+=:*EveryDamagedFile* ;;  # minutes, in OpenEXR's threads and not ours

@@ -63,7 +63,7 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
 }
 
 TEST(Rdb, SameBitsForEveryMemoryBudget) {
-  const Size size = is_slow_device() ? Size{31, 37} : Size{131, 37};
+  const Size size = is_slow_device() ? Size{11, 37} : Size{131, 37};
   const Input in = make_input(size, 9, 31);
   for (const bool jitter : {false, true}) {
     RdbSettings settings = small_settings(jitter);

@@ -219,6 +219,13 @@ TEST(Render, NotesSayWhatIsLost) {
   EXPECT_NE(note("a.exr", "c.exr --depth-kind normalized --near 1 --far 2")
                 .find("64 stored depths lie outside 0...1"),
             std::string::npos);
+  OIIO::ImageBuf aside(folder / "a.exr");
+  aside.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  aside.specmod().x = 20;
+  aside.write(folder / "aside.exr");
+  EXPECT_NE(note("aside.exr", "e.exr").find("8x8+20+0 lies outside the display window 8x8+0+0"),
+            std::string::npos);
+  EXPECT_EQ(note("a.exr", "e.exr").find("lies outside the"), std::string::npos);
   OIIO::ImageBuf lossy(folder / "a.exr");
   lossy.read(0, 0, true, OIIO::TypeDesc::HALF);
   lossy.specmod().attribute("compression", "dwaa:45");

@@ -52,6 +52,29 @@ TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
   }
 }
 
+TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
+  // The bar, a strip beside it, and the plane, of which `fill` may say that it lies behind the bar.
+  Frame f(60, 20);
+  f.add_bar(24, 36, bar_coc);
+  f.each([&](int x, int y) {
+    const bool is_strip = x >= 36 && x < 40;
+    if (is_strip) f.coc[f.at(x, y)] = 512, f.inverse[f.at(x, y)] = 0.3f;
+    if (x >= 24 && x < 36) f.paint(x, y, 0.8f, 0.2f, 0.1f);
+    if (is_strip) f.paint(x, y, 0.75f, 0.7f, 0.6f);
+  });
+  Surface filled = f.filled();
+  for (int y = 0; y < f.height; ++y) {
+    filled.coc_quanta[f.at(36, y)] = 1536;
+    for (Plane& plane : filled.channels) plane[f.at(36, y)] = 0;
+  }
+  const auto [front, behind] = split(session(), f.view(), f.mixed(), filled);
+  for (int y = 0; y < f.height; ++y) {
+    // The pixel is all strip: nothing to take apart, and nothing brighter than the strip.
+    EXPECT_EQ(front.coverage[f.at(36, y)], DEFRAY_WHOLE);
+    EXPECT_EQ(front.channels[1][f.at(36, y)], 0.7f);
+  }
+}
+
 TEST(Split, AnEdgeInFocusStaysAsItIs) {
   Frame f = bar_with_mixed_edges(0.5f, true);
   f.add_bar(24, 36, 255);

@@ -71,8 +71,10 @@ void check_output_format(const std::string& path) {
   for (const std::string& a : allowed) {
     if (e == a) return;
   }
-  fail(ExitCode::usage, "{}: cannot write format '{}'; allowed are {}", path, e,
-       join(allowed, " "));
+  const std::string found = std::filesystem::is_directory(path) ? "is a folder"
+                            : e.empty()                         ? "has no extension"
+                                        : fmt::format("cannot write format '{}'", e);
+  fail(ExitCode::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
 }
 
 bool keeps_other_channels(const std::string& path, const ImageFile& file) {

@@ -165,9 +165,9 @@ cl::Buffer Session::picture(const float* data, std::size_t count) {
   return copy;
 }
 
-void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes) {
+void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
   checked(info_, "clEnqueueReadBuffer",
-          [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data); });
+          [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, offset, bytes, data); });
 }
 
 void Session::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) {
@@ -190,17 +190,20 @@ void Session::fail_argument(const char* name, cl_uint index, int code) const {
 }
 
 void Session::enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
-                      const std::vector<std::size_t>& global) {
+                      const std::vector<std::size_t>& global,
+                      const std::vector<std::size_t>& first) {
   const bool is_set = group_x_ != 0;
   const std::size_t group[3] = {is_set ? group_x_ : default_group_x,
                                 is_set && global.size() > 1 ? group_y_ : 1, 1};
-  std::size_t padded[3] = {1, 1, 1};
+  std::size_t padded[3] = {1, 1, 1}, offset[3] = {0, 0, 0};
+  std::copy(first.begin(), first.end(), offset);
   for (std::size_t d = 0; d < global.size(); ++d) {
     padded[d] = (global[d] + group[d] - 1) / group[d] * group[d];
   }
   cl::Event event;
   checked(info_, std::string("clEnqueueNDRangeKernel ") + name, [&] {
-    queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(padded[0], padded[1], padded[2]),
+    queue_.enqueueNDRangeKernel(kernel, cl::NDRange(offset[0], offset[1], offset[2]),
+                                cl::NDRange(padded[0], padded[1], padded[2]),
                                 cl::NDRange(group[0], group[1], group[2]), nullptr,
                                 measures_ ? &event : nullptr);
   });

@@ -10,6 +10,9 @@
 
 namespace defray {
 
+/// What passes take of a device where nobody says otherwise.
+inline constexpr std::size_t default_memory_bytes = std::size_t{512} << 20;
+
 /// How kernels compute.
 enum class Math {
   strict,  ///< As written, every operation rounded: the scalar twins' bits.
@@ -66,17 +69,25 @@ class Session {
   /// A read-only view of colour or depth: `view`, or a copy in half floats where so asked.
   cl::Buffer picture(const float* data, std::size_t count);
 
-  void read(const cl::Buffer& buffer, void* data, std::size_t bytes);
+  void read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);
 
   /// Enqueues kernel `name` over at least `global` work-items (kernels test their bounds).
   template <typename... Args>
   void launch(const char* name, std::size_t default_group_x, const std::vector<std::size_t>& global,
               const Args&... args) {
+    launch_from({}, name, default_group_x, global, args...);
+  }
+
+  /// The same for work-items whose global ids begin at `first`; empty: at 0.
+  template <typename... Args>
+  void launch_from(const std::vector<std::size_t>& first, const char* name,
+                   std::size_t default_group_x, const std::vector<std::size_t>& global,
+                   const Args&... args) {
     cl::Kernel kernel = make_kernel(name);
     cl_uint index = 0;
     (set_argument(kernel, name, index++, args), ...);
-    enqueue(kernel, name, default_group_x, global);
+    enqueue(kernel, name, default_group_x, global, first);
   }
 
   void finish();
@@ -93,7 +104,7 @@ class Session {
   }
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
   void enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
-               const std::vector<std::size_t>& global);
+               const std::vector<std::size_t>& global, const std::vector<std::size_t>& first);
 
   DeviceInfo info_;
   bool int64_atomics_, half_planes_, measures_;

@@ -9,10 +9,6 @@
 namespace defray::reference {
 namespace {
 
-std::int32_t tame(std::int32_t coc) {
-  return std::clamp(coc, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
-}
-
 float light_of(const Fragments& f, std::size_t at, int light_channels) {
   float most = f.channels[0][at];
   for (int c = 1; c < light_channels; ++c) {

@@ -7,8 +7,8 @@
 namespace defray::reference {
 namespace {
 
-/// The surface in front, from the pixels around.
-struct Front {
+/// A surface, from the pixels around.
+struct Nearby {
   Colour colour;
   std::size_t source;  ///< Whose depth it has.
 };
@@ -38,29 +38,30 @@ class Splitter {
     return {nearest, farthest};
   }
 
-  /// Pure pixels in front, weighed by 1 / distance^4; the nearest lends its depth.
-  std::optional<Front> pure_front(Place at, int middle) const {
-    Front front{};
+  /// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
+  /// depth.
+  std::optional<Nearby> pure(Place at, int low, int high) const {
+    Nearby found{};
     float weights = 0, largest = 0;
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
-      if (mixed_[q] || frame_.coc(q) >= middle) return;
+      if (mixed_[q] || frame_.coc(q) < low || frame_.coc(q) > high) return;
       const Place d = place - at;
       const int distance2 = d.x * d.x + d.y * d.y;
       const float weight = 1.0f / static_cast<float>(distance2 * distance2);
-      add(front.colour, weight, colour_at(view_.channels, q));
+      add(found.colour, weight, colour_at(view_.channels, q));
       weights += weight;
-      if (weight > largest) front.source = q;
+      if (weight > largest) found.source = q;
       largest = std::max(largest, weight);
     });
     if (weights == 0) return std::nullopt;
-    front.colour = divided(front.colour, weights);
-    return front;
+    found.colour = divided(found.colour, weights);
+    return found;
   }
 
   /// Of what is too thin for pure pixels, the one least like the surface behind.
-  std::optional<Front> thin_front(Place at, int middle, const Colour& behind) const {
-    std::optional<Front> front;
+  std::optional<Nearby> thin_front(Place at, int middle, const Colour& behind) const {
+    std::optional<Nearby> front;
     float farthest = -1;
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
@@ -127,12 +128,18 @@ Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surf
   frame.for_each_place([&](Place at) {
     const std::size_t pixel = frame.index(at);
     if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
-    const Colour c = colour_at(f.channels, pixel), b = colour_at(behind.channels, pixel);
+    const Colour c = colour_at(f.channels, pixel);
+    Colour b = colour_at(behind.channels, pixel);
     const auto [nearest, farthest] = splitter.range(at);
     const int middle = nearest + (farthest - nearest) / 2;
     const bool saw_front = frame.coc(at) < middle;
-    auto found = splitter.pure_front(at, middle);
+    auto found = splitter.pure(at, -DEFRAY_TAME_QUANTA, middle - 1);
     if (!found) found = splitter.thin_front(at, middle, b);
+    const int own = frame.coc(at);
+    if (!saw_front && std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA) {
+      const auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
+      if (seen) b = seen->colour;
+    }
     const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
     if (saw_front) {
       if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;

@@ -28,9 +28,7 @@ struct CocFrame {
            static_cast<std::size_t>(std::clamp(at.x, 0, width - 1));
   }
   /// Limited to what differences can be taken of.
-  std::int32_t coc(std::size_t pixel) const {
-    return std::clamp(coc_quanta[pixel], -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
-  }
+  std::int32_t coc(std::size_t pixel) const { return tame(coc_quanta[pixel]); }
   std::int32_t coc(Place at) const { return coc(index(at)); }
 
   template <typename Visit>

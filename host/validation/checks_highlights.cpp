@@ -29,14 +29,14 @@ Fragments bright_fragments(const Input& in) {
 int light_channels(const Case& c) { return std::max(1, c.channels - static_cast<int>(c.seed % 2)); }
 
 Values run_highlights(Session& session, const Case& c, const Input& in) {
-  return {{}, {highlights(session, bright_fragments(in), light_channels(c))}};
+  return {{}, {highlights(session, bright_fragments(in), light_channels(c), stage_memory(c))}};
 }
 
 Values twin_highlights(const Case& c, const Input& in) {
   return {{}, {reference::highlights(bright_fragments(in), light_channels(c))}};
 }
 
-double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8; }
+double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8 + band_work(c); }
 
 /// An aperture without symmetry, so that no mirror image passes.
 const ApertureTable& aperture_table() {

@@ -87,28 +87,28 @@ Values values_of(const std::vector<Surface>& surfaces) {
 }
 
 Values run_repair(Session& session, const Case& c, const Input& in) {
-  return words(repair(session, c.width, c.height, blurred(c, StageFrame(c, in))));
+  return words(repair(session, c.width, c.height, blurred(c, StageFrame(c, in)), stage_memory(c)));
 }
 
 Values twin_repair(const Case& c, const Input& in) {
   return words(reference::repair(c.width, c.height, blurred(c, StageFrame(c, in))));
 }
 
-double repair_work(const Case& c) { return 100 * pixels(c); }
+double repair_work(const Case& c) { return 100 * pixels(c) + band_work(c); }
 
 Values run_edges(Session& session, const Case& c, const Input& in) {
-  return words(edges(session, c.width, c.height, StageFrame(c, in).coc_quanta));
+  return words(edges(session, c.width, c.height, StageFrame(c, in).coc_quanta, stage_memory(c)));
 }
 
 Values twin_edges(const Case& c, const Input& in) {
   return words(reference::edges(c.width, c.height, StageFrame(c, in).coc_quanta));
 }
 
-double edges_work(const Case& c) { return 20 * pixels(c); }
+double edges_work(const Case& c) { return 20 * pixels(c) + band_work(c); }
 
 Values run_fill(Session& session, const Case& c, const Input& in) {
   const StageFrame frame(c, in);
-  return values_of({fill(session, frame.view(), frame.mixed)});
+  return values_of({fill(session, frame.view(), frame.mixed, stage_memory(c))});
 }
 
 Values twin_fill(const Case& c, const Input& in) {
@@ -120,13 +120,13 @@ Values twin_fill(const Case& c, const Input& in) {
 double fill_work(const Case& c) {
   const double across = std::max(c.width, c.height);
   const double steps = std::min(2 * c.coc_px, across) / 16;
-  return pixels(c) * DEFRAY_FILL_DIRECTIONS * (2 + 16 * std::log1p(steps));
+  return pixels(c) * DEFRAY_FILL_DIRECTIONS * (2 + 16 * std::log1p(steps)) + band_work(c);
 }
 
 Values run_split(Session& session, const Case& c, const Input& in) {
   const StageFrame frame(c, in);
-  const auto [front, behind] =
-      split(session, frame.view(), frame.mixed, reference::fill(frame.view(), frame.mixed));
+  const auto [front, behind] = split(session, frame.view(), frame.mixed,
+                                     reference::fill(frame.view(), frame.mixed), stage_memory(c));
   return values_of({front, behind});
 }
 
@@ -174,7 +174,7 @@ Values layers_of(const Fragments& f, const std::vector<Plane>& channels) {
 
 Values run_soften(Session& session, const Case& c, const Input& in) {
   const Fragments f = soft_fragments(c, in);
-  return layers_of(f, soften(session, f, c.cells * c.cells));
+  return layers_of(f, soften(session, f, c.cells * c.cells, stage_memory(c)));
 }
 
 Values twin_soften(const Case& c, const Input& in) {
@@ -182,12 +182,16 @@ Values twin_soften(const Case& c, const Input& in) {
   return layers_of(f, reference::soften(f, c.cells * c.cells));
 }
 
-double soften_work(const Case& c) { return 300 * pixels(c); }
+double soften_work(const Case& c) { return 300 * pixels(c) + band_work(c); }
 
 constexpr const char* integer_rule = "equal: integer arithmetic";
 constexpr const char* bits_rule = "equal bits: + - x / in one order";
 
 }  // namespace
+
+std::size_t stage_memory(const Case& c) { return c.band_rows > 0 ? 1 : default_memory_bytes; }
+
+double band_work(const Case& c) { return c.band_rows > 0 ? 1e4 * c.height : 0; }
 
 std::vector<KernelCheck> stage_checks() {
   return {{"edges", integer_rule, run_edges, twin_edges, edges_work},

@@ -49,6 +49,12 @@ struct KernelCheck {
 std::vector<KernelCheck> stage_checks();
 std::vector<KernelCheck> highlight_checks();
 
+/// For stages: where the case wants bands the fewest rows that they work with, one or a tile's.
+std::size_t stage_memory(const Case& c);
+
+/// What bands add to a stage's work: launches cost some devices most of a millisecond.
+double band_work(const Case& c);
+
 /// The case's way of running the RDB.
 RdbSettings rdb_settings(const Case& c);
 
