@@ -24,7 +24,8 @@ std::vector<Substitution> half_reads() {
       {"vload16(0, channel", "vload_half16(0, channel", true},
       {"__global const float* restrict depth_units", "__global const half* restrict depth_units"},
       {"depth_units[i]", "vload_half(i, depth_units)"},
-      {"= depth_bits[source]", "= as_uint(vload_half(source, (__global const half*)depth_bits))"}};
+      {"return depth_bits[at]",
+       "return as_uint(vload_half(at, (__global const half*)depth_bits))"}};
 }
 
 /// Divisions of OpenCL's native_ kind; its roots come by a build option.
