@@ -21,7 +21,7 @@ namespace {
 struct Options {
   std::string name, folder, setting, frames;
   int width = 640, height = 480, truth_samples = 256;
-  PinholeSampling pinhole;
+  PinholeSampling pinhole{16, false};  ///< Anti-aliased, as productions have it.
   std::uint32_t seed = 1;
   bool hidden = false, alpha = false;
 };
@@ -135,7 +135,7 @@ void check(const Options& o, const std::vector<FrameNumber>& frames) {
   check_samples("--pinhole-samples", o.pinhole.samples);
   if (o.pinhole.averages_depth && o.pinhole.samples == 1) {
     fail(ExitCode::usage,
-         "--antialiased-depth goes with --pinhole-samples: of one there is no mean");
+         "--antialiased-depth with --pinhole-samples 1: of one ray there is no mean");
   }
   for (const FrameNumber frame : frames) settings_of(o, scene_of(o, frame));
 }
@@ -183,8 +183,10 @@ Run add_scene(CLI::App& app) {
                    "Frames of a scene that moves, as files like pinhole.0001.exr: 1-24, 1,5,9 "
                    "or 1-24x2; without it, the first")
       ->check(not_empty);
-  command->add_option("--pinhole-samples", o->pinhole.samples,
-                      "Rays a pixel for the pinhole picture's colour; depth stays its centre's");
+  command->add_option(
+      "--pinhole-samples", o->pinhole.samples,
+      "Rays a pixel for the pinhole picture's colour, which anti-alias it; depth stays its "
+      "centre's");
   command->add_flag("--antialiased-depth", o->pinhole.averages_depth,
                     "Depth is the mean over those rays too: wrong at every edge, as some renderers "
                     "write it");

@@ -18,7 +18,7 @@ class DefocusCommand : public testing::Test {
     expect_ok(defray(folder, "scene fence -o . --width 96 --height 64 --truth-samples 1"));
     expect_ok(defray(folder,
                      "scene fence -o smooth --width 240 --height 160 --truth-samples 1 "
-                     "--pinhole-samples 16 --antialiased-depth"));
+                     "--antialiased-depth"));
     expect_ok(defray(folder, "scene highlights -o lamps --width 96 --height 64 --truth-samples 1"));
   }
 
