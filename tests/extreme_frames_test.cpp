@@ -55,8 +55,9 @@ TEST(ExtremeFrames, CocFromAMillionthOfAPixelToAMillion) {
     EXPECT_NEAR(coc_on_device(session(), lens, width, {infinite})[0], 256 * radius_px,
                 0.5 + 256 * radius_px * 0x1p-21);
     const auto coc = coc_on_device(session(), lens, width, depth);
-    for (const auto& [name, settings] : methods()) {
-      SCOPED_TRACE(name + ", background CoC " + std::to_string(radius_px) + " px");
+    for (const auto& method : methods()) {
+      const MethodSettings& settings = method.second;
+      SCOPED_TRACE(method.first + ", background CoC " + std::to_string(radius_px) + " px");
       const PinholeFrame frame{size.width, size.height, coc, depth, colour};
       if (settings.method == Method::linear && radius_px > linear_max_radius_px) {
         expect_error(2, {"1024"}, [&] { apply_method(frame, settings, &session()); });

@@ -1,6 +1,7 @@
 #include "opencl/session.h"
 
 #include <Imath/half.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -89,7 +90,8 @@ Session::Session(const DeviceInfo& info, const SessionOptions& options)
   queue_ = checked(info_, "clCreateCommandQueue", [&] {
     return cl::CommandQueue(context_, info.device, measures_ ? CL_QUEUE_PROFILING_ENABLE : 0);
   });
-  const std::string source = substituted(std::string(kernels_source), options.substitutions);
+  const std::string source =
+      substituted(fmt::to_string(fmt::join(kernel_sources, "")), options.substitutions);
   program_ = checked(info_, "clCreateProgramWithSource", [&] {
     return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
   });

@@ -104,7 +104,7 @@ Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint3
   Plane alphas[2] = {planes[0], planes[0]};
   for_each_pixel(scene, progress, [&](int x, int y, std::size_t at) {
     Exposure sum;
-    for (const std::uint64_t h : {0, 1}) {
+    for (const std::uint64_t h : {0u, 1u}) {
       if (counts[h] == 0) continue;
       const Random random(x, y, 2 * std::uint64_t{seed} + h);
       const Exposure half =
