@@ -173,5 +173,14 @@ TEST(Fill, StripesGoOnInTheirDirection) {
   }
 }
 
+/// Something to fill in one tile alone: a band that took another's flags would leave it empty.
+TEST(Fill, BandsTakeTheFlagsOfTheirOwnTiles) {
+  Frame f(3 * DEFRAY_FILL_TILE, 400);
+  for (int y = 330; y < 334; ++y) f.coc[f.at(20, y)] = 0, f.inverse[f.at(20, y)] = 0.5f;
+  const Surface whole = f.filled(), banded = fill(session(), f.view(), f.mixed(), 1);
+  EXPECT_GT(whole.inverse[f.at(20, 331)], 0);
+  expect_same_bits(whole.inverse, banded.inverse);
+}
+
 }  // namespace
 }  // namespace defray::test
