@@ -2,6 +2,7 @@
 #include "experiments.h"
 #include "metrics.h"
 #include "plot.h"
+#include "truth.h"
 
 namespace defray::perf {
 namespace {
@@ -13,8 +14,13 @@ struct Candidate {
 
 std::vector<Candidate> candidates(bool is_quick) {
   std::vector<Candidate> all{{"linear", "", "--method linear", linear_of()}};
+  for (const auto& [quality, word] :
+       {std::pair{Quality::draft, "draft"}, {Quality::normal, "normal"}, {Quality::high, "high"}}) {
+    all.push_back({"RDB", word, fmt::format("--quality {}", word), default_chain(quality)});
+  }
   for (const int n : {3, 5, 9, 17, 33}) {
-    all.push_back({"RDB", fmt::format("{}x{}", n, n), fmt::format("--rdb {}", n), rdb_of(n)});
+    all.push_back({"RDB literal", fmt::format("{}x{}", n, n), fmt::format("--literal --rdb {}", n),
+                   rdb_of(n)});
   }
   for (const auto& [kind, word] :
        {std::pair{GatherKind::literal, "literal"}, std::pair{GatherKind::aware, "aware"}}) {
@@ -28,30 +34,31 @@ std::vector<Candidate> candidates(bool is_quick) {
       }
     }
   }
-  if (is_quick) all.resize(3);
+  if (is_quick) all.resize(5);
   return all;
 }
 
-struct Setup {
+struct Place {
   std::string scene, setting;
 };
 
-void add_scene(const Bench& bench, const Setup& setup, Section& section) {
+void add_scene(const Bench& bench, const Place& place, Section& section) {
   const int width = bench.size(640), height = bench.size(400), samples = bench.is_quick ? 16 : 256;
-  bench.step(setup.scene + ": truth");
+  bench.step(place.scene + ": truth");
   const Subject s =
-      make_subject(bench.session, make_scene(setup.scene, width, height), setup.setting);
+      make_antialiased(bench.session, make_scene(place.scene, width, height), place.setting);
   const Truth truth = render_truth(s.scene, s.lens, samples, 1);
   Table table{
-      "tradeoff-" + setup.scene,
+      "tradeoff-" + place.scene,
       fmt::format("{}, {}: error and time. First: defray scene {} -o {} --width {} --height {} "
-                  "--truth-samples {}",
-                  setup.scene, setup.setting, setup.scene, setup.scene, width, height, samples),
+                  "--truth-samples {} --pinhole-samples {}",
+                  place.scene, place.setting, place.scene, place.scene, width, height, samples,
+                  pinhole_samples),
       {"method", "setting", "time", "PSNR sRGB dB", "PSNR linear dB", "SSIM", "command"},
       {}};
-  Plot plot{setup.scene + ": error against time", "seconds", "PSNR, sRGB, dB", true, false, {}};
+  Plot plot{place.scene + ": error against time", "seconds", "PSNR, sRGB, dB", true, false, {}};
   for (const Candidate& candidate : candidates(bench.is_quick)) {
-    bench.step(setup.scene + ": " + candidate.options);
+    bench.step(place.scene + ": " + candidate.options);
     const Timing timing = time_method(bench, s, candidate.settings);
     const Comparison c =
         compare(render(bench.session, s, candidate.settings), truth.colour, s.scene.width);
@@ -60,7 +67,7 @@ void add_scene(const Bench& bench, const Setup& setup, Section& section) {
          fixed(c.psnr_linear_db), fixed(c.ssim, 4),
          fmt::format("defray render {0}/pinhole.exr -o {0}/out.exr --camera {0}/camera.json "
                      "--focus-setting {1} {2}",
-                     setup.scene, setup.setting, candidate.options)});
+                     place.scene, place.setting, candidate.options)});
     if (plot.series.empty() || plot.series.back().name != candidate.series) {
       plot.series.push_back({candidate.series, {}, true, true});
     }
@@ -72,12 +79,12 @@ void add_scene(const Bench& bench, const Setup& setup, Section& section) {
   if (truth.noise) {
     section.findings.push_back(fmt::format(
         "{}: the truth's two halves are {:.1f} dB apart, so no figure near {:.0f} dB means much.",
-        setup.scene, truth.noise->psnr_srgb_db, truth.noise->psnr_srgb_db + 6));
+        place.scene, truth.noise->psnr_srgb_db, truth.noise->psnr_srgb_db + 6));
   }
-  const std::string file = "tradeoff-" + setup.scene + ".png";
+  const std::string file = "tradeoff-" + place.scene + ".png";
   write_plot(bench.folder + "/" + file, plot);
   section.tables.push_back(table);
-  section.figures.push_back({file, "Up and to the left is better. " + setup.scene});
+  section.figures.push_back({file, "Up and to the left is better. " + place.scene});
 }
 
 }  // namespace
@@ -90,9 +97,9 @@ Section tradeoff(const Bench& bench) {
       {},
       {},
       {}};
-  for (const Setup& setup :
-       {Setup{"fence", "bg"}, Setup{"spheres", "f5"}, Setup{"blocks-forest", "miniature"}}) {
-    add_scene(bench, setup, section);
+  for (const Place& place :
+       {Place{"fence", "bg"}, Place{"spheres", "f5"}, Place{"blocks-forest", "miniature"}}) {
+    add_scene(bench, place, section);
   }
   return section;
 }

@@ -1,5 +1,6 @@
 // defray-perf: every experiment runs and leaves a report whose parts are all there.
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <regex>
 
 #include "program.h"
@@ -71,6 +72,25 @@ TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
   for (const std::string picture : {"fence-bg", "spheres-f5", "plate1-default", "motion"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / ("report/truth-" + picture + ".png")));
   }
+}
+
+TEST_F(PerfCommand, TradeoffsCommandsGiveItsFigures) {
+  expect_ok(perf("experiment tradeoff -o report --quick"));
+  std::smatch first;
+  const std::string html = text_of("report/index.html");
+  ASSERT_TRUE(std::regex_search(html, first, std::regex("First: defray (scene fence [^<]*[0-9])")));
+  expect_ok(defray(folder, first[1].str()));
+  const std::string csv = text_of("report/tradeoff-fence.csv");
+  const std::regex row("([^\n]*) s [^,\n]*,([0-9.]+),[^\n]*,defray (render [^\n]*)");
+  int rows = 0;
+  for (std::sregex_iterator i(csv.begin(), csv.end(), row), end; i != end; ++i, ++rows) {
+    expect_ok(defray(folder, (*i)[3].str()));
+    const Result compared = defray(folder, "compare fence/out.exr fence/truth_bg.exr --json");
+    expect_ok(compared);
+    const double psnr_db = nlohmann::json::parse(compared.out)["psnr_srgb_db"];
+    EXPECT_NEAR(psnr_db, std::stod((*i)[2].str()), 0.01) << (*i)[3].str();
+  }
+  EXPECT_EQ(rows, 5);
 }
 
 TEST_F(PerfCommand, RefusesWhatItCannotDo) {
