@@ -6,7 +6,11 @@ program=$1
 filter=${2:-*}
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-oclgrind --data-races --log "$log" "$program" --gtest_filter="$filter"
+ran=$(oclgrind --data-races --log "$log" "$program" --gtest_filter="$filter" | tee /dev/stderr)
+if ! grep -q 'PASSED  \] [1-9]' <<<"$ran"; then
+  echo "No test ran: $filter"
+  exit 1
+fi
 if [ -s "$log" ]; then
   echo "Oclgrind found:"
   head -40 "$log"
