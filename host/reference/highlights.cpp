@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cats_eye.h"
 #include "reference/reference.h"
 
 namespace defray::reference {
@@ -36,15 +37,42 @@ std::vector<float> light_around(const Fragments& f, int x, int y, float radius,
   return light;
 }
 
-/// Share of the aperture's light that a source sends into the pixel at this distance, unscaled.
-std::uint64_t light_at(const ApertureTable& table, int dx, int dy, std::int32_t coc) {
-  const auto border = [&](int i) { return (2 * std::int64_t{i} + 1) * (1 << 23) / coc; };
-  const auto corner = [](std::int64_t a) {
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(a, -(1 << 30), 1 << 30));
+constexpr std::int32_t lens_radius = 1 << DEFRAY_LENS_FRACTION_BITS;
+
+/// Lens coordinates, limited to the square around the lens.
+struct Box {
+  std::int32_t left = -lens_radius, top = -lens_radius;
+  std::int32_t right = lens_radius, bottom = lens_radius;
+};
+
+/// The part of the lens that a source's light passes on its way to the pixel at this distance.
+Box box_between(int dx, int dy, std::int32_t coc) {
+  const auto border = [&](int i) {
+    const std::int64_t lens = (2 * std::int64_t{i} + 1) * (1 << 23) / coc;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(lens, -lens_radius, lens_radius));
   };
   const auto [u0, u1] = std::minmax({border(dx - 1), border(dx)});
   const auto [v0, v1] = std::minmax({border(dy - 1), border(dy)});
-  return light_in_box(table, corner(u0), corner(v0), corner(u1), corner(v1));
+  return {u0, v0, u1, v1};
+}
+
+/// The light within a box that passes the lens's rim, by strips as long as their middle's chord.
+std::uint64_t light_through(const ApertureTable& table, const Box& box, const RimCentre& rim) {
+  const std::int64_t top = std::max(box.top, rim[1] - lens_radius);
+  const std::int64_t high =
+      std::max<std::int64_t>(std::min(box.bottom, rim[1] + lens_radius) - top, 0);
+  const std::int64_t strips = 16 + high * 32 / lens_radius;
+  std::uint64_t light = 0;
+  for (std::int64_t k = 0; k < strips; ++k) {
+    const std::int64_t above = top + high * k / strips, below = top + high * (k + 1) / strips;
+    const double away = static_cast<double>((above + below) / 2 - rim[1]);
+    const double square = static_cast<double>(lens_radius) * lens_radius - away * away;
+    const auto reach = static_cast<std::int32_t>(std::sqrt(std::fmax(square, 0.0)));
+    light +=
+        light_in_box(table, std::max(box.left, rim[0] - reach), static_cast<std::int32_t>(above),
+                     std::min(box.right, rim[0] + reach), static_cast<std::int32_t>(below));
+  }
+  return light;
 }
 
 /// Distances in eighths of a pixel.
@@ -59,16 +87,8 @@ std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int3
   return lights.cell_map[entry(dy) * DEFRAY_CELL_MAP + entry(dx)];
 }
 
-/// Share of a source's light at a pixel that passes the lens's rim.
-float rim_share(const RdbSettings& settings, int x, int y, int dx, int dy, std::int32_t coc) {
-  if (settings.rim_x.empty()) return 1;
-  const float radius = static_cast<float>(coc) * px_per_quantum;
-  const auto away = [&](int d, std::int32_t rim) {
-    return static_cast<float>(d) - radius * (static_cast<float>(rim) * (1.0f / 65536.0f));
-  };
-  const float u = away(dx, settings.rim_x[static_cast<std::size_t>(x)]);
-  const float v = away(dy, settings.rim_y[static_cast<std::size_t>(y)]);
-  return std::clamp(std::fabs(radius) + 0.5f - std::sqrt(u * u + v * v), 0.0f, 1.0f);
+RimCentre rim_at(const RdbSettings& settings, int x, int y) {
+  return {settings.rim_x[static_cast<std::size_t>(x)], settings.rim_y[static_cast<std::size_t>(y)]};
 }
 
 }  // namespace
@@ -108,6 +128,7 @@ Plane highlights(const Fragments& f, int light_channels) {
 void add_light(const LightSources& lights, const FragmentView& f, const RdbSettings& settings,
                const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means) {
   const ApertureTable table{lights.table};
+  const bool has_rim = !settings.rim_x.empty();
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
     const auto& [sx, sy, coc, depth_bits] = lights.where[s];
@@ -115,7 +136,11 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
       for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
-        const std::uint64_t arrives = light_at(table, x - sx, y - sy, coc);
+        const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
+        const Box box = box_between(x - sx, y - sy, coc);
+        const std::uint64_t arrives =
+            has_rim ? light_through(table, box, rim_at(settings, x, y))
+                    : light_in_box(table, box.left, box.top, box.right, box.bottom);
         if (arrives == 0) continue;
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
@@ -125,7 +150,6 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
           return held >= 0 && f.depth[at] < depth &&
                  tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
-        const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
         int visible = 0;
         for (int j = 0; j < across; ++j) {
           for (int i = 0; i < across; ++i) {
@@ -135,25 +159,24 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
         }
         if (visible == 0) continue;
         const float seen = static_cast<float>(visible) / static_cast<float>(across * across);
-        const float passes = rim_share(settings, x, y, x - sx, y - sy, coc);
-        const float share = static_cast<float>(arrives) * lights.share_of_light * passes * seen;
+        const float share = static_cast<float>(arrives) * lights.share_of_light * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];
         }
       }
     }
   }
-  Plane gain;  // what the rim leaves counts as all light
-  const LensCells cells = lens_cells(settings);
-  for (std::size_t i = 0; !settings.rim_x.empty() && i < means[0].size(); ++i) {
+  Plane open(has_rim ? means[0].size() : 0);  // what the rim leaves counts as all light
+  for (std::size_t i = 0; i < open.size(); ++i) {
     const auto width = static_cast<std::size_t>(f.width);
-    const std::size_t open = open_cells(settings, cells, i % width, i / width);
-    gain.push_back(static_cast<float>(cells.centres.size()) /
-                   static_cast<float>(std::max<std::size_t>(open, 1)));
+    const RimCentre rim =
+        rim_at(settings, static_cast<int>(i % width), static_cast<int>(i / width));
+    const std::uint64_t passes = light_through(table, {}, rim);
+    open[i] = std::fmax(static_cast<float>(passes) * lights.share_of_light, 1e-6f);
   }
   for (std::size_t c = 0; c < means.size(); ++c) {
     for (std::size_t i = 0; i < means[c].size(); ++i) {
-      if (!gain.empty()) added[c][i] *= gain[i];
+      if (has_rim) added[c][i] /= open[i];
       means[c][i] += added[c][i];
     }
   }

@@ -1,0 +1,140 @@
+// highlights_add: small bright sources as smooth discs of the aperture's shape.
+//
+// Each pixel gets the share of a source's light that falls into its square: the light of a box of
+// the aperture, from a summed-area table, in integers, so that the shares of all pixels add up to
+// 1. Where the lens's rim cuts the aperture, boxes are cut in strips that end at the rim. Light
+// arrives where the RDB's cells nearest to its way through the lens are not held by a surface in
+// front.
+//
+// first        [tiles + 1]        where a tile's list begins
+// list                            highlights of each tile, in source order
+// where        [highlights]       (x, y in the frame, coc in quanta, depth bits)
+// excess       [highlights]       their light
+// table        [side][side]       summed light of the aperture (host/aperture_table.h)
+// cell_at      [side][side]       nearest lens cell, over the square around the lens
+// winner, coc_quanta (window)     as in rdb_merge; all cells in one pass
+// rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
+// sum          [band_rows][width] in and out
+// Global size: (width, band_rows).
+#include "frame.h"
+
+#define LENS_RADIUS (1L << DEFRAY_LENS_FRACTION_BITS)
+
+// The table's entry for a point in the square around the lens, by four of its neighbours: exact
+// (1/256 texel).
+ulong light_before(__global const uint* restrict table, const long u, const long v) {
+  const uint x = (uint)(u + LENS_RADIUS), y = (uint)(v + LENS_RADIUS);
+  const uint column = x >> 8, row = y >> 8, last = DEFRAY_APERTURE_TABLE - 1u;
+  const ulong right = x & 255u, below = y & 255u;
+  const uint column1 = min(column + 1u, last), row1 = min(row + 1u, last);
+  const ulong a = table[row * DEFRAY_APERTURE_TABLE + column];
+  const ulong b = table[row * DEFRAY_APERTURE_TABLE + column1];
+  const ulong c = table[row1 * DEFRAY_APERTURE_TABLE + column];
+  const ulong d = table[row1 * DEFRAY_APERTURE_TABLE + column1];
+  return (a * (256u - right) + b * right) * (256u - below) +
+         (c * (256u - right) + d * right) * below;
+}
+
+// Lens coordinate of the border between pixels i and i + 1 to the right of a source.
+long border(const int i, const int coc) { return (2L * i + 1L) * (1L << 23) / coc; }
+
+// The part of the lens that a source's light passes on its way to a pixel: (left, top, right,
+// bottom), limited to the square around the lens.
+long4 box_between(const int2 distance, const int coc) {
+  const long2 a = (long2)(border(distance.x - 1, coc), border(distance.y - 1, coc));
+  const long2 b = (long2)(border(distance.x, coc), border(distance.y, coc));
+  return (long4)(clamp(min(a, b), -LENS_RADIUS, LENS_RADIUS),
+                 clamp(max(a, b), -LENS_RADIUS, LENS_RADIUS));
+}
+
+// Light within a box, of the table's total.
+ulong light_in(__global const uint* restrict table, const long4 box) {
+  return light_before(table, box.z, box.w) + light_before(table, box.x, box.y) -
+         light_before(table, box.x, box.w) - light_before(table, box.z, box.y);
+}
+
+// Half a chord of the rim's circle at a distance from its centre: rounded down, on any device.
+long half_chord(const long away) {
+  const long square = LENS_RADIUS * LENS_RADIUS - away * away;
+  const long near = (long)sqrt((float)square);
+  return near * near > square ? near - 1L : (near + 1L) * (near + 1L) <= square ? near + 1L : near;
+}
+
+// Light within a box that passes the rim, by strips each as wide as in its middle: 16 to a pixel,
+// more where that is large beside the lens.
+ulong light_through(__global const uint* restrict table, const long4 box, const long2 rim) {
+  if (box.x >= box.z || box.y >= box.w) return 0ul;
+  const long2 far = max(rim - box.xy, box.zw - rim);
+  if (far.x * far.x + far.y * far.y <= LENS_RADIUS * LENS_RADIUS) return light_in(table, box);
+  const long top = max(box.y, rim.y - LENS_RADIUS), bottom = min(box.w, rim.y + LENS_RADIUS);
+  const long strips = 16L + (bottom - top) * 32L / LENS_RADIUS;
+  ulong light = 0ul;
+  for (long k = 0; k < strips && top < bottom; ++k) {
+    const long above = top + (bottom - top) * k / strips;
+    const long below = top + (bottom - top) * (k + 1L) / strips;
+    const long reach = half_chord((above + below) / 2L - rim.y);
+    const long left = max(box.x, rim.x - reach), right = min(box.z, rim.x + reach);
+    if (left < right) light += light_in(table, (long4)(left, above, right, below));
+  }
+  return light;
+}
+
+// Row or column of the map of lens cells.
+int map_entry(const int eighths, const int coc) {
+  const long lens = (long)eighths * (1L << 21) / (long)coc + LENS_RADIUS;
+  const long at = lens >> (DEFRAY_LENS_FRACTION_BITS + 1 - DEFRAY_CELL_MAP_BITS);
+  return (int)(at < 0 ? 0 : at > DEFRAY_CELL_MAP - 1 ? DEFRAY_CELL_MAP - 1 : at);
+}
+
+// The lens cell nearest to the way from a source to a point of a pixel, in eighths of a pixel.
+uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
+  return cell_at[map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)];
+}
+
+// Whether the RDB's cell on the way from a source to a target is held by a surface in front of it.
+bool is_hidden(const uint2 held, __global const int* restrict coc_quanta, const int4 source) {
+  return held.x != DEFRAY_EMPTY && held.y < (uint)source.w &&
+         coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA;
+}
+
+__kernel void highlights_add(
+    const DefrayRdbParams p, const DefrayLightParams l, __global const uint* restrict first,
+    __global const uint* restrict list, __global const int4* restrict where,
+    __global const float4* restrict excess, __global const uint* restrict table,
+    __global const uint* restrict cell_at, __global const uint2* restrict winner,
+    __global const int* restrict coc_quanta, __global const int* restrict rim_x,
+    __global const int* restrict rim_y, __global float4* restrict sum) {
+  const uint x = get_global_id(0);
+  const uint row = get_global_id(1);
+  if (x >= p.width || row >= p.band_rows) return;
+  const uint y = p.band_y + row;
+  const size_t target = (size_t)row * p.width + x;
+  const uint tile = y / DEFRAY_LIGHT_TILE * l.tiles_x + x / DEFRAY_LIGHT_TILE;
+  const long2 rim = p.has_rim ? (long2)(rim_x[x], rim_y[y]) : (long2)(0L);
+  const size_t cells_apart = (size_t)p.band_rows * p.width;
+  float4 light = 0.0f;
+  for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
+    const int4 h = where[list[i]];
+    const int2 distance = (int2)((int)x - h.x, (int)y - h.y);
+    const long4 box = box_between(distance, h.z);
+    // A pixel that is large beside the disc sees many cells.
+    const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;
+    const ulong arrives = p.has_rim ? light_through(table, box, rim) : light_in(table, box);
+    if (arrives == 0ul) continue;
+    uint visible = 0u;
+    for (int k = 0; k < points * points; ++k) {
+      const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
+      const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
+      visible += is_hidden(winner[cell * cells_apart + target], coc_quanta, h) ? 0u : 1u;
+    }
+    if (visible == 0u) continue;
+    const float seen = (float)visible / (float)(points * points);
+    light += ((float)arrives * l.share_of_light * seen) * excess[list[i]];
+  }
+  if (p.has_rim && first[tile] < first[tile + 1u]) {
+    const long4 lens = (long4)(-LENS_RADIUS, -LENS_RADIUS, LENS_RADIUS, LENS_RADIUS);
+    const ulong open = light_through(table, lens, rim);
+    light /= fmax((float)open * l.share_of_light, 1e-6f);
+  }
+  sum[target] += light;
+}
