@@ -12,15 +12,15 @@
 // Global size of both: (width, height).
 #include "frame.h"
 
-// A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat.
+// A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat,
+// all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come closer to one end.
 // Returns -1 or 1, the end of it that is nearer in CoC, or 0 where there is none.
 int ramp(const int before, const int low, const int middle, const int high, const int after) {
   const int rise = high - low;
   const int from_low = middle - low, to_high = high - middle;
   const bool is_steep = abs(rise) > 2 * DEFRAY_JUMP_QUANTA;
   const bool is_between = (rise > 0) == (from_low > 0) && (rise > 0) == (to_high > 0) &&
-                          abs(from_low) > DEFRAY_JUMP_QUANTA / 4 &&
-                          abs(to_high) > DEFRAY_JUMP_QUANTA / 4;
+                          abs(from_low) > abs(rise) / 8 && abs(to_high) > abs(rise) / 8;
   const bool is_flat = abs(low - before) < abs(rise) / 8 && abs(after - high) < abs(rise) / 8;
   if (!is_steep || !is_between || !is_flat) return 0;
   return abs(from_low) <= abs(to_high) ? -1 : 1;

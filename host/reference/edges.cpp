@@ -18,7 +18,7 @@ struct Line {
   bool is_ramp() const {
     const int rise = high - low;
     const auto is_on_the_way = [&](int step) {
-      return (step > 0) == (rise > 0) && std::abs(step) > DEFRAY_JUMP_QUANTA / 4;
+      return (step > 0) == (rise > 0) && std::abs(step) > std::abs(rise) / 8;
     };
     const auto is_flat = [&](int step) { return std::abs(step) < std::abs(rise) / 8; };
     return std::abs(rise) > 2 * DEFRAY_JUMP_QUANTA && is_on_the_way(middle - low) &&
