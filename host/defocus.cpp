@@ -122,8 +122,8 @@ class Chain {
       }
       encoded.push_back(word);
     }
-    const PatternFrame frame{e.width,      e.height,          encoded,
-                             e.coc_quanta, behind.coc_quanta, is_behind};
+    const PatternFrame frame{e.width,           e.height,  encoded,   e.coc_quanta,
+                             behind.coc_quanta, is_behind, e.inverse, behind.inverse};
     PatternSettings patterns;
     patterns.shifts = settings_.pattern_shifts;
     patterns.memory_bytes = rdb_.memory_bytes;

@@ -18,11 +18,13 @@ class PatternBand {
         p_(pattern_band(frame, margins, settings, band_y, band_rows)),
         pixels_(pattern_window(frame, p_, band_y, pixels, 0u)),
         coc_(pattern_window(frame, p_, band_y, frame.coc_quanta, 0)),
+        inverse_(pattern_window(frame, p_, band_y, frame.inverse, 0.0f)),
         units_(pattern_units(p_, pixels_)),
         zeros_(pixels_.size()) {
     if (!anything()) return;
     pixel_buffer_ = session.view(pixels_);
     coc_buffer_ = session.view(coc_);
+    inverse_buffer_ = session.view(inverse_);
     difference_units_ = session.view(units_.difference);
     column_units_ = session.view(units_.columns);
     match_units_ = session.view(units_.match);
@@ -39,8 +41,9 @@ class PatternBand {
   void difference(PatternShift shift) {
     p_.shift_x = shift.x;
     p_.shift_y = shift.y;
+    p_.parallel = shift.parallel;
     launch("patterns_difference", units_.difference, difference_units_, pixel_buffer_, coc_buffer_,
-           difference_);
+           inverse_buffer_, difference_);
   }
 
   void columns() { launch("patterns_columns", units_.columns, column_units_, difference_, sums_); }
@@ -79,10 +82,11 @@ class PatternBand {
   DefrayPatternParams p_;
   std::vector<std::uint32_t> pixels_;
   std::vector<std::int32_t> coc_;
+  Plane inverse_;
   PatternUnits units_;
   std::vector<std::uint64_t> zeros_;
-  cl::Buffer pixel_buffer_, coc_buffer_, difference_units_, column_units_, match_units_,
-      difference_, sums_;
+  cl::Buffer pixel_buffer_, coc_buffer_, inverse_buffer_, difference_units_, column_units_,
+      match_units_, difference_, sums_;
 };
 
 /// Four channels from `count` pixels on; a missing one repeats the last.
@@ -109,6 +113,8 @@ void match_band(Session& session, const PatternFrame& frame, PatternBand& band, 
                         as_size(source_end - source_y) * p.width);
   const cl::Buffer behind_coc =
       session.view(&frame.behind_coc[first], count * sizeof(std::int32_t));
+  const cl::Buffer behind_inverse =
+      session.view(&frame.behind_inverse[first], count * sizeof(float));
   const cl::Buffer sum = session.buffer(count * sizeof(cl_float4));
   const cl::Buffer weight = session.buffer(count * sizeof(cl_float2));
   const auto& [s0, s1, s2, s3] = smooth.buffer;
@@ -116,7 +122,7 @@ void match_band(Session& session, const PatternFrame& frame, PatternBand& band, 
   for (std::size_t i = 0; i < shifts.size(); ++i) {
     band.difference(shifts[i]);
     band.columns();
-    band.match(i == 0, behind_coc, s0, s1, s2, s3, c0, c1, c2, c3, sum, weight);
+    band.match(i == 0, behind_coc, behind_inverse, s0, s1, s2, s3, c0, c1, c2, c3, sum, weight);
   }
   std::vector<cl_float4> sums(count);
   std::vector<cl_float2> weights(count);

@@ -12,7 +12,6 @@ namespace defray {
 namespace {
 
 constexpr int block = 4;        ///< Side of the blocks of the coarse search, px.
-constexpr int least_px = 8;     ///< Closer pixels resemble each other on any smooth surface.
 constexpr int refine_px = 3;    ///< Around a coarse minimum.
 constexpr int refine_rows = 8;  ///< One row of so many is compared.
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
@@ -152,7 +151,7 @@ class CoarseMap {
     std::vector<Candidate> all;
     for (int y = 0; y <= reach_y_; ++y) {
       for (int x = y == 0 ? 1 : -reach_x_; x <= reach_x_; ++x) {
-        const bool is_far = std::max(std::abs(x), y) * block >= least_px;
+        const bool is_far = std::max(std::abs(x), y) * block >= DEFRAY_PATTERN_LEAST;
         if (is_far && is_minimum(x, y)) all.push_back({at(x, y), {x * block, y * block}});
       }
     }

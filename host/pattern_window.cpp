@@ -102,8 +102,9 @@ PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::
 }
 
 std::size_t pattern_band_bytes(int width, const PatternMargins& margins, int rows) {
-  constexpr std::size_t window_pixel = 2 * 4 + 4 + 8;              // pixels, CoC, differences, sums
-  constexpr std::size_t target_pixel = 4 + 4 * 4 + 4 * 4 + 2 * 4;  // CoC, smooth, sums, weights
+  constexpr std::size_t window_pixel = 3 * 4 + 4 + 8;  // pixels, CoC, 1/depth, differences, sums
+  constexpr std::size_t target_pixel =
+      2 * 4 + 4 * 4 + 4 * 4 + 2 * 4;  // both, smooth, sums, weights
   constexpr std::size_t source_pixel = 4 * 4;
   const std::size_t columns = static_cast<std::size_t>(width);
   const std::size_t band = static_cast<std::size_t>(rows);

@@ -84,6 +84,8 @@
 #define DEFRAY_PATTERN_LARGEST_WINDOW 48
 /// Pixels of a row that one work-item compares, as one vector.
 #define DEFRAY_PATTERN_RUN 16
+/// Closer pixels resemble each other on any smooth surface: no shift is shorter, px.
+#define DEFRAY_PATTERN_LEAST 8
 /// One work-item of `patterns_columns`: so many columns, as one vector, and rows.
 #define DEFRAY_PATTERN_COLUMNS 8
 #define DEFRAY_PATTERN_STRIP 64
@@ -215,9 +217,10 @@ typedef struct {
   DEFRAY_UINT margin_x;    ///< Columns of the window before the frame's first.
   DEFRAY_UINT margin_y;    ///< Rows of the window before the band's first.
   DEFRAY_UINT source_row;  ///< The band's first row, counted in the rows of the colour planes.
-  DEFRAY_INT shift_x;      ///< From a pixel to its match, px.
+  DEFRAY_INT shift_x;      ///< From a pixel to its match, px; if parallel, the longest.
   DEFRAY_INT shift_y;
-  DEFRAY_INT window_px;          ///< Side n of the box whose square, convolved, weighs pairs.
+  float parallel;        ///< Not 0: through the scene along the picture, px where 1/depth is 1.
+  DEFRAY_INT window_px;  ///< Side n of the box whose square, convolved, weighs pairs.
   DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
   DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
   DEFRAY_UINT is_first;          ///< 1: sums start at zero.
@@ -229,7 +232,7 @@ static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
-static_assert(sizeof(DefrayPatternParams) == 52);
+static_assert(sizeof(DefrayPatternParams) == 56);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

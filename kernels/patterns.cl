@@ -3,6 +3,8 @@
 // Periodic and repeating surfaces look alike at a few shifts (He & Sun 2012, "Statistics of patch
 // offsets for image completion"). For one shift s: how well the surroundings of a pixel x agree
 // with those of x + s, and, the better the more weight, the colour of x + s for what x hides.
+// Where a floor or a wall slants, its pattern repeats at one distance in the scene: then s is
+// parallel to the picture there, and as long in it as the surface is near.
 //
 // patterns_difference   squared difference of the 8-bit colours of x and x + s, where both are
 // known
@@ -17,9 +19,11 @@
 //
 // pixels       8-bit colour, known and behind flags (params.h)
 // coc_quanta   signed radius, 1/256 px
+// inverse      1/depth
 // difference   bit 24: a pair; below: its squared difference
 // sums         number of pairs << 40 | squared differences, weighted
 // behind_coc   [rows][width]                  radius of the synthesised fragment
+// behind_inverse [rows][width]                its 1/depth
 // channel_behind0..3  [rows][width]          its colour, before: smooth
 // channel0..3  [from source_row rows above the band on][width]   linear colours of the frame
 // sum          [rows][width]                  only where there is a fragment behind
@@ -39,13 +43,43 @@ uint16 squared(const uint16 a, const uint16 b, const uint shift) {
   return d * d;
 }
 
+// From a pixel at this depth to its match; (0, 0) where a parallel shift is too short or too long.
+int2 shift_at(const DefrayPatternParams p, const float inverse) {
+  const int2 longest = (int2)(p.shift_x, p.shift_y);
+  if (p.parallel == 0.0f) return longest;
+  const float px = p.parallel * inverse;
+  const float most = (float)max(abs(p.shift_x), abs(p.shift_y));
+  if (!(px >= (float)DEFRAY_PATTERN_LEAST && px <= most)) return (int2)(0);
+  const int length = (int)rint(px);
+  return clamp(longest, -length, length);
+}
+
+// The same as the vectors below, for one pixel.
+uint difference_at(const DefrayPatternParams p, __global const uint* restrict pixels,
+                   __global const int* restrict coc_quanta, const size_t at, const int2 shift) {
+  if (shift.x == 0 && shift.y == 0) return 0u;
+  const size_t there = (size_t)((long)at + (long)shift.y * p.stride + shift.x);
+  const uint a = pixels[at], b = pixels[there];
+  const bool is_one_surface = abs_diff(coc_quanta[at], coc_quanta[there]) <= p.tolerance_quanta;
+  if (!(a & b & DEFRAY_PATTERN_KNOWN) || !is_one_surface) return 0u;
+  const int4 d = (int4)((int)(a & 255u), (int)(a >> 8 & 255u), (int)(a >> 16 & 255u), 0) -
+                 (int4)((int)(b & 255u), (int)(b >> 8 & 255u), (int)(b >> 16 & 255u), 0);
+  return DEFRAY_PATTERN_KNOWN | (uint)(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
 __kernel void patterns_difference(const DefrayPatternParams p, __global const uint2* restrict units,
                                   __global const uint* restrict pixels,
                                   __global const int* restrict coc_quanta,
+                                  __global const float* restrict inverse,
                                   __global uint* restrict difference) {
   if (get_global_id(0) >= p.unit_count) return;
   const uint2 unit = units[get_global_id(0)];
   const size_t at = (size_t)unit.y * p.stride + unit.x;
+  for (uint i = 0; i < DEFRAY_PATTERN_RUN && p.parallel != 0.0f; ++i) {
+    const int2 shift = shift_at(p, inverse[at + i]);
+    difference[at + i] = difference_at(p, pixels, coc_quanta, at + i, shift);
+  }
+  if (p.parallel != 0.0f) return;
   const size_t there = (size_t)((long)at + (long)p.shift_y * p.stride + p.shift_x);
   const uint16 a = vload16(0, pixels + at), b = vload16(0, pixels + there);
   const uint16 close =
@@ -106,16 +140,16 @@ __kernel void patterns_match(
     const DefrayPatternParams p, __global const uint2* restrict units,
     __global const uint* restrict pixels, __global const int* restrict coc_quanta,
     __global const ulong* restrict sums, __global const int* restrict behind_coc,
-    __global const float* restrict channel_behind0, __global const float* restrict channel_behind1,
-    __global const float* restrict channel_behind2, __global const float* restrict channel_behind3,
-    __global const float* restrict channel0, __global const float* restrict channel1,
-    __global const float* restrict channel2, __global const float* restrict channel3,
-    __global float4* restrict sum, __global float2* restrict weight) {
+    __global const float* restrict behind_inverse, __global const float* restrict channel_behind0,
+    __global const float* restrict channel_behind1, __global const float* restrict channel_behind2,
+    __global const float* restrict channel_behind3, __global const float* restrict channel0,
+    __global const float* restrict channel1, __global const float* restrict channel2,
+    __global const float* restrict channel3, __global float4* restrict sum,
+    __global float2* restrict weight) {
   if (get_global_id(0) >= p.unit_count) return;
   const uint2 unit = units[get_global_id(0)];
   const int n = p.window_px;
   const uint x0 = unit.x - p.margin_x, y = unit.y - p.margin_y;
-  const long shift = (long)p.shift_y * p.stride + p.shift_x;
   const size_t first = (size_t)unit.y * p.stride + unit.x;
   ulong window = 0ul, before = 0ul, after = 0ul;
   for (int j = 0; j < n; ++j) {
@@ -130,9 +164,10 @@ __kernel void patterns_match(
   const uint count = min((uint)DEFRAY_PATTERN_CHUNK, p.width - x0);
   for (uint i = 0; i < count; ++i) {
     const size_t at = first + i;
-    const size_t there = (size_t)((long)at + shift);
     if (pixels[at] & DEFRAY_PATTERN_BEHIND) {
       const size_t target = (size_t)y * p.width + x0 + i;
+      const int2 shift = shift_at(p, behind_inverse[target]);
+      const size_t there = (size_t)((long)at + (long)shift.y * p.stride + shift.x);
       const bool is_match = pixels[there] & DEFRAY_PATTERN_KNOWN &&
                             window >> DEFRAY_PATTERN_COUNT_BIT >= p.least_pairs &&
                             abs_diff(coc_quanta[there], behind_coc[target]) <= p.tolerance_quanta;
@@ -141,7 +176,7 @@ __kernel void patterns_match(
         float2 weights = p.is_first ? (float2)(0.0f) : weight[target];
         if (is_match) {
           const size_t source =
-              (size_t)((long)(p.source_row + y) + p.shift_y) * p.width + (x0 + i) + p.shift_x;
+              (size_t)((long)(p.source_row + y) + shift.y) * p.width + (x0 + i) + shift.x;
           const float2 w = weight_of(window);
           total += w.x * (colour_at(channel0, channel1, channel2, channel3, source) -
                           colour_at(channel_behind0, channel_behind1, channel_behind2,

@@ -47,6 +47,58 @@ TEST_F(PatternPicture, APeriodicWallComesBackBehindABar) {
   EXPECT_LT(s.error(planes, bricks), 0.05 * s.error(s.behind, bricks));
 }
 
+/// Tiles on a floor: 1/depth grows with the rows, and CoC with it. Turned, a wall on the left.
+PatternScene slanting_scene(bool is_turned) {
+  const auto inverse = [](int row) { return 0.004f * static_cast<float>(row + 40); };
+  const auto tiles = [=](int x, int y, int c) {
+    const int along = is_turned ? y : x, row = is_turned ? x : y;
+    const double u = (along - 60) / inverse(row), v = 6 / inverse(row);
+    return static_cast<float>(0.5 + 0.2 * std::sin(u / 12 + c) + 0.2 * std::sin(v + 2 * c));
+  };
+  PatternScene s(is_turned ? Size{120, 300} : Size{300, 120});
+  s.paint(tiles, [=](int x, int y) { return bar(is_turned ? y : x, 0); });
+  for (std::size_t i = 0; i < s.pixels(); ++i) {
+    const int x = static_cast<int>(i) % s.size.width, y = static_cast<int>(i) / s.size.width;
+    s.inverse[i] = s.behind_inverse[i] = inverse(is_turned ? x : y);
+    s.behind_coc[i] = static_cast<std::int32_t>(-9000 * s.inverse[i]);
+    if (!s.is_behind[i]) s.coc[i] = s.behind_coc[i];
+    for (int c = 0; c < 3; ++c) s.truth[static_cast<std::size_t>(c)][i] = tiles(x, y, c);
+  }
+  return s;
+}
+
+TEST_F(PatternPicture, AFloorAndAWallThatSlantComeBackBehindABar) {
+  for (const bool is_turned : {false, true}) {
+    const PatternScene s = slanting_scene(is_turned);
+    const auto wall = [&](int x, int y, int c) {
+      return s.truth[static_cast<std::size_t>(c)][s.at(x, y)];
+    };
+    PatternSettings without;
+    without.parallel_shifts = 0;
+    const double before = s.error(s.improved(without), wall), after = s.error(s.improved(), wall);
+    EXPECT_LT(after, 0.2 * before) << before;
+    EXPECT_GT(before, 0.05);
+  }
+}
+
+TEST_F(PatternPicture, ParallelShiftsOfAFloorAreItsPeriodAndFrontalWallsHaveNone) {
+  const PatternScene s = slanting_scene(false);
+  const auto shifts =
+      find_parallel_shifts(s.frame(), pattern_pixels(s.frame(), s.channels), PatternSettings());
+  ASSERT_GE(shifts.size(), 2u);
+  const double period = 2 * std::numbers::pi * 12;
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(shifts[i].parallel / period, std::round(shifts[i].parallel / period), 0.02);
+    EXPECT_EQ(shifts[i].y, 0);
+  }
+  EXPECT_EQ(shifts[0].x, -shifts[1].x);
+  const PatternScene frontal = scene_of(bricks);
+  EXPECT_TRUE(find_parallel_shifts(frontal.frame(),
+                                   pattern_pixels(frontal.frame(), frontal.channels),
+                                   PatternSettings())
+                  .empty());
+}
+
 TEST_F(PatternPicture, NoiseStaysSmooth) {
   const PatternScene s = scene_of(noise);
   const auto planes = s.improved();

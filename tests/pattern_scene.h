@@ -14,8 +14,11 @@ namespace defray::test {
 struct PatternScene {
   explicit PatternScene(Size s) : size(s), encoded(pixels()), coc(pixels()), behind_coc(pixels()) {
     is_behind.resize(pixels());
+    inverse.assign(pixels(), 1);
+    behind_inverse.assign(pixels(), 1);
     channels.assign(3, Plane(pixels()));
     behind.assign(3, Plane(pixels()));
+    truth = behind;
   }
 
   std::size_t pixels() const {
@@ -48,7 +51,7 @@ struct PatternScene {
   }
 
   PatternFrame frame() const {
-    return {size.width, size.height, encoded, coc, behind_coc, is_behind};
+    return {size.width, size.height, encoded, coc, behind_coc, is_behind, inverse, behind_inverse};
   }
 
   std::vector<Plane> improved(const PatternSettings& settings = {}) const {
@@ -77,7 +80,8 @@ struct PatternScene {
   std::vector<std::uint32_t> encoded;
   std::vector<std::int32_t> coc, behind_coc;
   std::vector<std::uint32_t> is_behind;
-  std::vector<Plane> channels, behind;
+  std::vector<Plane> channels, behind, truth;
+  Plane inverse, behind_inverse;
 };
 
 inline constexpr Size picture{200, 120};

@@ -16,6 +16,8 @@ PatternScene random_scene(Size size, double share) {
     if (random.next() < 0.2) s.encoded[i] &= ~DEFRAY_PATTERN_KNOWN;
     s.coc[i] = static_cast<std::int32_t>(1000 * random.next());
     s.behind_coc[i] = static_cast<std::int32_t>(1000 * random.next());
+    s.inverse[i] = static_cast<float>(random.next());
+    s.behind_inverse[i] = static_cast<float>(random.next());
   }
   return s;
 }
@@ -27,7 +29,8 @@ std::uint64_t hash_of_sums(const PatternSums& s) {
   return hash_of(all);
 }
 
-const std::vector<PatternShift> some_shifts{{3, 1}, {-3, -1}, {0, 5}, {-40, 0}, {1000, 3}, {0, 0}};
+const std::vector<PatternShift> some_shifts{{3, 1},    {-3, -1}, {0, 5},      {-40, 0},
+                                            {1000, 3}, {0, 0},   {50, 0, 60}, {0, -30, 45}};
 
 void expect_twins_bits(const PatternScene& s, PatternSettings settings) {
   const Size size = s.size;

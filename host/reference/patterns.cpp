@@ -62,8 +62,10 @@ void add_shift(const PatternFrame& frame, const std::vector<std::uint32_t>& pixe
   const std::vector<std::uint64_t> columns = pattern_columns(frame, pixels, shift, settings);
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
-      if (!frame.behind[f.at(x, y)] || !f.has(x + shift.x, y + shift.y)) continue;
-      const std::size_t here = f.at(x, y), there = f.at(x + shift.x, y + shift.y);
+      const std::size_t here = f.at(x, y);
+      const PatternShift s = shift_at(shift, frame.behind_inverse[here]);
+      if (!frame.behind[here] || !f.has(x + s.x, y + s.y)) continue;
+      const std::size_t there = f.at(x + s.x, y + s.y);
       if (!(pixels[there] & DEFRAY_PATTERN_KNOWN)) continue;
       if (!close(frame.coc_quanta[there], frame.behind_coc[here], settings.tolerance_quanta)) {
         continue;
@@ -90,8 +92,11 @@ std::vector<std::uint32_t> pattern_difference(const PatternFrame& frame,
   std::vector<std::uint32_t> out(pixels.size());
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
-      if (!f.has(x + shift.x, y + shift.y)) continue;
-      const std::size_t here = f.at(x, y), there = f.at(x + shift.x, y + shift.y);
+      const std::size_t here = f.at(x, y);
+      const PatternShift s = shift_at(shift, frame.inverse[here]);
+      const bool is_too_short = shift.parallel != 0 && s == PatternShift{0, 0};
+      if (is_too_short || !f.has(x + s.x, y + s.y)) continue;
+      const std::size_t there = f.at(x + s.x, y + s.y);
       const bool known =
           pixels[here] & DEFRAY_PATTERN_KNOWN && pixels[there] & DEFRAY_PATTERN_KNOWN;
       if (!known ||

@@ -20,7 +20,8 @@ class PatternCase {
  public:
   /// `hides_everything`: a fragment behind every pixel, so that all of a kernel's output counts.
   PatternCase(const Case& c, const Input& in, bool hides_everything)
-      : coc_(in.coc_quanta), frame{c.width, c.height, encoded_, in.coc_quanta, coc_, behind_} {
+      : coc_(in.coc_quanta), frame{c.width, c.height, encoded_, in.coc_quanta,
+                                   coc_,    behind_,  inverse_, behind_inverse_} {
     std::reverse(coc_.begin(), coc_.end());
     for (int y = 0; y < c.height; ++y) {
       for (int x = 0; x < c.width; ++x) add_pixel(Random(x, y, c.seed + 1), in, hides_everything);
@@ -46,6 +47,8 @@ class PatternCase {
       word |= static_cast<std::uint32_t>(v > 0 ? 255 * std::min(v, 1.0f) : 0.0f) << (8 * k);
     }
     encoded_.push_back(word);
+    inverse_.push_back(static_cast<float>(random.next()));
+    behind_inverse_.push_back(static_cast<float>(random.next()));
     behind_.push_back(hides_everything || random.next() < 0.1);
   }
 
@@ -60,10 +63,15 @@ class PatternCase {
       const int x = any(c.width);
       shifts.push_back({x, any(c.height)});
     }
+    // The first is what kernels by themselves are checked with.
+    PatternShift& parallel = shifts[c.seed % 2];
+    parallel.parallel = static_cast<float>(80 * random.next());
+    (c.seed % 3 == 0 ? parallel.x : parallel.y) = 0;
   }
 
   std::vector<std::uint32_t> encoded_, behind_;
   std::vector<std::int32_t> coc_;
+  Plane inverse_, behind_inverse_;
 
  public:
   PatternFrame frame;
