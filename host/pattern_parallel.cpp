@@ -138,8 +138,8 @@ std::vector<PatternShift> find_parallel_shifts(const PatternFrame& frame,
     PatternShift shift;
   };
   std::vector<Found> found;
-  const int reach = settings.parallel_reach_px;
-  for (const PatternShift longest : {PatternShift{reach, 0}, PatternShift{0, reach}}) {
+  for (const PatternShift longest : {PatternShift{settings.parallel_reach_x_px, 0},
+                                     PatternShift{0, settings.parallel_reach_y_px}}) {
     for (const Length& l : ParallelSearch(frame, pixels, settings, longest).find()) {
       found.push_back({l.cost, {longest.x, longest.y, l.parallel}});
     }

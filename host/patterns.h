@@ -31,7 +31,7 @@ struct PatternSettings {
   int shifts = 24;     ///< The best of one half plane: each counts with both its signs.
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   int parallel_shifts = 4;                 ///< The best of those parallel to the picture, as many.
-  int parallel_reach_px = 400;             ///< Of these.
+  int parallel_reach_x_px = 400, parallel_reach_y_px = 128;  ///< Of these.
   /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
   /// distance of each other, through all of the lens.
   std::int32_t tolerance_quanta = 1 << DEFRAY_COC_FRACTION_BITS;

@@ -7,8 +7,7 @@
 // parallel to the picture there, and as long in it as the surface is near.
 //
 // patterns_difference   squared difference of the 8-bit colours of x and x + s, where both are
-// known
-//                       and of one surface (similar CoC)
+//                       known and of one surface (similar CoC)
 // patterns_columns      its sums over columns with weights n - |dy|: a box of n rows, twice
 // patterns_match        the same along rows; D, the mean squared difference; then weight
 //                       w = (1/100 / D)^6, D in units of white squared, and the sums of w, w D and
