@@ -43,8 +43,8 @@ long border(const int i, const int coc) { return (2L * i + 1L) * (1L << 23) / co
 long4 box_between(const int2 distance, const int coc) {
   const long2 a = (long2)(border(distance.x - 1, coc), border(distance.y - 1, coc));
   const long2 b = (long2)(border(distance.x, coc), border(distance.y, coc));
-  return (long4)(clamp(min(a, b), -LENS_RADIUS, LENS_RADIUS),
-                 clamp(max(a, b), -LENS_RADIUS, LENS_RADIUS));
+  const long2 least = (long2)(-LENS_RADIUS), most = (long2)(LENS_RADIUS);
+  return (long4)(clamp(min(a, b), least, most), clamp(max(a, b), least, most));
 }
 
 // Light within a box, of the table's total.

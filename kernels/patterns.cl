@@ -50,7 +50,7 @@ int2 shift_at(const DefrayPatternParams p, const float inverse) {
   const float most = (float)max(abs(p.shift_x), abs(p.shift_y));
   if (!(px >= (float)DEFRAY_PATTERN_LEAST && px <= most)) return (int2)(0);
   const int length = (int)rint(px);
-  return clamp(longest, -length, length);
+  return clamp(longest, (int2)(-length), (int2)(length));
 }
 
 // The same as the vectors below, for one pixel.

@@ -238,7 +238,7 @@ inline const std::vector<Fault>& faults() {
        {"(long)(p.source_row + y) + shift.y", "(long)(p.source_row + y)"}},
       {"patterns_difference",
        "parallel shifts along one axis alone",
-       {"return clamp(longest, -length, length)", "return (int2)(longest.x, 0)"}},
+       {"return clamp(longest, (int2)(-length), (int2)(length))", "return (int2)(longest.x, 0)"}},
       {"patterns_difference",
        "parallel shifts of any length",
        {"if (!(px >= (float)DEFRAY_PATTERN_LEAST && px <= most)) return (int2)(0);", ""}},
