@@ -59,6 +59,17 @@ int fail_with(ExitCode code, const std::string& message) {
   return static_cast<int>(code);
 }
 
+/// A shell's unset variable must not pass for an option that was left out.
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (!value.empty()) continue;
+      fail(ExitCode::usage, "{} is empty: give a value, or leave the option out",
+           option->get_name());
+    }
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app{about, "defray"};
   app.footer(footer);
@@ -83,6 +94,7 @@ int run(int argc, char** argv) {
   }
   for (const auto& [app_of, command] : commands) {
     if (!app_of->parsed()) continue;
+    refuse_empty_values(*app_of);
     const int code = command();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
       return fail_with(ExitCode::output, "cannot write to standard output");

@@ -99,6 +99,10 @@ TEST_F(BadInput, OptionValues) {
   expect_render_refused(base + "--rdb 0", 2, {"--rdb is 0", "1 to 64"});
   expect_render_refused(base + "--rdb 65", 2, {"--rdb is 65"});
   expect_render_refused(base + "--rdb x", 2, {"--rdb"});
+  for (const std::string option : {"--rdb", "--cats-eye", "--quality", "--coc-out", "--device"}) {
+    expect_render_refused(base + option + " ''", 2, {option + " is empty", "leave the option out"});
+  }
+  expect_render_refused(base + "--cats-eye=", 2, {"--cats-eye"});
   expect_render_refused(base + "--method rbd", 2, {"'rbd'", "Did you mean 'rdb'?"});
   expect_render_refused(base + "--depth-kind distnace", 2, {"Did you mean 'distance'?"});
   expect_render_refused(base + "--nonfinite zreo", 2, {"Did you mean 'zero'?"});
