@@ -60,8 +60,8 @@ class Chain {
   }
 
   /// Depth that was anti-aliased has many pixels between two surfaces: of the built-in scenes' edge
-  /// pixels one in 3 to 15, at 320 x 240 and larger (`cutout`, before nothing, one in 40). Otherwise
-  /// it is one in 28 or less: wires.
+  /// pixels one in 3 to 15, at 320 x 240 and larger (`cutout`, before nothing, one in 40).
+  /// Otherwise it is one in 28 or less: wires.
   void repair_depth(ExtendedFrame& e) {
     const Words source = session_
                              ? repair(*session_, e.width, e.height, e.coc_quanta, rdb_.memory_bytes)
