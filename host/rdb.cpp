@@ -140,7 +140,7 @@ void RdbRun::add_light(const RdbPass& pass) {
   const DefrayLightParams l{static_cast<std::uint32_t>(lights_->tiles_x), lights_->share_of_light};
   session_.launch("highlights_add", DEFRAY_RDB_MERGE_GROUP, {p.width, p.band_rows}, p, l,
                   light_.first, light_.list, light_.where, light_.excess, light_.table,
-                  light_.cell_map, winner_, window_.coc, rim_x_, rim_y_, sum_);
+                  light_.cell_map, winner_, window_.coc, window_.coverage, rim_x_, rim_y_, sum_);
 }
 
 void RdbRun::read_band(const RdbPass& pass, RdbResult& out) {

@@ -4,7 +4,8 @@
 // the aperture, from a summed-area table, in integers, so that the shares of all pixels add up to
 // 1. Where the lens's rim cuts the aperture, boxes are cut in strips that end at the rim. Light
 // arrives where the RDB's cells nearest to its way through the lens are not held by a surface in
-// front.
+// front. A sharp edge's share of a pixel holds some cells and others not: of light behind it that
+// share is taken, whichever cells are nearest.
 //
 // first        [tiles + 1]        where a tile's list begins
 // list                            highlights of each tile, in source order
@@ -12,7 +13,7 @@
 // excess       [highlights]       their light
 // table        [side][side]       summed light of the aperture (host/aperture_table.h)
 // cell_at      [side][side]       nearest lens cell, over the square around the lens
-// winner, coc_quanta (window)     as in rdb_merge; all cells in one pass
+// winner, coc_quanta, coverage (window)     as in rdb_merge; all cells in one pass
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
 // sum          [band_rows][width] in and out
 // Global size: (width, band_rows).
@@ -102,8 +103,9 @@ __kernel void highlights_add(
     __global const uint* restrict list, __global const int4* restrict where,
     __global const float4* restrict excess, __global const uint* restrict table,
     __global const uint* restrict cell_at, __global const uint2* restrict winner,
-    __global const int* restrict coc_quanta, __global const int* restrict rim_x,
-    __global const int* restrict rim_y, __global float4* restrict sum) {
+    __global const int* restrict coc_quanta, __global const uint* restrict coverage,
+    __global const int* restrict rim_x, __global const int* restrict rim_y,
+    __global float4* restrict sum) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
@@ -111,6 +113,10 @@ __kernel void highlights_add(
   const size_t target = (size_t)row * p.width + x;
   const uint tile = y / DEFRAY_LIGHT_TILE * l.tiles_x + x / DEFRAY_LIGHT_TILE;
   const long2 rim = p.has_rim ? (long2)(rim_x[x], rim_y[y]) : (long2)(0L);
+  const uint own = (p.band_y - p.window_y + row) * p.layers * p.width + x;
+  const int own_coc = coc_of(coc_quanta, own);
+  const bool is_sharp_edge = p.has_coverage && coverage[own] < DEFRAY_WHOLE && coverage[own] > 0u &&
+                             abs(own_coc) < DEFRAY_SHARP_QUANTA;
   const size_t cells_apart = (size_t)p.band_rows * p.width;
   float4 light = 0.0f;
   for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
@@ -121,14 +127,18 @@ __kernel void highlights_add(
     const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;
     const ulong arrives = p.has_rim ? light_through(table, box, rim) : light_in(table, box);
     if (arrives == 0ul) continue;
+    const bool is_veiled = is_sharp_edge && own_coc < h.z - DEFRAY_JUMP_QUANTA;
     uint visible = 0u;
     for (int k = 0; k < points * points; ++k) {
       const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
       const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
-      visible += is_hidden(winner[cell * cells_apart + target], coc_quanta, h) ? 0u : 1u;
+      const uint2 held = winner[cell * cells_apart + target];
+      const bool is_free = is_veiled && held.x == own;
+      visible += is_free || !is_hidden(held, coc_quanta, h) ? 1u : 0u;
     }
     if (visible == 0u) continue;
-    const float seen = (float)visible / (float)(points * points);
+    const float past = is_veiled ? 1.0f - (float)coverage[own] * (1.0f / DEFRAY_WHOLE) : 1.0f;
+    const float seen = (float)visible / (float)(points * points) * past;
     light += ((float)arrives * l.share_of_light * seen) * excess[list[i]];
   }
   if (p.has_rim && first[tile] < first[tile + 1u]) {

@@ -47,6 +47,8 @@
 #define DEFRAY_HIGHLIGHT 10.0f
 /// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens cell.
 #define DEFRAY_WIDE_QUANTA 1024
+/// Below this CoC (half a pixel) a fragment's rays stay in its pixel.
+#define DEFRAY_SHARP_QUANTA 128
 /// Side of the square tiles that highlights are sorted into, in pixels.
 #define DEFRAY_LIGHT_TILE 32
 /// Entries a side of the aperture's summed-area table: one more than texels.

@@ -69,6 +69,13 @@ inline std::vector<Fault> highlight_faults() {
       {"highlights_add",
        "half as many strips where pixels are large",
        {"(bottom - top) * 32L", "(bottom - top) * 16L"}},
+      {"highlights_add",
+       "sharp edges hide by cells",
+       {"(float)coverage[own] * (1.0f / DEFRAY_WHOLE)", "0.0f"}},
+      {"highlights_add",
+       "sharp edges hide lights in front of them",
+       {"is_sharp_edge && own_coc < h.z - DEFRAY_JUMP_QUANTA", "is_sharp_edge"}},
+      {"highlights_add", "sharp edges hide twice", {"is_veiled && held.x == own", "false"}},
       {"highlights_add", "in the means' place", {"sum[target] += light;", "sum[target] = light;"}},
   };
 }

@@ -204,6 +204,32 @@ TEST(HighlightDisc, KeepsTheLightThatTheRimLeaves) {
   }
 }
 
+// A post in focus on the right, half of column 35: rays see it or not, light is veiled by half.
+TEST(HighlightDisc, AnEdgeThatCutsItIsEven) {
+  constexpr int side = 61, edge = 35;
+  std::vector<std::int32_t> coc;
+  Plane depth, picture;
+  for (int i = 0; i < side * side; ++i) {
+    const int x = i % side;
+    coc.push_back(x > edge ? 0 : 12 * 256);
+    depth.push_back(x > edge ? 2.0f : 9.0f);
+    picture.push_back(x > edge ? 0.3f : x == edge ? 0.175f : 0.05f);
+  }
+  picture[side * side / 2] = light;
+  MethodSettings method;
+  method.defocus = DefocusSettings{};
+  const Plane out = apply_method({side, side, coc, depth, {picture}}, method, &session())[0];
+  const double level = light / (std::numbers::pi * 12 * 12);
+  for (int y = side / 2 - 8; y <= side / 2 + 8; ++y) {
+    const auto row = out.begin() + y * side;
+    EXPECT_NEAR(row[edge - 3] / level, 1, 0.03) << y;
+    EXPECT_NEAR(row[edge] / level, 0.5, 0.1) << y;
+    EXPECT_NEAR(row[edge + 3], 0.3, 0.01) << y;
+  }
+  EXPECT_EQ(hash_of({out}),
+            hash_of(apply_method({side, side, coc, depth, {picture}}, method, nullptr)));
+}
+
 TEST(HighlightDisc, ChangesAsLittleAsItsRadius) {
   // The smallest step; at 3 px the neighbourhood's samples begin to move.
   for (const double radius : {0.3, 0.5, 0.77, 1.0, 1.5, 2.0, 3.0, 8.0, 34.7}) {

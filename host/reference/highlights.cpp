@@ -87,6 +87,14 @@ std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int3
   return lights.cell_map[entry(dy) * DEFRAY_CELL_MAP + entry(dx)];
 }
 
+/// Share of the pixel that a sharp edge in front of a source with this CoC covers; 0: no such edge.
+float sharp_edge(const FragmentView& f, std::size_t front, std::int32_t coc) {
+  if (!f.coverage || (*f.coverage)[front] >= DEFRAY_WHOLE) return 0;
+  const std::int32_t own = tame(f.coc_quanta[front]);
+  if (std::abs(own) >= DEFRAY_SHARP_QUANTA || own >= coc - DEFRAY_JUMP_QUANTA) return 0;
+  return static_cast<float>((*f.coverage)[front]) * (1.0f / DEFRAY_WHOLE);
+}
+
 RimCentre rim_at(const RdbSettings& settings, int x, int y) {
   return {settings.rim_x[static_cast<std::size_t>(x)], settings.rim_y[static_cast<std::size_t>(y)]};
 }
@@ -142,11 +150,16 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
             has_rim ? light_through(table, box, rim_at(settings, x, y))
                     : light_in_box(table, box.left, box.top, box.right, box.bottom);
         if (arrives == 0) continue;
+        const auto own =
+            static_cast<std::size_t>(y * f.layers) * static_cast<std::size_t>(f.width) +
+            static_cast<std::size_t>(x);
+        const float covered = sharp_edge(f, own, coc);
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
         const auto is_hidden = [&, coc = coc](int dx, int dy) {
           const std::int32_t held = winner[cell_between(lights, dx, dy, coc)][target];
           const auto at = static_cast<std::size_t>(held);
+          if (covered > 0 && at == own) return false;
           return held >= 0 && f.depth[at] < depth &&
                  tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
@@ -158,7 +171,8 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
           }
         }
         if (visible == 0) continue;
-        const float seen = static_cast<float>(visible) / static_cast<float>(across * across);
+        const float seen =
+            static_cast<float>(visible) / static_cast<float>(across * across) * (1 - covered);
         const float share = static_cast<float>(arrives) * lights.share_of_light * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];
