@@ -39,7 +39,7 @@ inline std::vector<Fault> highlight_faults() {
         "const ulong right = 0u, below = 0u; (void)x;"}},
       {"highlights_add",
        "nothing hides a source",
-       {"visible += is_hidden(winner", "visible += false && is_hidden(winner"}},
+       {"is_free || !is_hidden(held", "is_free || true || !is_hidden(held"}},
       {"highlights_add",
        "its own surface hides it",
        {"coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA", "true"}},
