@@ -19,8 +19,7 @@ void add_aperture_options(CLI::App& c, ApertureOptions& o) {
       ->group(group);
   c.add_option("--aperture-image", o.image,
                "A picture of the bokeh, as it shows behind the focus; black lets no light through")
-      ->group(group)
-      ->check(not_empty);
+      ->group(group);
   c.add_option("--cats-eye", o.cats_eye,
                "Vignetting: offset of the lens rim at the corners, aperture radii, 0 to 1; default "
                "0; 1 leaves 39 % of a corner's light")

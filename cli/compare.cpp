@@ -165,8 +165,8 @@ Run add_compare(CLI::App& app) {
   auto* depth = command->add_option(
       "--depth", o->depth, "Planar depth in metres: also give the errors in the edge band");
   auto* camera = command->add_option("--camera", o->camera, "camera.json: the lens, for --depth");
-  depth->needs(camera)->check(not_empty);
-  camera->needs(depth)->check(not_empty);
+  depth->needs(camera);
+  camera->needs(depth);
   command->add_option("--depth-channel", o->depth_channel, "Which channel of the depth file")
       ->needs(depth);
   command->add_option("--focus-setting", o->focus_setting, "Which of the camera's focus settings")
@@ -177,7 +177,6 @@ Run add_compare(CLI::App& app) {
       ->needs(depth);
   auto* sheet = command->add_option("--sheet", o->sheet,
                                     "Write A, B and their difference side by side, PNG or JPEG");
-  sheet->check(not_empty);
   command->add_option("--amplify", o->amplify, "The sheet's difference is this many times as dark")
       ->needs(sheet);
   command->add_flag("--json", o->json, "Print one JSON object");

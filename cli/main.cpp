@@ -54,6 +54,34 @@ std::string explain_extras(const CLI::App& app) {
                      did_you_mean(word, known_words(scope)), help);
 }
 
+/// "--cats-eye: 'abc' cannot be read as a number. Vignetting: offset of ..."; other errors as they
+/// are.
+std::string explain_value(const CLI::ParseError& error, const CLI::App& app) {
+  const std::string message = error.what();
+  const auto has = [&](const std::string& part) { return message.find(part) != std::string::npos; };
+  const CLI::Option* option = nullptr;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* o : command->get_options()) {
+      const bool is_longer = !option || o->get_name().size() > option->get_name().size();
+      if (has(o->get_name()) && is_longer) option = o;
+    }
+  }
+  if (!option) return message;
+  const auto explain = [&](const std::string& what) {
+    return fmt::format("{}: {}. {}", option->get_name(), what, option->get_description());
+  };
+  if (has("Could not convert")) {
+    const std::string type = option->get_type_name();
+    return explain(fmt::format("'{}' cannot be read as {}", join(option->results(), ","),
+                               type.empty()      ? "true or false"
+                               : type == "FLOAT" ? "a number"
+                                                 : "a whole number"));
+  }
+  if (has("required") && has("missing")) return explain("a value is missing");
+  if (has("required but received")) return explain("it is given more than once");
+  return message;
+}
+
 int fail_with(ExitCode code, const std::string& message) {
   fmt::print(stderr, "defray: error: {}\n", message);
   return static_cast<int>(code);
@@ -90,7 +118,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     return app.exit(version);
   } catch (const CLI::ParseError& error) {
-    return fail_with(ExitCode::usage, error.what());
+    return fail_with(ExitCode::usage, explain_value(error, app));
   }
   for (const auto& [app_of, command] : commands) {
     if (!app_of->parsed()) continue;

@@ -22,8 +22,4 @@ T choice(const std::string& option, const std::string& word, const std::map<std:
 
 inline const std::map<std::string, Math> math_words{{"strict", Math::strict}, {"fast", Math::fast}};
 
-/// A check for options that name files or frames: an empty value is most likely an unset shell
-/// variable.
-inline std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
-
 }  // namespace defray::cli

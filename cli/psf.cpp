@@ -114,7 +114,6 @@ Run add_psf(CLI::App& app) {
   command->add_option("--sensor-width", o->camera.sensor_width_mm, "Sensor width, mm (36)");
   auto* camera =
       command->add_option("--camera", o->camera_file, "camera.json: the lens; options win over it");
-  camera->check(not_empty);
   command->add_option("--focus-setting", o->focus_setting, "Which of the camera's focus settings")
       ->needs(camera);
   command->add_option("--width", o->width, "Pixels across the sensor");
@@ -123,10 +122,8 @@ Run add_psf(CLI::App& app) {
                    "Wavelengths in nm, 100 to 20000, comma-separated")
       ->delimiter(',');
   auto* output = command->add_option("-o,--output", o->output, "Chart of both PSFs, PNG or JPEG");
-  output->check(not_empty);
   command->add_flag("--log", o->log, "The chart's densities on a logarithmic axis")->needs(output);
-  command->add_option("--csv", o->csv, "Table of both PSFs, energy per square pixel")
-      ->check(not_empty);
+  command->add_option("--csv", o->csv, "Table of both PSFs, energy per square pixel");
   command->add_flag("--json", o->json, "Print one JSON object");
   command->footer(
       "Diffraction: Fresnel integral over the circular aperture (Shinya 1994, eq. 4), each\n"

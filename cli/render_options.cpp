@@ -26,14 +26,13 @@ void add_files(CLI::App& c, RenderOptions& o) {
   c.add_option("-o,--output", o.output, "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)")
       ->required();
   const char* const files = "Files";
-  c.add_option("--depth", o.depth, "Take depth from this file")->group(files)->check(not_empty);
+  c.add_option("--depth", o.depth, "Take depth from this file")->group(files);
   c.add_option("--coc-out", o.coc_out, "Write the signed CoC radius in px (.exr, .tif)")
       ->group(files);
   c.add_option("--confidence-out", o.confidence_out,
                "Write the share of each pixel's lens rays that the input determines (.exr, .tif)")
       ->group(files);
   c.add_option("--frames", o.frames, "1-8, 1-10x2, 1,5,9-12; default: every file that matches")
-      ->check(not_empty)
       ->group(files);
   c.add_flag("--skip-existing", o.skip_existing, "Leave frames alone whose output exists")
       ->group(files);
@@ -93,7 +92,7 @@ void add_lens(CLI::App& c, RenderOptions& o) {
                "Make the scene look this much of its size: divides the aperture")
       ->group(group);
   c.add_option("--perceived-distance", o.perceived_distance,
-               "m; the same, so that the plane of focus seems this far away")
+               "m; as --scale, so that the plane of focus seems this far away")
       ->group(group);
   c.add_option("--camera", o.camera,
                "camera.json, or from-metadata: the image's own. Options above win over it")

@@ -171,18 +171,14 @@ Run add_scene(CLI::App& app) {
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
   auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "One of the scenes below")->required();
-  command->add_option("-o,--output", o->folder, "Folder, made if missing")
-      ->required()
-      ->check(not_empty);
+  command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");
   command->add_option("--setting", o->setting, "The truth of this focus setting only");
   command->add_option("--truth-samples", o->truth_samples, "Lens rays a pixel for the truth");
-  command
-      ->add_option("--frames", o->frames,
-                   "Frames of a scene that moves, as files like pinhole.0001.exr: 1-24, 1,5,9 "
-                   "or 1-24x2; without it, the first")
-      ->check(not_empty);
+  command->add_option("--frames", o->frames,
+                      "Frames of a scene that moves, as files like pinhole.0001.exr: 1-24, 1,5,9 "
+                      "or 1-24x2; without it, the first");
   command->add_option(
       "--pinhole-samples", o->pinhole.samples,
       "Rays a pixel for the pinhole picture's colour, which anti-alias it; depth stays its "

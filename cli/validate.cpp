@@ -142,11 +142,9 @@ Run add_validate(CLI::App& app) {
       "validate", "Check every kernel against its scalar twin on this machine's devices");
   auto o = std::make_shared<ValidateOptions>();
   command->add_option("-o,--output", o->folder, "Folder for report.html and report.json")
-      ->required()
-      ->check(not_empty);
+      ->required();
   auto* device =
-      command->add_option("--device", o->device, "OpenCL device: an index or a part of its name")
-          ->check(not_empty);
+      command->add_option("--device", o->device, "OpenCL device: an index or a part of its name");
   auto* all = command->add_flag("--all", o->all, "Every device of every implementation");
   all->excludes(device);
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
@@ -155,8 +153,7 @@ Run add_validate(CLI::App& app) {
   auto* kernel =
       command->add_option("--kernel", o->kernels, "Only these kernels, comma-separated or repeated")
           ->delimiter(',');
-  auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it")
-                   ->check(not_empty);
+  auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it");
   auto* math =
       command->add_option("--math", o->math, "strict, or fast to see which rules it breaks");
   command

@@ -90,10 +90,10 @@ double perceived_scale(const CameraValues& values, double metres_per_unit) {
     }
   }
   if (!(scale > 0) || !std::isfinite(scale)) {
-    fail(ExitCode::usage,
-         "the perceived scale is {}: --scale and --perceived-distance must be "
-         "finite numbers above 0",
-         scale);
+    const bool is_scale = values.perceived_scale.has_value();
+    fail(ExitCode::usage, "{} {} makes the perceived scale {}: allowed are finite numbers above 0",
+         is_scale ? "--scale" : "--perceived-distance",
+         is_scale ? *values.perceived_scale : *values.perceived_distance_m, scale);
   }
   return scale;
 }

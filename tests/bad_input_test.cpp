@@ -103,6 +103,13 @@ TEST_F(BadInput, OptionValues) {
     expect_render_refused(base + option + " ''", 2, {option + " is empty", "leave the option out"});
   }
   expect_render_refused(base + "--cats-eye=", 2, {"--cats-eye"});
+  expect_render_refused(base + "--cats-eye abc", 2,
+                        {"--cats-eye: 'abc' cannot be read as a number", "0 to 1"});
+  expect_render_refused(base + "--rdb 1.5", 2, {"'1.5' cannot be read as a whole number", "64"});
+  expect_render_refused(base + "--literal=x", 2, {"--literal", "'x'", "as true or false"});
+  expect_render_refused(base + "--hidden", 2, {"--hidden: a value is missing", "smooth"});
+  expect_render_refused(base + "--blades 5 --blades 6", 2,
+                        {"--blades: it is given more than once", "3 to 32"});
   expect_render_refused(base + "--method rbd", 2, {"'rbd'", "Did you mean 'rdb'?"});
   expect_render_refused(base + "--depth-kind distnace", 2, {"Did you mean 'distance'?"});
   expect_render_refused(base + "--nonfinite zreo", 2, {"Did you mean 'zero'?"});
@@ -132,7 +139,7 @@ TEST_F(BadInput, Frames) {
   for (const std::string frames : {"1-", "a", "1-2x0", "1,,2"}) {
     expect_render_refused("s.%04d.exr -o o.%04d.exr --frames " + frames + lens, 2, {"--frames"});
   }
-  expect_render_refused("s.%04d.exr -o o.%04d.exr --frames ''" + lens, 2, {"--frames: is empty"});
+  expect_render_refused("s.%04d.exr -o o.%04d.exr --frames ''" + lens, 2, {"--frames is empty"});
   expect_render_refused("s.%04d.exr -o o.%04d.exr --frames 1-9999999999" + lens, 2,
                         {"'1-9999999999'", "up to 999999999"});
   expect_render_refused("s.%04d.exr -o out.exr" + lens, 2, {"2 frames would go to one file"});

@@ -104,6 +104,10 @@ TEST(Channels, ErrorsListWhatThereIs) {
   expect_error(3, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"}, [] {
     depth({part({"R", "G", "B", "depth.Z"})}, {"", "", "depht.Z"});
   });
+  // Any letter is one edit from Z: no suggestion.
+  expect_error(3, {"no channel '['. It has: R G B Z"}, [] {
+    depth({part({"R", "G", "B", "Z"})}, {"", "", "["});
+  });
 }
 
 bool is_data(const std::string& full) { return is_data_channel(channel_names({part({full})})[0]); }

@@ -176,6 +176,8 @@ TEST(SafeOutput, UnwritablePlacesAreFoundEarly) {
   expect_error(4, {"cannot write in folder"}, [&] { check_can_write(folder / "no/such/out.exr"); });
   expect_error(4, {"cannot write in folder"}, [] { check_can_write("/proc/out.exr"); });
   expect_error(4, {"is a folder"}, [&] { check_can_write(folder.path()); });
+  expect_error(4, {"cannot write in folder", "too long"},
+               [&] { check_can_write(folder / (std::string(300, 'a') + ".exr")); });
 }
 
 TEST(Metrics, KnownDifferences) {

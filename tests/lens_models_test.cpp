@@ -155,8 +155,9 @@ TEST(Eye, RefusesContradictions) {
     v.perceived_scale = 1;
     v.perceived_distance_m = 1;
   });
-  refuse({"perceived scale is 0"}, [](CameraValues& v) { v.perceived_scale = 0; });
-  refuse({"perceived scale is -"}, [](CameraValues& v) { v.perceived_distance_m = -1; });
+  refuse({"--scale 0", "perceived scale 0"}, [](CameraValues& v) { v.perceived_scale = 0; });
+  refuse({"--perceived-distance -1", "perceived scale -"},
+         [](CameraValues& v) { v.perceived_distance_m = -1; });
   refuse({"finite --focus"}, [](CameraValues& v) {
     v.focus_distance_units = HUGE_VAL;
     v.perceived_distance_m = 1;

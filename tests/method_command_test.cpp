@@ -180,7 +180,7 @@ TEST_F(MethodCommand, RefusesContradictingLenses) {
   expect_refused("--eye --focus 5 --display-distance 0.5", {"--display-distance", "--eye=display"});
   expect_refused("--eye=display --focus 5 --display-distance 0", {"above 0"});
   expect_refused("--eye --focus -3 --perceived-distance 1", {"focus distance is -3"});
-  expect_refused("--eye --focus 5 --scale 0", {"perceived scale is 0"});
+  expect_refused("--eye --focus 5 --scale 0", {"--scale 0", "perceived scale 0"});
   expect_refused("--eye --focus 5 --scale 1 --perceived-distance 1", {"--scale", "one of them"});
   expect_refused("--eye --focus inf --perceived-distance 1", {"finite --focus"});
   expect_refused(lens + "--sensor-width 36 --pixel-scale 28000", {"--pixel-scale", "one of them"});

@@ -70,7 +70,10 @@ void sync_path(const std::string& what, const std::string& path) {
 }  // namespace
 
 void check_can_write(const std::string& path) {
-  if (fs::is_directory(path)) fail(ExitCode::output, "{}: is a folder, not a file name", path);
+  std::error_code names_nothing;  // what is wrong with it then, opening tells
+  if (fs::is_directory(path, names_nothing)) {
+    fail(ExitCode::output, "{}: is a folder, not a file name", path);
+  }
   const std::string probe = temporary_name(path);
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
