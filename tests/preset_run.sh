@@ -14,8 +14,8 @@ export TSAN_OPTIONS=suppressions=$tests/tsan.supp:print_suppressions=0
 # Left out where memory or time grows: what only costs time there (huge frames, whole pictures
 # against truths, cold caches, damaged files once more, which host_tests reads too, the same twin
 # twice), and the real window, whose toolkit leaks.
-left_out=*Huge*:*SharedDamaged*:KernelCache.Parallel*:Show.Opens*:*Closer*:HighlightDisc*
-left_out+=:RdbScatter.TwoPass*WithJitter
+left_out=*Huge*:*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
+left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*
 case $name in
   tsan) left_out+=:*EveryDamagedFile* ;;  # minutes, in OpenEXR's threads and not ours
   coverage) left_out=*Huge* ;;

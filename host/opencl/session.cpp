@@ -15,7 +15,7 @@ namespace {
 
 /// Runs `call`; a cl::Error becomes an Error that says what failed.
 template <typename Call>
-auto checked(const DeviceInfo& info, const std::string& what, Call&& call) {
+decltype(auto) checked(const DeviceInfo& info, const std::string& what, Call&& call) {
   try {
     return call();
   } catch (const cl::Error& error) {
@@ -181,9 +181,12 @@ void Session::finish() {
   checked(info_, "clFinish", [&] { queue_.finish(); });
 }
 
-cl::Kernel Session::make_kernel(const char* name) {
-  return checked(info_, std::string("clCreateKernel ") + name,
-                 [&] { return cl::Kernel(program_, name); });
+cl::Kernel& Session::kernel_of(const char* name) {
+  const auto found = kernels_.find(name);
+  if (found != kernels_.end()) return found->second;
+  return checked(info_, std::string("clCreateKernel ") + name, [&]() -> cl::Kernel& {
+    return kernels_.emplace(name, cl::Kernel(program_, name)).first->second;
+  });
 }
 
 void Session::fail_argument(const char* name, cl_uint index, int code) const {

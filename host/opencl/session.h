@@ -84,7 +84,7 @@ class Session {
   void launch_from(const std::vector<std::size_t>& first, const char* name,
                    std::size_t default_group_x, const std::vector<std::size_t>& global,
                    const Args&... args) {
-    cl::Kernel kernel = make_kernel(name);
+    cl::Kernel& kernel = kernel_of(name);
     cl_uint index = 0;
     (set_argument(kernel, name, index++, args), ...);
     enqueue(kernel, name, default_group_x, global, first);
@@ -93,7 +93,7 @@ class Session {
   void finish();
 
  private:
-  cl::Kernel make_kernel(const char* name);
+  cl::Kernel& kernel_of(const char* name);
   template <typename T>
   void set_argument(cl::Kernel& kernel, const char* name, cl_uint index, const T& value) {
     try {
@@ -115,6 +115,7 @@ class Session {
   cl::Context context_;
   cl::CommandQueue queue_;
   cl::Program program_;
+  std::map<std::string, cl::Kernel> kernels_;  ///< Kept: Mesa compiles each new one anew.
 };
 
 /// "CL_INVALID_VALUE" for -30, and so on; "OpenCL error N" for codes outside OpenCL 1.2.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "error.h"
 #include "text.h"
@@ -157,10 +158,7 @@ Run run_case(Session& session, const KernelCheck& check, const Case& c) {
 DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
                              const std::function<void(double, const std::string&)>& progress) {
   OclgrindLog log(info);
-  Session session(info, settings.session);
-  SessionOptions options = settings.session;
-  options.use_int64_atomics = false;
-  Session two_pass(info, options);
+  std::optional<Session> session, two_pass;  // built when a check needs them
   DeviceResult result;
   const Level level = is_simulator(info) ? Level::tiny : settings.level;
   result.device = info.name;
@@ -179,9 +177,14 @@ DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,
       }
     };
     share(0);
-    Session& own = checks[i]->needs_two_passes ? two_pass : session;
-    result.kernels.push_back(run_check(own, *checks[i], settings, level, log, result, share));
-    if (!settings.stops_at_first) add_picture(own, *checks[i], result.kernels.back(), result);
+    auto& own = checks[i]->needs_two_passes ? two_pass : session;
+    if (!own) {
+      SessionOptions options = settings.session;
+      if (checks[i]->needs_two_passes) options.use_int64_atomics = false;
+      own.emplace(info, options);
+    }
+    result.kernels.push_back(run_check(*own, *checks[i], settings, level, log, result, share));
+    if (!settings.stops_at_first) add_picture(*own, *checks[i], result.kernels.back(), result);
   }
   return result;
 }
