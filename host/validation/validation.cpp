@@ -108,11 +108,9 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
                        Level level, OclgrindLog& log, DeviceResult& device,
                        const std::function<void(double)>& progress) {
   const auto start = Clock::now();
-  std::vector<Case> cases = settings.only_case.empty()
-                                ? grid(level, check, session.info().max_work_group)
-                                : std::vector<Case>{parse_case(settings.only_case)};
-  // Large frames fail first; each other work-group would be compiled on the way there.
-  if (settings.stops_at_first) std::reverse(cases.begin(), cases.end());
+  const std::vector<Case> cases = settings.only_case.empty()
+                                      ? grid(level, check, session.info().max_work_group)
+                                      : std::vector<Case>{parse_case(settings.only_case)};
   CheckRun run(session, check, device);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     try {
