@@ -11,9 +11,10 @@ export LSAN_OPTIONS=suppressions=$tests/lsan.supp:print_suppressions=0
 case $program in *program_tests) export ASAN_OPTIONS=detect_leaks=0 ;; esac
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=suppressions=$tests/tsan.supp:print_suppressions=0
-# Left out where memory or time grows: what only costs time there (huge frames, whole pictures
-# against truths, cold caches, damaged files once more, which host_tests reads too, the same twin
-# twice), and the real window, whose toolkit leaks.
+# Left out what only costs time or memory there, and runs without instruments: huge frames, whole
+# pictures against truths, long sums over lens points, cold kernel caches, damaged files once more
+# (host_tests reads them too), twins with jitter beside those without; and the real window, whose
+# toolkit leaks.
 left_out=*Huge*:*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*
 case $name in
@@ -24,7 +25,7 @@ log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 # LeakSanitizer's own tracer crashes now and then when all tests have passed (google/sanitizers
 # issue 1353): then once more, from the start.
-for attempt in 1 2 3; do
+for _ in 1 2 3; do
   code=0
   "$program" --gtest_filter="-$left_out" "$@" 2>&1 | tee "$log" || code=$?
   [ $code -ne 0 ] && grep -q 'LeakSanitizer has encountered a fatal error' "$log" || exit $code
