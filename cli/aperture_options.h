@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "aperture.h"
+#include "lens/aperture.h"
 
 namespace defray::cli {
 

@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "camera.h"
+#include "base/error.h"
 #include "commands.h"
-#include "depth.h"
-#include "display.h"
-#include "edge_band.h"
-#include "error.h"
 #include "image/channels.h"
-#include "metrics.h"
+#include "image/display.h"
+#include "lens/camera.h"
+#include "lens/depth.h"
+#include "measure/edge_band.h"
+#include "measure/metrics.h"
 #include "options.h"
 #include "picture.h"
 #include "reference/reference.h"

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "commands.h"
-#include "error.h"
 #include "opencl/device.h"
 
 namespace defray::cli {

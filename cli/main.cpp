@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
+#include "base/text.h"
 #include "commands.h"
-#include "error.h"
 #include "image/safe_output.h"
-#include "text.h"
 
 namespace defray::cli {
 namespace {

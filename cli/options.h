@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "error.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "opencl/session.h"
-#include "text.h"
 
 namespace defray::cli {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "error.h"
+#include "base/error.h"
 #include "image/channels.h"
 #include "image/ldr.h"
 #include "image/safe_output.h"

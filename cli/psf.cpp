@@ -5,14 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "camera.h"
+#include "base/error.h"
 #include "commands.h"
-#include "error.h"
 #include "image/ldr.h"
 #include "image/safe_output.h"
+#include "lens/camera.h"
+#include "measure/psf_report.h"
 #include "options.h"
 #include "progress.h"
-#include "psf_report.h"
 
 namespace defray::cli {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-#include "display.h"
+#include "image/display.h"
 #include "image/output.h"
+#include "image/sequence.h"
 #include "options.h"
 #include "parse.h"
 #include "progress.h"
-#include "sequence.h"
 
 namespace defray::cli {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "render.h"
-#include "text.h"
 
 namespace defray::cli {
 namespace {

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/error.h"
 #include "commands.h"
-#include "error.h"
 #include "image/image_file.h"
 #include "image/safe_output.h"
+#include "image/sequence.h"
 #include "options.h"
 #include "progress.h"
 #include "scenes/render.h"
-#include "sequence.h"
 
 namespace defray::cli {
 namespace {

@@ -1,9 +1,9 @@
 // defray sheet: pictures side by side.
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "commands.h"
-#include "display.h"
-#include "error.h"
+#include "image/display.h"
 #include "picture.h"
 
 namespace defray::cli {

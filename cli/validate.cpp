@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <set>
 
+#include "base/error.h"
 #include "commands.h"
-#include "error.h"
 #include "image/safe_output.h"
 #include "options.h"
 #include "progress.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "html_report.h"
-#include "temporary_folder.h"
+#include "base/temporary_folder.h"
+#include "measure/html_report.h"
 
 namespace defray::cli {
 

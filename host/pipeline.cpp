@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "error.h"
+#include "base/error.h"
 #include "image/further_channels.h"
 #include "image/output.h"
 #include "image/safe_output.h"

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "camera.h"
-#include "depth.h"
 #include "image/channels.h"
-#include "lens.h"
-#include "method.h"
-#include "tiltshift.h"
+#include "lens/camera.h"
+#include "lens/depth.h"
+#include "lens/lens.h"
+#include "methods/method.h"
+#include "methods/tiltshift.h"
 
 namespace defray {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "display.h"
-#include "error.h"
+#include "base/error.h"
+#include "image/display.h"
 #include "reference/reference.h"
 
 namespace defray::perf {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "html_report.h"
-#include "method.h"
+#include "measure/html_report.h"
+#include "methods/method.h"
 #include "scenes/subject.h"
 
 namespace defray::perf {

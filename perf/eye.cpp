@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "experiments.h"
-#include "metrics.h"
-#include "tiltshift.h"
+#include "measure/metrics.h"
+#include "methods/tiltshift.h"
 
 namespace defray::perf {
 namespace {

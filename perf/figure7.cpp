@@ -1,7 +1,7 @@
 // Shinya 1994, figure 7: time against the number of cells a side, at 256 x 256, for a small and a
 // large circle of confusion.
 #include "experiments.h"
-#include "plot.h"
+#include "measure/plot.h"
 #include "scenes/builtin.h"
 
 namespace defray::perf {

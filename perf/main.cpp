@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "error.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "experiments.h"
 #include "image/safe_output.h"
-#include "text.h"
 
 namespace defray::perf {
 namespace {

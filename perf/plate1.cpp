@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "experiments.h"
-#include "metrics.h"
+#include "measure/metrics.h"
 
 namespace defray::perf {
 namespace {

@@ -1,8 +1,8 @@
 // Shinya 1994, plate 2 and table 1: the RDB against an accumulation buffer of 81 views of the same
 // scene, on the same cores, in the same run; and what becomes of the ratio as the scene grows.
 #include "experiments.h"
-#include "metrics.h"
-#include "plot.h"
+#include "measure/metrics.h"
+#include "measure/plot.h"
 #include "scenes/builtin.h"
 
 namespace defray::perf {

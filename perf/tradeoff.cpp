@@ -1,7 +1,7 @@
 // Error against time for every method and setting: what speed costs in accuracy.
 #include "experiments.h"
-#include "metrics.h"
-#include "plot.h"
+#include "measure/metrics.h"
+#include "measure/plot.h"
 #include "truth.h"
 
 namespace defray::perf {

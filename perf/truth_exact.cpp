@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rdb.h"
-#include "stages.h"
+#include "chain/stages.h"
+#include "rdb/rdb.h"
 
 namespace defray::perf {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // A scene's surfaces as fragments, exactly as they are: what the chain must guess.
-#include "fragments.h"
+#include "rdb/fragments.h"
 #include "truth.h"
 
 namespace defray::perf {

@@ -1,7 +1,7 @@
 // Each stage around the RDB, left out or chosen otherwise: PSNR and time.
 #include <algorithm>
 
-#include "error.h"
+#include "base/error.h"
 #include "truth.h"
 
 namespace defray::perf {

@@ -1,6 +1,6 @@
 // A fence drifting before a portrait: what changes from frame to frame beside what should.
-#include "flicker.h"
-#include "plot.h"
+#include "measure/flicker.h"
+#include "measure/plot.h"
 #include "truth.h"
 
 namespace defray::perf {

@@ -1,7 +1,7 @@
 // What is left of the error: the default chain with more and more of what it must guess given to
 // it, from the scene.
-#include "lens_samples.h"
-#include "stages.h"
+#include "chain/stages.h"
+#include "lens/lens_samples.h"
 #include "truth_exact.h"
 
 namespace defray::perf {

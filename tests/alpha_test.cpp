@@ -2,10 +2,10 @@
 #include <cmath>
 #include <limits>
 
-#include "camera.h"
-#include "defocus.h"
-#include "lens.h"
-#include "method.h"
+#include "chain/defocus.h"
+#include "lens/camera.h"
+#include "lens/lens.h"
+#include "methods/method.h"
 #include "reference/reference.h"
 #include "scenes/render.h"
 #include "support.h"

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "aperture_mask.h"
-#include "aperture_table.h"
 #include "image/image_file.h"
 #include "image/ldr.h"
-#include "lens_samples.h"
+#include "lens/aperture_mask.h"
+#include "lens/aperture_table.h"
+#include "lens/lens_samples.h"
 #include "support.h"
 
 namespace defray::test {

@@ -1,11 +1,11 @@
 // The aperture's shape against closed forms, and what is refused.
-#include "aperture.h"
+#include "lens/aperture.h"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "aperture_mask.h"
+#include "lens/aperture_mask.h"
 #include "support.h"
 
 namespace defray::test {

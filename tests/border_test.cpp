@@ -1,13 +1,13 @@
 // What lies beyond the frame: goes on like the edge, seen by the confidence, and no source of light
 // that nobody saw.
-#include "border.h"
+#include "chain/border.h"
 
 #include <cmath>
 #include <limits>
 
-#include "assemble.h"
-#include "defocus.h"
-#include "method.h"
+#include "chain/assemble.h"
+#include "chain/defocus.h"
+#include "methods/method.h"
 #include "support.h"
 
 namespace defray::test {

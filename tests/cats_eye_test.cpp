@@ -1,10 +1,10 @@
 // Vignetting by the lens rim: how much is left, and on which side.
-#include "cats_eye.h"
+#include "lens/cats_eye.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "aperture_mask.h"
+#include "lens/aperture_mask.h"
 #include "support.h"
 
 namespace defray::test {

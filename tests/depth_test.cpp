@@ -1,11 +1,11 @@
 // Depth conventions, and the camera's sources.
-#include "depth.h"
+#include "lens/depth.h"
 
 #include <cmath>
 #include <fstream>
 #include <limits>
 
-#include "camera.h"
+#include "lens/camera.h"
 #include "support.h"
 
 namespace defray::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "defocus.h"
+#include "chain/defocus.h"
 #include "scenes/subject.h"
 #include "stages_support.h"
 

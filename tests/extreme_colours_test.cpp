@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "lens_cells.h"
-#include "method.h"
+#include "lens/lens_cells.h"
+#include "methods/method.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "depth.h"
+#include "lens/depth.h"
 #include "pipeline.h"
 #include "support.h"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "lens_cells.h"
-#include "method.h"
+#include "lens/lens_cells.h"
+#include "methods/method.h"
 #include "reference/reference.h"
 #include "support.h"
 

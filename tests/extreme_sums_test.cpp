@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "lens_cells.h"
-#include "rdb.h"
+#include "lens/lens_cells.h"
+#include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 // Frame-to-frame error against closed forms.
-#include "flicker.h"
+#include "measure/flicker.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Kernels gather_literal, gather_aware, gather_tiles and gather_reach against their twins, and what
 // each kind must and must not do.
-#include "gather.h"
+#include "methods/gather.h"
 
 #include <cmath>
 #include <limits>

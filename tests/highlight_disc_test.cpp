@@ -4,9 +4,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "aperture_mask.h"
-#include "coc.h"
-#include "method.h"
+#include "lens/aperture_mask.h"
+#include "lens/coc.h"
+#include "methods/method.h"
 #include "support.h"
 
 namespace defray::test {

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/text.h"
 #include "image/image_file.h"
 #include "image/ldr.h"
 #include "image/output.h"
 #include "image/safe_output.h"
-#include "metrics.h"
+#include "measure/metrics.h"
 #include "support.h"
-#include "text.h"
 
 namespace defray::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <random>
 
-#include "camera.h"
+#include "lens/camera.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 // Samples of an aperture: how many, where, how even; that they move nothing.
-#include "lens_samples.h"
+#include "lens/lens_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Kernel linear_psf and its twin: bits, energy, and what must not leak.
-#include "linear.h"
+#include "methods/linear.h"
 
 #include <cmath>
 #include <limits>

@@ -1,13 +1,13 @@
 // What every method must do: leave sharp pictures alone, keep light where it is.
-#include "method.h"
+#include "methods/method.h"
 
 #include <cmath>
 
+#include "methods/tiltshift.h"
 #include "reference/reference.h"
 #include "scenes/primitives.h"
 #include "scenes/render.h"
 #include "support.h"
-#include "tiltshift.h"
 
 namespace defray::test {
 namespace {

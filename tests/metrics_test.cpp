@@ -1,11 +1,11 @@
 // Metrics and the edge band against closed forms and a brute-force twin.
-#include "metrics.h"
+#include "measure/metrics.h"
 
 #include <cmath>
 #include <limits>
 
-#include "edge_band.h"
 #include "image/ldr.h"
+#include "measure/edge_band.h"
 #include "support.h"
 
 namespace defray::test {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flicker.h"
+#include "measure/flicker.h"
 #include "scenes/builtin.h"
 #include "scenes/render.h"
 #include "support.h"

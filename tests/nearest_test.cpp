@@ -3,8 +3,8 @@
 #include <limits>
 #include <set>
 
-#include "defocus.h"
-#include "method.h"
+#include "chain/defocus.h"
+#include "methods/method.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -1,6 +1,6 @@
 // `patterns`: what it must and must not change.
+#include "chain/pattern_window.h"
 #include "pattern_scene.h"
-#include "pattern_window.h"
 #include "reference/reference.h"
 
 namespace defray::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "patterns.h"
-#include "random.h"
+#include "base/random.h"
+#include "chain/patterns.h"
 #include "support.h"
 
 namespace defray::test {

@@ -1,6 +1,6 @@
 // `patterns`: the kernels against their twins.
+#include "chain/pattern_window.h"
 #include "pattern_scene.h"
-#include "pattern_window.h"
 #include "reference/reference.h"
 
 namespace defray::test {

@@ -1,10 +1,10 @@
 // Charts: points, texts and colours are where they must be; what cannot be drawn is refused.
-#include "plot.h"
+#include "measure/plot.h"
 
 #include <cmath>
 
 #include "image/ldr.h"
-#include "plot_axis.h"
+#include "measure/plot_axis.h"
 #include "support.h"
 
 namespace defray::test {

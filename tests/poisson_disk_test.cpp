@@ -1,5 +1,5 @@
 // The generator of the gather's samples: distances, evenness, order, seeds.
-#include "poisson_disk.h"
+#include "lens/poisson_disk.h"
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "method.h"
+#include "methods/method.h"
 #include "support.h"
 
 namespace defray::test {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aperture_table.h"
-#include "lens_samples.h"
+#include "lens/aperture_table.h"
+#include "lens/lens_samples.h"
 
 namespace defray::test {
 namespace {

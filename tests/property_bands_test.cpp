@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "bands.h"
+#include "opencl/bands.h"
 
 namespace defray::test {
 namespace {

@@ -1,9 +1,9 @@
 // The diffraction PSF against closed forms, the geometric one against the CoC.
-#include "psf.h"
+#include "measure/psf.h"
 
 #include <cmath>
 
-#include "psf_report.h"
+#include "measure/psf_report.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -1,7 +1,7 @@
 // Passes within a memory budget, and the cells of the lens.
-#include "rdb_plan.h"
+#include "rdb/rdb_plan.h"
 
-#include "lens_cells.h"
+#include "lens/lens_cells.h"
 #include "support.h"
 
 namespace defray::test {

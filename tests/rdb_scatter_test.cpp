@@ -3,7 +3,7 @@
 #include <cstring>
 #include <random>
 
-#include "rdb.h"
+#include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "support.h"
 

@@ -1,5 +1,5 @@
 // The whole ray distribution buffer: means against the twin, and the bits that must never change.
-#include "rdb.h"
+#include "rdb/rdb.h"
 
 #include <cmath>
 #include <limits>

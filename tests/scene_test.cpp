@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "camera.h"
+#include "lens/camera.h"
 #include "scenes/builtin.h"
 #include "scenes/primitives.h"
 #include "scenes/render.h"

@@ -1,5 +1,5 @@
 // Frame ranges and the names of frames.
-#include "sequence.h"
+#include "image/sequence.h"
 
 #include <fstream>
 

@@ -3,7 +3,7 @@
 
 #include <Imath/half.h>
 
-#include "coc.h"
+#include "lens/coc.h"
 #include "support.h"
 
 namespace defray::test {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "stages.h"
+#include "chain/stages.h"
 #include "support.h"
 
 namespace defray::test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "rdb.h"
+#include "rdb/rdb.h"
 
 namespace defray::test {
 
@@ -68,7 +68,7 @@ void expect_error(int code, const std::vector<std::string>& words, const Call& c
 
 }  // namespace defray::test
 
-#include "error.h"
+#include "base/error.h"
 
 template <typename Call>
 void defray::test::expect_error(int code, const std::vector<std::string>& words, const Call& call) {

@@ -1,5 +1,5 @@
 // Kernel tiltshift and its twin: a gradient from a band to the frame's edges.
-#include "tiltshift.h"
+#include "methods/tiltshift.h"
 
 #include <algorithm>
 

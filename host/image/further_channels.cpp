@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "error.h"
-#include "text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace defray {
 namespace {

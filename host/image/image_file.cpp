@@ -7,8 +7,8 @@
 #include <charconv>
 #include <filesystem>
 
-#include "error.h"
-#include "text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace defray {
 namespace {
@@ -82,10 +82,6 @@ ImageFile::ImageFile() = default;
 ImageFile::ImageFile(ImageFile&&) noexcept = default;
 ImageFile& ImageFile::operator=(ImageFile&&) noexcept = default;
 ImageFile::~ImageFile() = default;
-
-std::string to_string(const Window& w) {
-  return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y);
-}
 
 ImageFile ImageFile::read(const std::string& path, Content content) {
   std::error_code error;

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "error.h"
-#include "text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace defray {
 namespace {

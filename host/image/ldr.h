@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rdb.h"
+#include "base/plane.h"
 
 namespace defray {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "error.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "image/ldr.h"
 #include "image/safe_output.h"
-#include "params.h"
-#include "text.h"
+#include "kernels/params.h"
 
 namespace defray {
 namespace {

@@ -4,9 +4,9 @@
 #include <cctype>
 #include <charconv>
 
-#include "error.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "opencl/kernel_cache.h"
-#include "text.h"
 
 namespace defray {
 namespace {

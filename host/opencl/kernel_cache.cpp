@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-#include "temporary_folder.h"
+#include "base/temporary_folder.h"
 
 namespace defray {
 namespace {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "error.h"
+#include "base/error.h"
 #include "kernels_source.h"
 
 namespace defray {

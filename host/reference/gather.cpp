@@ -1,5 +1,5 @@
 // All passes of the gather's twins.
-#include "gather.h"
+#include "methods/gather.h"
 
 #include "reference/reference.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "gather.h"
+#include "methods/gather.h"
 #include "reference/pcg3d.h"
 
 namespace defray::reference {

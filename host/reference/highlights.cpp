@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cats_eye.h"
+#include "lens/cats_eye.h"
 #include "reference/reference.h"
 
 namespace defray::reference {

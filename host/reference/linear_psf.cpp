@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linear.h"
+#include "methods/linear.h"
 #include "reference/reference.h"
 
 namespace defray::reference {

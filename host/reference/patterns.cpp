@@ -1,7 +1,7 @@
 // Twins of kernels/patterns.cl: sums over whole windows, nothing running along.
 #include <cstdlib>
 
-#include "parallel.h"
+#include "base/parallel.h"
 #include "reference/reference.h"
 
 namespace defray::reference {

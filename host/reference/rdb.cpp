@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cats_eye.h"
+#include "lens/cats_eye.h"
 #include "reference/pcg3d.h"
 #include "reference/reference.h"
 

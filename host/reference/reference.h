@@ -5,11 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "gather.h"
-#include "lens.h"
-#include "lens_cells.h"
-#include "patterns.h"
-#include "rdb.h"
+#include "chain/patterns.h"
+#include "lens/lens.h"
+#include "lens/lens_cells.h"
+#include "methods/gather.h"
+#include "rdb/rdb.h"
 
 namespace defray::reference {
 

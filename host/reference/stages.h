@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../stages.h"
+#include "chain/stages.h"
 
 namespace defray::reference {
 

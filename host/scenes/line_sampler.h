@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "random.h"
+#include "base/random.h"
 #include "scenes/flat_shapes.h"
 #include "scenes/tracer.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "error.h"
+#include "base/error.h"
 #include "scenes/tracer.h"
 
 namespace defray {

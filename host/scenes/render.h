@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "metrics.h"
-#include "rdb.h"
+#include "base/plane.h"
+#include "measure/metrics.h"
 #include "scenes/scene.h"
 
 namespace defray {

@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "error.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "scenes/builtin.h"
-#include "text.h"
 
 namespace defray {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lens.h"
-#include "metrics.h"
+#include "lens/lens.h"
+#include "measure/metrics.h"
 #include "scenes/primitive.h"
 
 namespace defray {

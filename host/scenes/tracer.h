@@ -2,7 +2,7 @@
 // What the renderers of the built-in scenes share: rays, hits in their light, loops over pixels.
 #include <array>
 
-#include "parallel.h"
+#include "base/parallel.h"
 #include "scenes/bvh.h"
 #include "scenes/render.h"
 

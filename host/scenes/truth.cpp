@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error.h"
-#include "random.h"
+#include "base/error.h"
+#include "base/random.h"
 #include "scenes/line_sampler.h"
 #include "scenes/target.h"
 #include "scenes/tracer.h"

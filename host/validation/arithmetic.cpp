@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "error.h"
+#include "base/error.h"
 #include "scenes/subject.h"
 
 namespace defray::validation {

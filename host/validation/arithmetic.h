@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "html_report.h"
+#include "measure/html_report.h"
 #include "validation/validation.h"
 
 namespace defray::validation {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "plot.h"
+#include "measure/plot.h"
 #include "validation/arithmetic.h"
 
 namespace defray::validation {

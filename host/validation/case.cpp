@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "error.h"
-#include "text.h"
+#include "base/error.h"
+#include "base/text.h"
 
 namespace defray::validation {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "highlights.h"
-#include "rdb.h"
+#include "chain/highlights.h"
+#include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "validation/kernel_checks.h"
 

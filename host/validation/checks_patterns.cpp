@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "pattern_window.h"
-#include "random.h"
+#include "base/random.h"
+#include "chain/pattern_window.h"
 #include "reference/reference.h"
 
 namespace defray::validation {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "random.h"
+#include "base/random.h"
 
 namespace defray::validation {
 namespace {

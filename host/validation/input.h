@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fragments.h"
-#include "lens.h"
+#include "lens/lens.h"
+#include "rdb/fragments.h"
 #include "validation/case.h"
 
 namespace defray::validation {

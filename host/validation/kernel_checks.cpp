@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "gather.h"
-#include "linear.h"
-#include "random.h"
-#include "rdb.h"
+#include "base/random.h"
+#include "methods/gather.h"
+#include "methods/linear.h"
+#include "methods/tiltshift.h"
+#include "rdb/rdb.h"
 #include "reference/reference.h"
-#include "tiltshift.h"
 #include "validation/checks_patterns.h"
 #include "validation/rdb_winners.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "opencl/session.h"
-#include "rdb.h"
+#include "rdb/rdb.h"
 #include "validation/case.h"
 #include "validation/input.h"
 

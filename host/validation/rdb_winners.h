@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "rdb.h"
+#include "rdb/rdb.h"
 
 namespace defray::validation {
 

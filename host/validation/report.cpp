@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "plot.h"
+#include "measure/plot.h"
 
 namespace defray::validation {
 namespace {

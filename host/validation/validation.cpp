@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "error.h"
-#include "text.h"
+#include "base/error.h"
+#include "base/text.h"
 #include "validation/oclgrind_log.h"
 #include "validation/worst_picture.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "display.h"
+#include "image/display.h"
 #include "validation/grid.h"
 #include "validation/verdict.h"
 

@@ -1,5 +1,5 @@
 // camera.json. First line: the focus setting asked for; the rest: the file.
-#include "camera.h"
+#include "lens/camera.h"
 
 #include "fuzz.h"
 

@@ -1,5 +1,5 @@
 // Frame ranges and frame patterns. First line: --frames; second: a file name.
-#include "sequence.h"
+#include "image/sequence.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // Spelling suggestions. First line: a word; the others: what it could have been.
-#include "text.h"
+#include "base/text.h"
 
 #include <algorithm>
 

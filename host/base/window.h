@@ -1,0 +1,19 @@
+#pragma once
+// Rectangles of pixels: data windows and display windows.
+#include <string>
+
+namespace defray {
+
+struct Window {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Window&) const = default;
+};
+
+inline bool overlap(const Window& a, const Window& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+/// "1280x720+0+0".
+std::string to_string(const Window& window);
+
+}  // namespace defray

@@ -1,0 +1,146 @@
+#include "chain/highlights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "opencl/bands.h"
+
+namespace defray {
+namespace {
+
+/// Calls visit(tile) for every tile that a source's disc may meet.
+template <typename Visit>
+void for_each_tile(const std::array<std::int32_t, 4>& where, int tiles_x, int tiles_y,
+                   const Visit& visit) {
+  constexpr int side = DEFRAY_LIGHT_TILE;
+  const int reach = (std::abs(where[2]) >> DEFRAY_COC_FRACTION_BITS) + 2;
+  const auto tile = [](std::int64_t px, int count) {
+    return static_cast<int>(std::clamp<std::int64_t>(px / side, 0, count - 1));
+  };
+  const std::int64_t x = where[0], y = where[1];
+  for (int j = tile(y - reach, tiles_y); j <= tile(y + reach, tiles_y); ++j) {
+    for (int i = tile(x - reach, tiles_x); i <= tile(x + reach, tiles_x); ++i) {
+      visit(size(j) * size(tiles_x) + size(i));
+    }
+  }
+}
+
+void sort_into_tiles(LightSources& lights, int width, int height) {
+  lights.tiles_x = (width + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  const int tiles_y = (height + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  std::vector<std::vector<std::uint32_t>> tiles(size(lights.tiles_x) * size(tiles_y));
+  for (std::uint32_t i = 0; i < lights.where.size(); ++i) {
+    for_each_tile(lights.where[i], lights.tiles_x, tiles_y,
+                  [&](std::size_t tile) { tiles[tile].push_back(i); });
+  }
+  lights.first.push_back(0);
+  for (const auto& tile : tiles) {
+    lights.list.insert(lights.list.end(), tile.begin(), tile.end());
+    lights.first.push_back(static_cast<std::uint32_t>(lights.list.size()));
+  }
+}
+
+/// Median alpha around a fragment's disc, where `highlights` looks for the light around it; its own
+/// if all of that is beyond the frame.
+float alpha_around(const Fragments& f, const Plane& alpha, std::size_t own, std::int32_t coc) {
+  const int x = static_cast<int>(own % size(f.width));
+  const int y = static_cast<int>(own / size(f.width) / size(f.layers));
+  const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
+  std::vector<float> around;
+  for (int i = 0; i < 32; ++i) {
+    const double distance = std::fmax(radius, 3.0f) * (i < 16 ? 0.5f : 1.0f) + 2.0f;
+    const double angle = i % 16 * std::numbers::pi / 8;
+    const double qx = x + std::rint(distance * std::cos(angle));
+    const double qy = y + std::rint(distance * std::sin(angle));
+    if (qx < 0 || qy < 0 || qx >= f.width || qy >= f.height) continue;
+    around.push_back(alpha[f.index(static_cast<int>(qx), static_cast<int>(qy), 0)]);
+  }
+  if (around.empty()) return alpha[own];
+  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+  std::nth_element(around.begin(), middle, around.end());
+  return *middle;
+}
+
+}  // namespace
+
+Plane highlights(Session& session, const Fragments& f, int light_channels,
+                 std::size_t memory_bytes) {
+  const std::size_t stride = size(f.width) * size(f.layers);
+  Plane kept(f.depth.size());
+  // As `around` in the kernel has it.
+  const std::int64_t reach = std::max(tame(largest_coc(f.coc_quanta)) / 256 + 1, 3) + 3;
+  constexpr std::size_t bytes_a_fragment = 28;
+  for (const Band& b :
+       cut_into_bands(f.height, reach, 1, stride * bytes_a_fragment, memory_bytes)) {
+    BandOnDevice band(session, b, stride);
+    const DefrayHighlightParams p{word(f.width), word(b.window_rows), word(f.layers),
+                                  word(light_channels)};
+    const ChannelsOnDevice in(band, f.channels);
+    const cl::Buffer made = band.made<cl_float>();
+    band.launch("highlights", f.layers, p, band.view(f.coc_quanta), band.view(f.coverage), in.of[0],
+                in.of[1], in.of[2], in.of[3], made);
+    band.read(made, kept);
+  }
+  return kept;
+}
+
+std::vector<std::uint32_t> map_cells(const LensCells& cells) {
+  constexpr int side = DEFRAY_CELL_MAP;
+  constexpr std::int64_t step = (2 << DEFRAY_LENS_FRACTION_BITS) / side;
+  std::vector<std::uint32_t> map;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const auto distance = [&](const std::array<std::int32_t, 2>& cell) {
+        const std::int64_t u = (2 * i + 1 - side) * step / 2 - cell[0];
+        const std::int64_t v = (2 * j + 1 - side) * step / 2 - cell[1];
+        return u * u + v * v;
+      };
+      const auto nearest =
+          std::min_element(cells.centres.begin(), cells.centres.end(),
+                           [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      map.push_back(static_cast<std::uint32_t>(nearest - cells.centres.begin()));
+    }
+  }
+  return map;
+}
+
+LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
+                        const ApertureTable& aperture, const LensCells& cells) {
+  LightSources lights;
+  const bool has_alpha = f.channels.size() > size(light_channels);
+  const Plane alpha = has_alpha ? f.channels.back() : Plane{};
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] == 1.0f) continue;
+    const std::size_t row = i / size(f.width);
+    const std::int32_t coc = tame(f.coc_quanta[i]);
+    lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
+                            static_cast<std::int32_t>(row / size(f.layers)), coc,
+                            std::bit_cast<std::int32_t>(f.depth[i])});
+    std::array<float, 4> excess{};
+    const float share =
+        static_cast<float>(f.coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
+    for (std::size_t c = 0; c < size(light_channels); ++c) {
+      const float base = f.channels[c][i] * kept[i];
+      excess[c] = (f.channels[c][i] - base) * share;
+      f.channels[c][i] = base;
+    }
+    // Alpha stays with the light: before nothing all of it, before what is opaque none.
+    const float around = has_alpha ? alpha_around(f, alpha, i, coc) : 0;
+    if (has_alpha && around < alpha[i]) {
+      excess[f.channels.size() - 1] = (alpha[i] - std::fmax(around, 0.0f)) * share;
+      f.channels.back()[i] = std::fmax(around, 0.0f);
+    }
+    lights.excess.push_back(excess);
+  }
+  if (lights.empty()) return lights;
+  sort_into_tiles(lights, f.width, f.height);
+  lights.table = aperture.sums;
+  lights.share_of_light = 1.0f / static_cast<float>(aperture.total());
+  lights.cell_map = map_cells(cells);
+  return lights;
+}
+
+}  // namespace defray

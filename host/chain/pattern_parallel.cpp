@@ -1,0 +1,158 @@
+// Shifts parallel to the picture at which slanting surfaces resemble themselves: all lengths in a
+// geometric series, the best of them refined. Costs are integers, lengths products in one order.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "chain/patterns.h"
+
+namespace defray {
+namespace {
+
+constexpr int sampled_rows = 4;       ///< One row of so many is compared.
+constexpr double ratio = 1.02;        ///< From one length to the next.
+constexpr int most_lengths = 512;     ///< 1.02^512: surfaces a thousand times as far as others.
+constexpr int refine_steps = 8;       ///< On each side of a minimum,
+constexpr double refine_by = 0.0025;  ///< of so much of its length.
+constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+
+std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
+
+struct Sample {
+  int x, y;
+};
+
+struct Length {
+  std::uint64_t cost;
+  float parallel;  ///< As in PatternShift.
+};
+
+/// Along one axis of the picture.
+class ParallelSearch {
+ public:
+  ParallelSearch(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+                 const PatternSettings& settings, PatternShift longest)
+      : frame_(frame), pixels_(pixels), settings_(settings), longest_(longest) {
+    const int dx = longest.y > 0 ? 1 : 0, dy = 1 - dx;  // across the shift
+    for (int y = 0; y < frame.height - dy; y += sampled_rows) {
+      for (int x = 0; x < frame.width - dx; ++x) {
+        if (!(pixels[at(x, y)] & DEFRAY_PATTERN_KNOWN)) continue;
+        ++known_;
+        const float here = frame.inverse[at(x, y)], next = frame.inverse[at(x + dx, y + dy)];
+        // Over a window of 25 px a shift of 100 px changes by 1.
+        if (!(std::fabs(next - here) * 2500 > here) || !(here > 0)) continue;
+        samples_.push_back({x, y});
+        nearest_ = std::fmax(nearest_, here);
+        farthest_ = std::fmin(farthest_, here);
+      }
+    }
+  }
+
+  /// The best first.
+  std::vector<Length> find() const {
+    std::vector<float> lengths;
+    const double reach = std::max(longest_.x, longest_.y);
+    for (double px = DEFRAY_PATTERN_LEAST / double{nearest_};
+         lengths.size() < most_lengths && px * farthest_ <= reach; px *= ratio) {
+      lengths.push_back(static_cast<float>(px));
+    }
+    const std::vector<Length> all = costs(lengths);
+    std::vector<Length> best;
+    std::uint64_t most = 0;  // of all shorter ones
+    for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+      const std::uint64_t cost = all[i].cost;
+      if (cost == none) continue;
+      const bool is_minimum = cost < all[i - 1].cost && cost <= all[i + 1].cost;
+      if (is_minimum && cost < most / 2) best.push_back(refined(all[i]));
+      most = std::max(most, cost);
+    }
+    return best;
+  }
+
+ private:
+  std::size_t at(int x, int y) const { return as_size(y) * as_size(frame_.width) + as_size(x); }
+
+  std::vector<Length> costs(const std::vector<float>& lengths) const {
+    std::vector<Length> all(lengths.size());
+    parallel_for(static_cast<int>(all.size()), [&](int i) {
+      all[as_size(i)] = {cost(lengths[as_size(i)]), lengths[as_size(i)]};
+    });
+    return all;
+  }
+
+  Length refined(const Length& around) const {
+    std::vector<float> lengths;
+    for (int i = -refine_steps; i <= refine_steps; ++i) {
+      lengths.push_back(static_cast<float>(double{around.parallel} * (1 + i * refine_by)));
+    }
+    const std::vector<Length> all = costs(lengths);
+    return *std::min_element(all.begin(), all.end(),
+                             [](const Length& a, const Length& b) { return a.cost < b.cost; });
+  }
+
+  /// Mean squared difference of a pair's three colours, in 1/256; what rounding to 8 bits hides
+  /// (2/3) counts the more the fewer pairs there are.
+  std::uint64_t cost(float parallel) const {
+    std::uint64_t squares = 0, pairs = 0;
+    const PatternShift shift{longest_.x, longest_.y, parallel};
+    for (const Sample& from : samples_) {
+      const std::size_t here = at(from.x, from.y);
+      const PatternShift s = shift_at(shift, frame_.inverse[here]);
+      const int x = from.x + s.x, y = from.y + s.y;
+      if ((s.x == 0 && s.y == 0) || x >= frame_.width || y >= frame_.height) continue;
+      const std::size_t there = at(x, y);
+      if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) continue;
+      if (std::abs(std::int64_t{frame_.coc_quanta[here]} - frame_.coc_quanta[there]) >
+          settings_.tolerance_quanta) {
+        continue;
+      }
+      for (const int bit : {0, 8, 16}) {
+        const int d = static_cast<int>(pixels_[here] >> bit & 255) -
+                      static_cast<int>(pixels_[there] >> bit & 255);
+        squares += static_cast<std::uint64_t>(d * d);
+      }
+      ++pairs;
+    }
+    constexpr std::uint64_t hidden = 2 * 256 / 3, least_share = 50;
+    if (pairs == 0 || pairs * least_share < known_) return none;
+    return (squares << 8) / pairs + hidden * known_ / pairs;
+  }
+
+  const PatternFrame& frame_;
+  const std::vector<std::uint32_t>& pixels_;
+  const PatternSettings& settings_;
+  PatternShift longest_;
+  std::vector<Sample> samples_;
+  std::uint64_t known_ = 0;
+  float nearest_ = 0, farthest_ = HUGE_VALF;  ///< 1/depth of samples.
+};
+
+}  // namespace
+
+std::vector<PatternShift> find_parallel_shifts(const PatternFrame& frame,
+                                               const std::vector<std::uint32_t>& pixels,
+                                               const PatternSettings& settings) {
+  struct Found {
+    std::uint64_t cost;
+    PatternShift shift;
+  };
+  std::vector<Found> found;
+  for (const PatternShift longest : {PatternShift{settings.parallel_reach_x_px, 0},
+                                     PatternShift{0, settings.parallel_reach_y_px}}) {
+    for (const Length& l : ParallelSearch(frame, pixels, settings, longest).find()) {
+      found.push_back({l.cost, {longest.x, longest.y, l.parallel}});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.cost < b.cost; });
+  found.resize(std::min(found.size(), as_size(settings.parallel_shifts)));
+  std::vector<PatternShift> shifts;
+  for (const Found& f : found) {
+    shifts.push_back(f.shift);
+    shifts.push_back({-f.shift.x, -f.shift.y, f.shift.parallel});
+  }
+  return shifts;
+}
+
+}  // namespace defray

@@ -1,0 +1,223 @@
+// The shifts at which a picture resembles itself: coarse search on block means, refined on pixels.
+// Integers throughout: the same shifts on every machine, whatever the number of threads.
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <tuple>
+
+#include "base/parallel.h"
+#include "chain/patterns.h"
+
+namespace defray {
+namespace {
+
+constexpr int block = 4;        ///< Side of the blocks of the coarse search, px.
+constexpr int refine_px = 3;    ///< Around a coarse minimum.
+constexpr int refine_rows = 8;  ///< One row of so many is compared.
+constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+
+std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
+
+/// Colours and CoC as the comparison reads them; `known` is 0 or -1, all bits.
+struct Picture {
+  Picture(int w, int h)
+      : width(w), height(h), r(as_size(w) * as_size(h)), g(r), b(r), known(r), coc(r.size()) {}
+  int width, height;
+  std::vector<std::int16_t> r, g, b, known;
+  std::vector<std::int32_t> coc;
+};
+
+Picture whole_picture(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels) {
+  Picture p(frame.width, frame.height);
+  p.coc = frame.coc_quanta;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::uint32_t v = pixels[i];
+    p.r[i] = static_cast<std::int16_t>(v & 255);
+    p.g[i] = static_cast<std::int16_t>(v >> 8 & 255);
+    p.b[i] = static_cast<std::int16_t>(v >> 16 & 255);
+    p.known[i] = v & DEFRAY_PATTERN_KNOWN ? -1 : 0;
+  }
+  return p;
+}
+
+/// Means over the known pixels of blocks that are at least half known.
+Picture block_means(const Picture& p) {
+  Picture means(p.width / block, p.height / block);
+  for (int i = 0; i < means.width * means.height; ++i) {
+    const int x = i % means.width * block, y = i / means.width * block;
+    std::int64_t count = 0, r = 0, g = 0, b = 0, coc = 0;
+    for (int k = 0; k < block * block; ++k) {
+      const std::size_t at = as_size(y + k / block) * as_size(p.width) + as_size(x + k % block);
+      if (!p.known[at]) continue;
+      ++count;
+      r += p.r[at];
+      g += p.g[at];
+      b += p.b[at];
+      coc += p.coc[at];
+    }
+    if (2 * count < block * block) continue;
+    const std::size_t at = as_size(i);
+    means.r[at] = static_cast<std::int16_t>((r + count / 2) / count);
+    means.g[at] = static_cast<std::int16_t>((g + count / 2) / count);
+    means.b[at] = static_cast<std::int16_t>((b + count / 2) / count);
+    means.coc[at] = static_cast<std::int32_t>(coc / count);
+    means.known[at] = -1;
+  }
+  return means;
+}
+
+struct Agreement {
+  std::uint64_t squares = 0, pairs = 0;
+
+  /// The mean squared difference in 1/256, and what rounding to 8 bits hides of it (2/3) over the
+  /// share of `all` pixels that have a partner: of shifts that agree as well as can be seen, the
+  /// one that more pixels can use is the better. `none` with fewer pairs than `least`.
+  std::uint64_t cost(std::size_t all, std::size_t least) const {
+    constexpr std::uint64_t hidden = 2 * 256 / 3;
+    return pairs == 0 || pairs < least ? none : (squares << 8) / pairs + hidden * all / pairs;
+  }
+};
+
+/// Adds `count` pairs that begin at these indices.
+void add_pairs(const Picture& p, std::size_t at, std::size_t there, int count,
+               std::int32_t tolerance, Agreement& sum) {
+  // Below 2^32 in a run: 3 x 255^2 x 16384.
+  constexpr int run = 16384;
+  for (int first = 0; first < count; first += run) {
+    const std::size_t end = as_size(std::min(run, count - first));
+    const std::size_t i = at + as_size(first), j = there + as_size(first);
+    std::uint32_t squares = 0, pairs = 0;
+    for (std::size_t k = 0; k < end; ++k) {
+      // Radii go up to 2^30: their difference fits 32 bits without a sign.
+      const auto a = static_cast<std::uint32_t>(p.coc[i + k]);
+      const auto b = static_cast<std::uint32_t>(p.coc[j + k]);
+      const bool is_close = a - b + static_cast<std::uint32_t>(tolerance) <=
+                            2 * static_cast<std::uint32_t>(tolerance);
+      const int mask = p.known[i + k] & p.known[j + k] & -static_cast<int>(is_close);
+      const int r = (p.r[i + k] - p.r[j + k]) & mask;
+      const int g = (p.g[i + k] - p.g[j + k]) & mask;
+      const int b2 = (p.b[i + k] - p.b[j + k]) & mask;
+      squares += static_cast<std::uint32_t>(r * r + g * g + b2 * b2);
+      pairs += static_cast<std::uint32_t>(mask & 1);
+    }
+    sum.squares += squares;
+    sum.pairs += pairs;
+  }
+}
+
+/// How well a picture agrees with itself shifted, over one row of `row_step`.
+Agreement agreement(const Picture& p, PatternShift s, int row_step, std::int32_t tolerance) {
+  Agreement sum;
+  const int x = std::max(0, -s.x), count = p.width - std::abs(s.x);
+  if (count <= 0) return sum;
+  for (int y = std::max(0, -s.y); y < p.height - std::max(0, s.y); y += row_step) {
+    add_pairs(p, as_size(y) * as_size(p.width) + as_size(x),
+              as_size(y + s.y) * as_size(p.width) + as_size(x + s.x), count, tolerance, sum);
+  }
+  return sum;
+}
+
+struct Candidate {
+  std::uint64_t cost;
+  PatternShift shift;
+};
+
+/// One order for all machines: the best first, equal ones by place.
+void sort_candidates(std::vector<Candidate>& all) {
+  std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.cost, a.shift.y, a.shift.x) < std::tie(b.cost, b.shift.y, b.shift.x);
+  });
+}
+
+/// Costs of shifts of whole blocks: y from 0, the other half plane being the same.
+class CoarseMap {
+ public:
+  CoarseMap(const Picture& blocks, const PatternSettings& s)
+      : reach_x_(s.reach_x_px / block),
+        reach_y_(s.reach_y_px / block),
+        costs_(as_size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
+    constexpr std::size_t least_share = 50;  // a fiftieth
+    const std::size_t all = blocks.r.size();
+    parallel_for(reach_y_ + 1, [&](int y) {
+      for (int x = -reach_x_; x <= reach_x_; ++x) {
+        costs_[index(x, y)] =
+            agreement(blocks, {x, y}, 1, s.tolerance_quanta).cost(all, all / least_share);
+      }
+    });
+  }
+
+  /// In pixels. On a plateau every shift counts.
+  std::vector<Candidate> minima() const {
+    std::vector<Candidate> all;
+    for (int y = 0; y <= reach_y_; ++y) {
+      for (int x = y == 0 ? 1 : -reach_x_; x <= reach_x_; ++x) {
+        const bool is_far = std::max(std::abs(x), y) * block >= DEFRAY_PATTERN_LEAST;
+        if (is_far && is_minimum(x, y)) all.push_back({at(x, y), {x * block, y * block}});
+      }
+    }
+    return all;
+  }
+
+ private:
+  std::size_t index(int x, int y) const { return as_size(y * (2 * reach_x_ + 1) + x + reach_x_); }
+
+  std::uint64_t at(int x, int y) const {
+    if (y < 0) return at(-x, -y);
+    return std::abs(x) > reach_x_ || y > reach_y_ ? none : costs_[index(x, y)];
+  }
+
+  bool is_minimum(int x, int y) const {
+    const std::uint64_t here = at(x, y);
+    if (here == none) return false;
+    for (int i = 0; i < 9; ++i) {
+      if (at(x + i % 3 - 1, y + i / 3 - 1) < here) return false;
+    }
+    return true;
+  }
+
+  int reach_x_, reach_y_;
+  std::vector<std::uint64_t> costs_;
+};
+
+/// The best shift around each candidate, on pixels.
+std::vector<Candidate> refined(const Picture& picture, const std::vector<Candidate>& coarse,
+                               std::int32_t tolerance) {
+  constexpr int side = 2 * refine_px + 1, tries = side * side;
+  std::vector<Candidate> all(coarse.size() * tries);
+  parallel_for(static_cast<int>(all.size()), [&](int i) {
+    const PatternShift from = coarse[as_size(i / tries)].shift;
+    const int k = i % tries;
+    const PatternShift s{from.x + k % side - refine_px, from.y + k / side - refine_px};
+    all[as_size(i)] = {agreement(picture, s, refine_rows, tolerance).cost(picture.r.size(), 1), s};
+  });
+  std::vector<Candidate> best;
+  for (auto first = all.begin(); first != all.end(); first += tries) {
+    std::vector<Candidate> around(first, first + tries);
+    sort_candidates(around);
+    if (around.front().cost != none) best.push_back(around.front());
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<PatternShift> find_pattern_shifts(const PatternFrame& frame,
+                                              const std::vector<std::uint32_t>& pixels,
+                                              const PatternSettings& settings) {
+  const Picture picture = whole_picture(frame, pixels);
+  std::vector<Candidate> found = CoarseMap(block_means(picture), settings).minima();
+  sort_candidates(found);
+  found.resize(std::min(found.size(), as_size(settings.shifts)));
+  found = refined(picture, found, settings.tolerance_quanta);
+  sort_candidates(found);
+  std::vector<PatternShift> shifts;
+  for (const Candidate& c : found) {
+    const PatternShift opposite{-c.shift.x, -c.shift.y};
+    if (std::find(shifts.begin(), shifts.end(), c.shift) != shifts.end()) continue;
+    shifts.push_back(c.shift);
+    shifts.push_back(opposite);
+  }
+  return shifts;
+}
+
+}  // namespace defray

@@ -1,0 +1,101 @@
+#include "lens/depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace defray {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest_half = 65504;
+constexpr double far_away = 1e9;
+/// 1/z of a denormal lies farther than floats go: background too.
+constexpr double farthest = std::numeric_limits<float>::max();
+
+bool is_background(double stored, const DepthSettings& s) {
+  if (s.background) return stored == static_cast<double>(static_cast<float>(*s.background));
+  if (s.kind == DepthKind::normalized) return std::isinf(stored);
+  if (s.kind == DepthKind::inverse) return stored <= 0;
+  return stored == largest_half || stored >= far_away || stored <= 0;
+}
+
+/// Planar depth over distance along the ray through this pixel.
+double planar_share(double x_px, double y_px, double pixel_focal_length) {
+  return pixel_focal_length / std::hypot(pixel_focal_length, x_px, y_px);
+}
+
+double planar_depth(double stored, const DepthSettings& s, double share) {
+  switch (s.kind) {
+    case DepthKind::distance:
+      return stored * share;
+    case DepthKind::inverse:
+      return 1 / stored;
+    case DepthKind::normalized: {
+      const double t = s.invert ? 1 - stored : stored;
+      return s.near_units + t * (s.far_units - s.near_units);
+    }
+    default:
+      return stored;
+  }
+}
+
+}  // namespace
+
+void validate(const DepthSettings& s) {
+  if (s.kind == DepthKind::normalized) {
+    if (!(s.near_units > 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
+      fail(ExitCode::usage,
+           "--depth-kind normalized needs 0 < --near < --far in scene units; found near {} far {}",
+           s.near_units, s.far_units);
+    }
+  } else if (s.invert) {
+    fail(ExitCode::usage, "--invert goes with --depth-kind normalized only");
+  } else if (s.near_units != 0 || s.far_units != 0) {
+    fail(ExitCode::usage, "--near and --far go with --depth-kind normalized only");
+  }
+}
+
+DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Window& data,
+                          const Window& display, double pixel_focal_length,
+                          const std::string& path) {
+  DepthReport report;
+  report.nearest_units = infinity;
+  const double centre_x = display.x + display.width / 2.0;
+  const double centre_y = display.y + display.height / 2.0;
+  std::size_t i = 0;
+  for (int y = data.y; y < data.y + data.height; ++y) {
+    for (int x = data.x; x < data.x + data.width; ++x, ++i) {
+      const double stored = static_cast<double>(depth[i]);
+      const bool is_nothing = !std::isfinite(stored) || is_background(stored, settings);
+      const bool is_normalized = settings.kind == DepthKind::normalized;
+      report.outside_range += is_normalized && !is_nothing && (stored < 0 || stored > 1);
+      const double share =
+          settings.kind == DepthKind::distance
+              ? planar_share(x + 0.5 - centre_x, y + 0.5 - centre_y, pixel_focal_length)
+              : 1;
+      const double z = is_nothing ? infinity : planar_depth(stored, settings, share);
+      if (z > farthest) {
+        report.not_a_number += std::isnan(stored);
+        ++report.background;
+        depth[i] = std::numeric_limits<float>::infinity();
+        continue;
+      }
+      depth[i] = static_cast<float>(z);
+      if (!(depth[i] > 0)) {
+        fail(ExitCode::input,
+             "{}: depth {} at pixel ({}, {}) is not in front of the camera (stored: {}); if it "
+             "means background, say so with --background {}",
+             path, z, x, y, stored, stored);
+      }
+      report.nearest_units = std::min(report.nearest_units, z);
+      report.farthest_units = std::max(report.farthest_units, z);
+    }
+  }
+  if (report.background == depth.size()) report.nearest_units = 0;
+  return report;
+}
+
+}  // namespace defray

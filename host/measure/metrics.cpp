@@ -1,0 +1,137 @@
+#include "measure/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/core/ocl.hpp>
+#include <opencv2/quality/qualityssim.hpp>
+
+#include "base/error.h"
+#include "image/ldr.h"
+
+namespace defray {
+namespace {
+
+constexpr std::size_t rgb = 3;
+
+double clipped(float value) { return std::clamp(static_cast<double>(value), 0.0, 1.0); }
+
+/// Of two infinities of one sign, 0; NaN where a value is NaN.
+double difference(float a, float b) {
+  return a == b ? 0 : static_cast<double>(a) - static_cast<double>(b);
+}
+
+/// Peak signal is 1.
+double psnr_db(double squared_error_sum, double count) {
+  return 10 * std::log10(count / squared_error_sum);
+}
+
+/// Errors over the pixels that `is_counted` accepts.
+template <typename IsCounted>
+Errors errors_over(const std::vector<Plane>& a, const std::vector<Plane>& b,
+                   const IsCounted& is_counted) {
+  Errors errors;
+  double encoded_sum = 0, linear_sum = 0, raw_sum = 0;
+  for (std::size_t c = 0; c < rgb; ++c) {
+    for (std::size_t i = 0; i < a[c].size(); ++i) {
+      if (!is_counted(i)) continue;
+      errors.pixels += c == 0;
+      const double encoded_error = shown_value(a[c][i]) - shown_value(b[c][i]);
+      const double linear_error = clipped(a[c][i]) - clipped(b[c][i]);
+      const double raw_error = difference(a[c][i], b[c][i]);
+      encoded_sum += encoded_error * encoded_error;
+      linear_sum += linear_error * linear_error;
+      raw_sum += raw_error * raw_error;
+    }
+  }
+  const double count = rgb * static_cast<double>(errors.pixels);
+  errors.psnr_srgb_db = psnr_db(encoded_sum, count);
+  errors.psnr_linear_db = psnr_db(linear_sum, count);
+  errors.rms = std::sqrt(raw_sum / count);
+  return errors;
+}
+
+void find_worst(const std::vector<Plane>& a, const std::vector<Plane>& b, int width,
+                Comparison& result) {
+  std::size_t at = 0;
+  for (std::size_t c = 0; c < rgb && !std::isnan(result.worst); ++c) {
+    for (std::size_t i = 0; i < a[c].size() && !std::isnan(result.worst); ++i) {
+      const double error = std::fabs(difference(a[c][i], b[c][i]));
+      if (error <= result.worst) continue;  // a NaN is worse than anything
+      result.worst = error;
+      at = i;
+    }
+  }
+  result.worst_x = static_cast<int>(at % static_cast<std::size_t>(width));
+  result.worst_y = static_cast<int>(at / static_cast<std::size_t>(width));
+  for (std::size_t c = 0; c < rgb; ++c) {
+    result.worst_a[c] = a[c][at];
+    result.worst_b[c] = b[c][at];
+  }
+}
+
+cv::Mat encoded_bytes(const Plane& plane, int width) {
+  cv::Mat image(static_cast<int>(plane.size()) / width, width, CV_32F);
+  std::transform(plane.begin(), plane.end(), image.begin<float>(),
+                 [](float value) { return static_cast<float>(255 * shown_value(value)); });
+  return image;
+}
+
+double mean_ssim(const std::vector<Plane>& a, const std::vector<Plane>& b, int width) {
+  cv::ocl::setUseOpenCL(false);  // one result, whatever devices there are
+  double sum = 0;
+  for (std::size_t c = 0; c < rgb; ++c) {
+    sum += cv::quality::QualitySSIM::compute(encoded_bytes(a[c], width), encoded_bytes(b[c], width),
+                                             cv::noArray())[0];
+  }
+  return sum / rgb;
+}
+
+double energy(const std::vector<Plane>& picture) {
+  double sum = 0;
+  for (std::size_t c = 0; c < rgb; ++c) {
+    sum = std::accumulate(picture[c].begin(), picture[c].end(), sum);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double shown_value(float linear) { return srgb_encode(clipped(linear)); }
+
+void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b) {
+  if (a.size() < rgb || b.size() < rgb || a[0].size() != b[0].size()) {
+    fail(ExitCode::usage, "pictures to compare differ in size: {} and {} pixels",
+         a.empty() ? 0 : a[0].size(), b.empty() ? 0 : b[0].size());
+  }
+}
+
+Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width) {
+  require_same_size(a, b);
+  Comparison result{errors_over(a, b, [](std::size_t) { return true; })};
+  find_worst(a, b, width, result);
+  result.ssim = mean_ssim(a, b, width);
+  result.energy_ratio = energy(a) / energy(b);
+  return result;
+}
+
+Errors errors_where(const std::vector<Plane>& a, const std::vector<Plane>& b,
+                    const std::vector<std::uint8_t>& mask, std::uint8_t value) {
+  require_same_size(a, b);
+  return errors_over(a, b, [&](std::size_t i) { return mask[i] == value; });
+}
+
+std::vector<Plane> difference_picture(const std::vector<Plane>& a, const std::vector<Plane>& b,
+                                      double amplify) {
+  require_same_size(a, b);
+  std::vector<Plane> picture(rgb, Plane(a[0].size()));
+  for (std::size_t c = 0; c < rgb; ++c) {
+    for (std::size_t i = 0; i < a[c].size(); ++i) {
+      const double shown = 1 - amplify * std::fabs(shown_value(a[c][i]) - shown_value(b[c][i]));
+      picture[c][i] = shown > 0 ? static_cast<float>(srgb_decode(shown)) : 0;
+    }
+  }
+  return picture;
+}
+
+}  // namespace defray

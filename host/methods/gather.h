@@ -1,0 +1,58 @@
+#pragma once
+// Poisson-disk gather (Glatzel & Wilhelm) on OpenCL: as published, or aware of depth.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "kernels/params.h"
+#include "lens/coc.h"
+
+namespace defray {
+
+enum class GatherKind {
+  literal,  ///< The paper: each pixel averages within its own CoC, and bleeds.
+  aware,    ///< Each sample is weighed by whether its light arrives.
+};
+
+struct GatherSettings {
+  GatherKind kind = GatherKind::aware;
+  int samples = 32;     ///< A pass, a pixel.
+  int passes = 2;       ///< The paper's count; later passes work on the result of the one before.
+  bool rotate = false;  ///< Turns each pixel's samples by an angle of its own.
+  std::uint32_t seed = 0;
+};
+
+inline constexpr int gather_max_passes = 8;
+
+/// Throws Error(usage) on counts outside 1...1024 samples and 1...8 passes.
+void validate(const GatherSettings& settings);
+
+/// What kernels and twins share as data. Coordinates in the unit disc.
+struct GatherSamples {
+  std::vector<std::array<float, 2>> points;
+  std::vector<std::array<float, 2>> turns;  ///< (cos, sin) of DEFRAY_GATHER_ROTATIONS angles.
+};
+GatherSamples make_gather_samples(const GatherSettings& settings);
+
+/// One pass over a whole frame: all fields of the parameters but the band.
+DefrayGatherParams gather_params(const GatherSettings& settings, int width, int height, int pass);
+
+/// Tiles of a frame, and how many of them a CoC of this size spans.
+DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_quanta);
+
+/// The largest |CoC| of each tile, quanta: kernel `gather_tiles`.
+std::vector<std::int32_t> gather_tiles_on_device(Session& session, int width, int height,
+                                                 const std::vector<std::int32_t>& coc_quanta);
+
+/// How far light comes from, for each tile, quanta: kernels `gather_tiles` and `gather_reach`.
+std::vector<std::int32_t> gather_reach_on_device(Session& session, int width, int height,
+                                                 const std::vector<std::int32_t>& coc_quanta);
+
+/// The lens picture: 1 to 4 channels in, as many out. `progress` gets the share done, 0 to 1.
+std::vector<Plane> render_gather(Session& session, int width, int height,
+                                 const std::vector<std::int32_t>& coc_quanta,
+                                 const std::vector<Plane>& channels, const GatherSettings& settings,
+                                 const std::function<void(double)>& progress = {});
+
+}  // namespace defray

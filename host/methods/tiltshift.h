@@ -1,0 +1,30 @@
+#pragma once
+// The tilt-shift baseline: a vertical blur gradient that knows no depth (Glatzel & Wilhelm, fig.
+// 2).
+#include <cstdint>
+#include <vector>
+
+#include "kernels/params.h"
+#include "opencl/session.h"
+
+namespace defray {
+
+/// Lengths in heights of the display window, from its top.
+struct TiltshiftSettings {
+  double band_centre = 0.5;  ///< 0 to 1.
+  double band_width = 0.2;   ///< Height of the sharp band, 0 to 1.
+  double max_blur_px = 9.2;  ///< Radius at the frame's edge that is farthest from the band.
+};
+
+/// Throws Error(usage) on a band outside the frame or a radius that `linear` does not take.
+void validate(const TiltshiftSettings& settings);
+
+/// The gradient as the kernel reads it. Data rows begin `first_row` rows below the display
+/// window's top, which is `display_height` high.
+DefrayTiltshiftParams tiltshift_params(const TiltshiftSettings& settings, int width, int rows,
+                                       int first_row, int display_height);
+
+/// CoC radius of every pixel, quanta (1/256 px), never negative.
+std::vector<std::int32_t> tiltshift_on_device(Session& session, const DefrayTiltshiftParams& p);
+
+}  // namespace defray

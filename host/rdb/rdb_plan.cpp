@@ -1,0 +1,63 @@
+#include "rdb/rdb_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "kernels/params.h"
+
+namespace defray {
+namespace {
+
+/// A pass that stays in the last-level cache scatters twice as fast as one that does not; below a
+/// band height of a few reaches, rows that two bands share cost more than that.
+constexpr std::size_t pass_bytes_in_cache = std::size_t{16} << 20;
+
+double mib(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+}  // namespace
+
+int rdb_reach(std::int32_t largest_coc_quanta) {
+  // |u| <= 1 for every ray that counts, and a ray lands within half a pixel of p + r u.
+  return (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) + 1;
+}
+
+std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
+                                     std::size_t memory_bytes, bool whole_lens) {
+  const std::size_t fewest = whole_lens ? static_cast<std::size_t>(cell_count) : 1;
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
+  if (memory_bytes < row_bytes) {
+    fail(
+        ExitCode::usage,
+        "--memory is {:.4g} MiB: one row of {} pixels with {} lens cells needs at least {:.3f} MiB",
+        mib(memory_bytes), width, fewest, std::ceil(mib(row_bytes) * 1000) / 1000);
+  }
+  const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
+  const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);
+  const int rows = static_cast<int>(std::max<std::size_t>(
+      1, std::min({static_cast<std::size_t>(height), memory_bytes / row_bytes, rows_wanted})));
+  const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
+  const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
+                                          row_bytes * static_cast<std::size_t>(rows));
+  const std::size_t for_cells = pass_bytes - band * rdb_bytes_a_sum;
+  const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
+                                                           for_cells / (band * rdb_bytes_a_cell)));
+  std::vector<RdbPass> passes;
+  for (int y = 0; y < height; y += rows) {
+    RdbPass pass{};
+    pass.band_y = y;
+    pass.band_rows = std::min(rows, height - y);
+    pass.window_y = static_cast<int>(std::max<std::int64_t>(0, std::int64_t{y} - reach));
+    const std::int64_t end = std::int64_t{y} + pass.band_rows + reach;
+    pass.window_rows = static_cast<int>(std::min<std::int64_t>(height, end)) - pass.window_y;
+    for (int k = 0; k < cell_count; k += cells) {
+      pass.first_cell = k;
+      pass.cell_count = std::min(cells, cell_count - k);
+      passes.push_back(pass);
+    }
+  }
+  return passes;
+}
+
+}  // namespace defray
