@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "exit_code.h"
 #include "image/channels.h"
 #include "image/display.h"
 #include "lens/camera.h"
@@ -39,19 +40,19 @@ struct BandErrors {
 
 void validate(const Options& o) {
   const auto refuse_nan = [](const char* name, const std::optional<double>& value) {
-    if (value && std::isnan(*value)) fail(ExitCode::usage, "{} is not a number", name);
+    if (value && std::isnan(*value)) fail(ErrorKind::usage, "{} is not a number", name);
   };
   refuse_nan("--min-psnr", o.min_psnr);
   refuse_nan("--min-ssim", o.min_ssim);
   refuse_nan("--max-error", o.max_error);
   if (o.min_ssim && std::fabs(*o.min_ssim) > 1) {
-    fail(ExitCode::usage, "--min-ssim is {}: SSIM lies between -1 and 1", *o.min_ssim);
+    fail(ErrorKind::usage, "--min-ssim is {}: SSIM lies between -1 and 1", *o.min_ssim);
   }
   if (o.max_error && *o.max_error < 0) {
-    fail(ExitCode::usage, "--max-error is {}: it must be 0 or more", *o.max_error);
+    fail(ErrorKind::usage, "--max-error is {}: it must be 0 or more", *o.max_error);
   }
   if (!(o.amplify > 0) || !std::isfinite(o.amplify)) {
-    fail(ExitCode::usage, "--amplify is {}: it must be a finite number above 0", o.amplify);
+    fail(ErrorKind::usage, "--amplify is {}: it must be a finite number above 0", o.amplify);
   }
   if (!o.sheet.empty()) check_sheet(o.sheet, {o.a, o.b, o.depth, o.camera});
 }
@@ -147,7 +148,7 @@ int run(const Options& o) {
                  {fmt::format("|A - B| x {:g}", o.amplify), std::move(difference)}},
                 a.data.width, a.data.height);
   }
-  return static_cast<int>(misses_a_bound(o, comparison) ? ExitCode::failed : ExitCode::ok);
+  return misses_a_bound(o, comparison) ? ExitCode::failed : ExitCode::ok;
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ Run add_devices(CLI::App& app) {
       print_text(devices);
     }
     if (devices.empty()) {
-      fail(ExitCode::device,
+      fail(ErrorKind::device,
            "no OpenCL device found: install one (Debian: apt-get install pocl-opencl-icd)");
     }
     return 0;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "commands.h"
+#include "exit_code.h"
 #include "image/safe_output.h"
 
 namespace defray::cli {
@@ -82,9 +83,9 @@ std::string explain_value(const CLI::ParseError& error, const CLI::App& app) {
   return message;
 }
 
-int fail_with(ExitCode code, const std::string& message) {
+int fail_with(ErrorKind kind, const std::string& message) {
   fmt::print(stderr, "defray: error: {}\n", message);
-  return static_cast<int>(code);
+  return exit_code(kind);
 }
 
 /// A shell's unset variable must not pass for an option that was left out.
@@ -92,7 +93,7 @@ void refuse_empty_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& value : option->results()) {
       if (!value.empty()) continue;
-      fail(ExitCode::usage, "{} is empty: give a value, or leave the option out",
+      fail(ErrorKind::usage, "{} is empty: give a value, or leave the option out",
            option->get_name());
     }
   }
@@ -112,25 +113,25 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
-    return fail_with(ExitCode::usage, explain_extras(app));
+    return fail_with(ErrorKind::usage, explain_extras(app));
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::CallForVersion& version) {
     return app.exit(version);
   } catch (const CLI::ParseError& error) {
-    return fail_with(ExitCode::usage, explain_value(error, app));
+    return fail_with(ErrorKind::usage, explain_value(error, app));
   }
   for (const auto& [app_of, command] : commands) {
     if (!app_of->parsed()) continue;
     refuse_empty_values(*app_of);
     const int code = command();
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-      return fail_with(ExitCode::output, "cannot write to standard output");
+      return fail_with(ErrorKind::output, "cannot write to standard output");
     }
     return code;
   }
   fmt::print("{}", app.help());
-  return static_cast<int>(ExitCode::usage);
+  return ExitCode::wrong_usage;
 }
 
 }  // namespace
@@ -143,12 +144,12 @@ int main(int argc, char** argv) {
   try {
     return defray::cli::run(argc, argv);
   } catch (const defray::Error& error) {
-    return defray::cli::fail_with(error.code(), error.what());
+    return defray::cli::fail_with(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    return defray::cli::fail_with(defray::ExitCode::input, "not enough memory for this picture");
+    return defray::cli::fail_with(defray::ErrorKind::input, "not enough memory for this picture");
   } catch (const std::system_error& error) {  // fmt's, from a broken standard output
-    return defray::cli::fail_with(defray::ExitCode::output, error.what());
+    return defray::cli::fail_with(defray::ErrorKind::output, error.what());
   } catch (const std::exception& error) {
-    return defray::cli::fail_with(defray::ExitCode::internal, error.what());
+    return defray::cli::fail_with(defray::ErrorKind::internal, error.what());
   }
 }

@@ -16,7 +16,7 @@ T choice(const std::string& option, const std::string& word, const std::map<std:
   if (found != of.end()) return found->second;
   std::vector<std::string> words;
   for (const auto& [name, value] : of) words.push_back(name);
-  fail(ExitCode::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
+  fail(ErrorKind::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
        did_you_mean(word, words), join(words, " "));
 }
 

@@ -17,7 +17,7 @@ double parse_unit(const std::string& text) {
     return choice("--unit", text, metres);
   }
   if (!(number > 0) || std::isinf(number)) {
-    fail(ExitCode::usage, "--unit: the scene unit is {} m: it must be a finite number above 0",
+    fail(ErrorKind::usage, "--unit: the scene unit is {} m: it must be a finite number above 0",
          number);
   }
   return number;
@@ -30,7 +30,7 @@ double parse_background(const std::string& text) {
   const char* begin = text.data() + (has_plus ? 1 : 0);
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || std::isnan(number)) {
-    fail(ExitCode::usage, "--background '{}' is neither a number nor none", text);
+    fail(ErrorKind::usage, "--background '{}' is neither a number nor none", text);
   }
   return number;
 }
@@ -40,7 +40,7 @@ std::array<std::size_t, 2> parse_work_group(const std::string& text) {
   static const std::regex form(R"(([1-9]\d{0,5})(?:x([1-9]\d{0,5}))?)");
   std::smatch match;
   if (!std::regex_match(text, match, form)) {
-    fail(ExitCode::usage, "--work-group '{}': write it as 64 or 64x1", text);
+    fail(ErrorKind::usage, "--work-group '{}': write it as 64 or 64x1", text);
   }
   const std::size_t y = match[2].matched ? std::stoul(match[2]) : 1;
   return {std::stoul(match[1]), y};

@@ -19,17 +19,17 @@ Picture read_picture(const std::string& path) {
 
 void require_same_size(const Picture& a, const Picture& b) {
   if (a.data != b.data) {
-    fail(ExitCode::input, "{} has data window {}, {} has {}: both must be the same", a.path,
+    fail(ErrorKind::input, "{} has data window {}, {} has {}: both must be the same", a.path,
          to_string(a.data), b.path, to_string(b.data));
   }
 }
 
 void check_sheet(const std::string& path, const std::vector<std::string>& inputs) {
-  if (!is_ldr_path(path)) fail(ExitCode::usage, "{}: a sheet is PNG or JPEG", path);
+  if (!is_ldr_path(path)) fail(ErrorKind::usage, "{}: a sheet is PNG or JPEG", path);
   for (const std::string& input : inputs) {
     std::error_code ignored;
     if (std::filesystem::equivalent(input, path, ignored)) {
-      fail(ExitCode::usage, "{}: is input and output at once; write to another file", path);
+      fail(ErrorKind::usage, "{}: is input and output at once; write to another file", path);
     }
   }
   check_can_write(path);

@@ -29,16 +29,16 @@ struct Options {
 
 void check_outputs(const Options& o) {
   if (!o.output.empty()) {
-    if (!is_ldr_path(o.output)) fail(ExitCode::usage, "{}: a chart is PNG or JPEG", o.output);
+    if (!is_ldr_path(o.output)) fail(ErrorKind::usage, "{}: a chart is PNG or JPEG", o.output);
     check_can_write(o.output);
   }
   if (!o.csv.empty()) check_can_write(o.csv);
   std::error_code ignored;
   if (std::filesystem::equivalent(o.csv, o.camera_file, ignored)) {
-    fail(ExitCode::usage, "{}: is input and output at once; write to another file", o.csv);
+    fail(ErrorKind::usage, "{}: is input and output at once; write to another file", o.csv);
   }
   if (is_same_file(o.csv, o.output)) {
-    fail(ExitCode::usage, "{}: -o and --csv are the same file", o.csv);
+    fail(ErrorKind::usage, "{}: -o and --csv are the same file", o.csv);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
@@ -18,11 +19,11 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
   const bool is_sequence = has_frame_pattern(o.input);
   if (!is_sequence) {
     if (!o.frames.empty()) {
-      fail(ExitCode::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
+      fail(ErrorKind::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
     for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
       if (!name.empty() && has_frame_pattern(name)) {
-        fail(ExitCode::usage, "{}: has a frame pattern, the input {} has none", name, o.input);
+        fail(ErrorKind::usage, "{}: has a frame pattern, the input {} has none", name, o.input);
       }
     }
     return {std::nullopt};
@@ -30,7 +31,7 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
   const std::vector<int> numbers = o.frames.empty() ? find_frames(o.input) : parse_frames(o.frames);
   for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
-      fail(ExitCode::usage, "{}: {} frames would go to one file; put #### in its name", name,
+      fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,
            numbers.size());
     }
   }
@@ -89,7 +90,7 @@ class SequenceRun {
       outcome.error = error.what();
       if (options_.json) report(outcome);
       bar_.clear();
-      if (!options_.skip_bad_frames || error.code() == ExitCode::device) throw;
+      if (!options_.skip_bad_frames || error.kind() == ErrorKind::device) throw;
       fmt::print(stderr, "defray: error: {}\n", error.what());
       return false;
     }
@@ -139,9 +140,10 @@ int run(const RenderOptions& options) {
   }
   if (options.show) sequence.show_last();
   if (failed > 0) {
-    fail(ExitCode::failed, "{} of {} frames failed", failed, frames.size());
+    fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());
+    return ExitCode::failed;
   }
-  return 0;
+  return ExitCode::ok;
 }
 
 }  // namespace

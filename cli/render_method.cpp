@@ -73,19 +73,19 @@ void reject_foreign_options(const RenderOptions& o) {
     const auto& known = option.methods;
     if (!option.is_given || std::find(known.begin(), known.end(), o.method) != known.end())
       continue;
-    fail(ExitCode::usage, "{} means nothing to --method {}: it goes with {}", option.name, o.method,
-         join(known, ", "));
+    fail(ErrorKind::usage, "{} means nothing to --method {}: it goes with {}", option.name,
+         o.method, join(known, ", "));
   }
   if (o.device == "reference") {
     const std::pair<const char*, bool> of_kernels[] = {{"--work-group", !o.work_group.empty()},
                                                        {"--memory", o.memory_mib.has_value()},
                                                        {"--math", o.math != "strict"}};
     for (const auto& [name, is_given] : of_kernels) {
-      if (is_given) fail(ExitCode::usage, "{} means nothing to --device reference", name);
+      if (is_given) fail(ErrorKind::usage, "{} means nothing to --device reference", name);
     }
   }
   if (o.method == "rdb" && o.jitter && !o.literal) {
-    fail(ExitCode::usage, "--jitter goes with --literal: other lens points leave no pattern");
+    fail(ErrorKind::usage, "--jitter goes with --literal: other lens points leave no pattern");
   }
   if (o.literal) {
     const std::pair<const char*, bool> of_stages[] = {
@@ -103,11 +103,11 @@ void reject_foreign_options(const RenderOptions& o) {
         {"--aperture-image", !o.aperture.image.empty()},
         {"--cats-eye", o.aperture.cats_eye.has_value()}};
     for (const auto& [name, is_given] : of_stages) {
-      if (is_given) fail(ExitCode::usage, "{} means nothing to --literal", name);
+      if (is_given) fail(ErrorKind::usage, "{} means nothing to --literal", name);
     }
   }
   if (o.method == "rdb" && o.seed && !o.jitter) {
-    fail(ExitCode::usage, "--seed goes with --jitter: without it nothing is random");
+    fail(ErrorKind::usage, "--seed goes with --jitter: without it nothing is random");
   }
 }
 
@@ -167,7 +167,7 @@ MethodSettings to_method(const RenderOptions& o) {
   reject_foreign_options(o);
   const double memory_mib = o.memory_mib.value_or(512);
   if (!(memory_mib > 0) || memory_mib > 1048576) {
-    fail(ExitCode::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
+    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
          memory_mib);
   }
   const auto memory_bytes = static_cast<std::size_t>(memory_mib * 1048576);

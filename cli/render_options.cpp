@@ -125,11 +125,11 @@ CameraValues eye_of(const RenderOptions& o) {
           ? Eye::retina
           : choice<Eye>("--eye", o.eye, {{"retina", Eye::retina}, {"display", Eye::display}});
   if ((o.display_distance || o.display_resolution) && (o.eye.empty() || eye != Eye::display)) {
-    fail(ExitCode::usage, "--display-distance and --display-resolution go with --eye=display");
+    fail(ErrorKind::usage, "--display-distance and --display-resolution go with --eye=display");
   }
   for (const double value : {o.display_distance.value_or(1), o.display_resolution.value_or(1)}) {
     if (!(value > 0) || std::isinf(value)) {
-      fail(ExitCode::usage, "--display-distance and --display-resolution must be above 0, not {}",
+      fail(ErrorKind::usage, "--display-distance and --display-resolution must be above 0, not {}",
            value);
     }
   }
@@ -142,7 +142,7 @@ void read_lens(const RenderOptions& o, RenderSettings& s) {
   s.camera_from_metadata = o.camera == "from-metadata";
   const bool has_file = !o.camera.empty() && !s.camera_from_metadata;
   if (!o.focus_setting.empty() && !has_file) {
-    fail(ExitCode::usage, "--focus-setting goes with --camera FILE.json");
+    fail(ErrorKind::usage, "--focus-setting goes with --camera FILE.json");
   }
   if (has_file) s.camera = read_camera_json(o.camera, o.focus_setting, s.metres_per_unit);
   s.camera = s.camera.overridden_by(eye_of(o)).overridden_by(typed_values(o));
@@ -187,7 +187,7 @@ RenderSettings to_settings(const RenderOptions& o) {
       "--nonfinite", o.nonfinite,
       {{"error", Nonfinite::error}, {"zero", Nonfinite::zero}, {"keep", Nonfinite::keep}});
   if (o.max_coc && !(*o.max_coc > 0)) {
-    fail(ExitCode::usage, "--max-coc is {} px: it must be above 0", *o.max_coc);
+    fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", *o.max_coc);
   }
   s.max_coc_px = o.max_coc.value_or(0);
   if (s.method.method != Method::tiltshift) read_lens(o, s);

@@ -122,7 +122,7 @@ void write_frame(const Options& o, FrameNumber frame, Noise& noise) {
 std::vector<FrameNumber> frames_of(const Options& o) {
   if (o.frames.empty()) return {std::nullopt};
   if (scene_info(o.name).frames == 1) {
-    fail(ExitCode::usage, "--frames: scene '{}' does not move", o.name);
+    fail(ErrorKind::usage, "--frames: scene '{}' does not move", o.name);
   }
   std::vector<FrameNumber> frames;
   for (const int frame : parse_frames(o.frames)) frames.push_back(frame);
@@ -134,7 +134,7 @@ void check(const Options& o, const std::vector<FrameNumber>& frames) {
   check_samples("--truth-samples", o.truth_samples);
   check_samples("--pinhole-samples", o.pinhole.samples);
   if (o.pinhole.averages_depth && o.pinhole.samples == 1) {
-    fail(ExitCode::usage,
+    fail(ErrorKind::usage,
          "--antialiased-depth with --pinhole-samples 1: of one ray there is no mean");
   }
   for (const FrameNumber frame : frames) settings_of(o, scene_of(o, frame));

@@ -16,7 +16,7 @@ struct Options {
 
 int run(const Options& o) {
   if (!o.captions.empty() && o.captions.size() != o.pictures.size()) {
-    fail(ExitCode::usage, "--captions names {} pictures, there are {}", o.captions.size(),
+    fail(ErrorKind::usage, "--captions names {} pictures, there are {}", o.captions.size(),
          o.pictures.size());
   }
   check_sheet(o.output, o.pictures);

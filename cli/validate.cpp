@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "exit_code.h"
 #include "image/safe_output.h"
 #include "options.h"
 #include "progress.h"
@@ -132,7 +133,7 @@ int run(const ValidateOptions& o) {
   const TemporaryFolder pictures("defray-report");
   const Page page{title_of(results), intro_of(o), to_sections(results, notes, pictures.path())};
   write_reports(o, page, pictures, to_json(results, notes, level_of(o)));
-  return passed ? 0 : static_cast<int>(ExitCode::failed);
+  return passed ? ExitCode::ok : ExitCode::failed;
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ void check_paths(const FramePaths& paths) {
     if (output.empty()) continue;
     for (const std::string& input : {paths.input, paths.depth}) {
       if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
-        fail(ExitCode::usage, "{}: is input and output at once; write to another file", output);
+        fail(ErrorKind::usage, "{}: is input and output at once; write to another file", output);
       }
     }
   }
@@ -47,7 +47,7 @@ void check_paths(const FramePaths& paths) {
     for (const auto& [other, other_path] : outputs) {
       if (&path == &other_path) break;
       if (!path.empty() && is_same_file(path, other_path)) {
-        fail(ExitCode::usage, "{}: {} and {} are the same file", path, other, name);
+        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, other, name);
       }
     }
   }
@@ -63,7 +63,7 @@ std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const
       if (policy == Nonfinite::zero) plane[i] = 0;
       if (policy == Nonfinite::error) {
         const auto width = static_cast<std::size_t>(data.width);
-        fail(ExitCode::input,
+        fail(ErrorKind::input,
              "{}: colour {} at pixel ({}, {}); --nonfinite zero replaces such values, keep lets "
              "them through",
              path, plane[i], data.x + static_cast<int>(i % width),
@@ -84,7 +84,7 @@ Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const 
   report.depth_channel = describe(name, file.parts());
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
   if (part.data != report.data) {
-    fail(ExitCode::input,
+    fail(ErrorKind::input,
          "{}: depth {} has data window {}, colour in {} has {}; both must be the same", file.path(),
          report.depth_channel, to_string(part.data), paths.input, to_string(report.data));
   }
@@ -110,7 +110,7 @@ void choose_further_channels(const FramePaths& paths, const RenderSettings& sett
   if (settings.channels.empty()) return;
   frame.further = choose_further(frame.file, frame.choice, settings.channels);
   if (!keeps_other_channels(paths.output, frame.file)) {
-    fail(ExitCode::usage, "{}: --channels needs a format that holds them: the input's own, {}",
+    fail(ErrorKind::usage, "{}: --channels needs a format that holds them: the input's own, {}",
          paths.output, std::filesystem::path(paths.input).extension().string());
   }
 }
@@ -163,7 +163,7 @@ Frame read_frame(const FramePaths& paths, const RenderSettings& settings, FrameR
   report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
   if (settings.depth.kind == DepthKind::distance && report.lens.pixels_per_metre > 0) {
     fail(
-        ExitCode::usage,
+        ErrorKind::usage,
         "--depth-kind distance needs the picture's field of view, which --eye and --pixel-scale do "
         "not state: convert the depth to planar z first");
   }

@@ -33,7 +33,7 @@ void check_against_twin(Session& session, const Subject& s, const MethodSettings
   const auto coc = reference::coc(s.lens, s.scene.width, depth);
   const PinholeFrame frame{w, h, coc, depth, colour};
   if (apply_method(frame, settings, &session) != apply_method(frame, settings, nullptr)) {
-    fail(ExitCode::internal, "a timed picture differs from its twin");
+    fail(ErrorKind::internal, "a timed picture differs from its twin");
   }
 }
 
@@ -72,7 +72,7 @@ Timing time_method(const Bench& bench, const Subject& subject, const MethodSetti
     else
       repeats = repeats && picture == first;
   });
-  if (!repeats) fail(ExitCode::internal, "a timed picture differs from run to run");
+  if (!repeats) fail(ErrorKind::internal, "a timed picture differs from run to run");
   return timing;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "exit_code.h"
 #include "experiments.h"
 #include "image/safe_output.h"
 
@@ -34,7 +35,7 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
   bool is_all = false;
   for (const std::string& word : words) {
     if (std::find(known.begin(), known.end(), word) == known.end()) {
-      fail(ExitCode::usage, "unknown experiment '{}'.{} There are: {}", word,
+      fail(ErrorKind::usage, "unknown experiment '{}'.{} There are: {}", word,
            did_you_mean(word, known), join(known, " "));
     }
     is_all = is_all || word == "all";
@@ -71,7 +72,7 @@ int run(const Options& o) {
                           session.info().name, session.info().version),
               sections});
   fmt::print("{}/index.html\n", o.folder);
-  if (std::fflush(stdout) != 0) fail(ExitCode::output, "cannot write to standard output");
+  if (std::fflush(stdout) != 0) fail(ErrorKind::output, "cannot write to standard output");
   return 0;
 }
 
@@ -100,7 +101,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& parse_error) {
-    fail(ExitCode::usage, "{}", parse_error.what());
+    fail(ErrorKind::usage, "{}", parse_error.what());
   }
   return run(o);
 }
@@ -126,12 +127,12 @@ int main(int argc, char** argv) {
     return defray::perf::parse_and_run(argc, argv);
   } catch (const defray::Error& error) {
     fmt::print(stderr, "defray-perf: error: {}\n", error.what());
-    return static_cast<int>(error.code());
+    return defray::cli::exit_code(error.kind());
   } catch (const std::system_error& error) {  // fmt's, from a broken standard output
     fmt::print(stderr, "defray-perf: error: {}\n", error.what());
-    return static_cast<int>(defray::ExitCode::output);
+    return defray::cli::exit_code(defray::ErrorKind::output);
   } catch (const std::exception& error) {
     fmt::print(stderr, "defray-perf: error: {}\n", error.what());
-    return static_cast<int>(defray::ExitCode::internal);
+    return defray::cli::exit_code(defray::ErrorKind::internal);
   }
 }

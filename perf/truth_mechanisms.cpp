@@ -81,7 +81,7 @@ Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& a
         continue;
       }
       p.seconds[v].push_back(seconds);
-      if (picture != p.pictures[v]) fail(ExitCode::internal, "a picture differs from run to run");
+      if (picture != p.pictures[v]) fail(ErrorKind::internal, "a picture differs from run to run");
     }
   }
   return p;

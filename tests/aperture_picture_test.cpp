@@ -185,7 +185,7 @@ TEST(AperturePicture, SamplesKeepItsCentroid) {
 TEST(AperturePicture, RefusesPicturesWithoutLight) {
   const Folder folder;
   const auto refused = [](const std::string& path, const std::string& why) {
-    expect_error(3, {path, why}, [&] { rasterise(picture(path)); });
+    expect_error(ErrorKind::input, {path, why}, [&] { rasterise(picture(path)); });
   };
   refused(write_grey(folder, 3, 3, Plane(9, 0.0f)), "black");
   refused(write_grey(folder, 2, 1, {1, -1.0f}), "-1 at pixel 1,0: an aperture lets 0 or more");

@@ -140,8 +140,8 @@ TEST(Aperture, RefusesWhatIsNotAllowed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const auto refused = [](const Aperture& a, const std::vector<std::string>& words) {
-    expect_error(2, words, [&] { validate(a); });
-    expect_error(2, words, [&] { rasterise(a); });
+    expect_error(ErrorKind::usage, words, [&] { validate(a); });
+    expect_error(ErrorKind::usage, words, [&] { rasterise(a); });
   };
   for (const int count : {-1, 1, 2, 33}) {
     refused(blades(count), {"--blades is " + std::to_string(count), "3 to 32"});

@@ -110,7 +110,7 @@ TEST(Defocus, AFrameThatDoesNotFitTheHostIsRefused) {
     defocus(frame, {}, {}, &device);
     FAIL() << "not refused";
   } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::device);
+    EXPECT_EQ(error.kind(), ErrorKind::device);
     EXPECT_NE(std::string(error.what()).find("60x40 pixels"), std::string::npos) << error.what();
   }
 }

@@ -41,7 +41,7 @@ TEST(Channels, DepthOfTheColoursOwnViewLayer) {
   const std::vector<PartInfo> parts{
       part({"A.Combined.R", "A.Combined.G", "A.Combined.B", "A.Depth.Z", "B.Combined.R",
             "B.Combined.G", "B.Combined.B", "B.Depth.Z"})};
-  expect_error(3, {"A.Combined", "B.Combined", "--layer"}, [&] { colour(parts); });
+  expect_error(ErrorKind::input, {"A.Combined", "B.Combined", "--layer"}, [&] { colour(parts); });
   EXPECT_EQ(depth(parts, {"B", "", ""}), "B.Depth.Z");
   EXPECT_EQ(depth(parts, {"A.Combined", "", ""}), "A.Depth.Z");
 }
@@ -53,14 +53,14 @@ TEST(Channels, OtherNamesOfDepth) {
 }
 
 TEST(Channels, AVectorsZIsNoDepth) {
-  expect_error(3, {"no depth", "N.Z", "--depth-channel"}, [] {
+  expect_error(ErrorKind::input, {"no depth", "N.Z", "--depth-channel"}, [] {
     depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})});
   });
   EXPECT_EQ(depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z", "Z"})}), "Z");
 }
 
 TEST(Channels, SeveralDepthsAreAmbiguous) {
-  expect_error(3, {"depth.Z", "zdepth.Z", "--depth-channel"}, [] {
+  expect_error(ErrorKind::input, {"depth.Z", "zdepth.Z", "--depth-channel"}, [] {
     depth({part({"R", "G", "B", "depth.Z", "zdepth.Z"})});
   });
 }
@@ -72,14 +72,16 @@ TEST(Channels, SinglePartStereo) {
   EXPECT_EQ(depth(parts), "Z");
   EXPECT_EQ(depth(parts, {"", "left", ""}), "left.Z");
   EXPECT_EQ(colour(parts, {"", "left", ""}).channels, (std::vector<int>{4, 5, 6}));
-  expect_error(3, {"view 'middle'", "right", "left"}, [&] { colour(parts, {"", "middle", ""}); });
+  expect_error(ErrorKind::input, {"view 'middle'", "right", "left"}, [&] {
+    colour(parts, {"", "middle", ""});
+  });
 }
 
 TEST(Channels, MultiPartStereo) {
   const std::vector<PartInfo> parts{
       part({"R", "G", "B"}, "rgba_right", "right"), part({"Z"}, "depth_left", "left"),
       part({"R", "G", "B"}, "rgba_left", "left"), part({"Z"}, "depth_right", "right")};
-  expect_error(3, {"view 'right'", "view 'left'", "--view"}, [&] { colour(parts); });
+  expect_error(ErrorKind::input, {"view 'right'", "view 'left'", "--view"}, [&] { colour(parts); });
   const ChannelRequest left{"", "left", ""};
   EXPECT_EQ(colour(parts, left).part, 2);
   EXPECT_EQ(choose_depth("f.exr", parts, left, colour(parts, left)).part, 1);
@@ -97,15 +99,15 @@ TEST(Channels, PartsNamedAsLayers) {
 }
 
 TEST(Channels, ErrorsListWhatThereIs) {
-  expect_error(3, {"no colour", "Y", "Z"}, [] { colour({part({"Y", "Z"})}); });
-  expect_error(3, {"layer 'specular'"}, [] {
+  expect_error(ErrorKind::input, {"no colour", "Y", "Z"}, [] { colour({part({"Y", "Z"})}); });
+  expect_error(ErrorKind::input, {"layer 'specular'"}, [] {
     colour({part({"R", "G", "B"})}, {"specular", "", ""});
   });
-  expect_error(3, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"}, [] {
+  expect_error(ErrorKind::input, {"no channel 'depht.Z'", "Did you mean 'depth.Z'?"}, [] {
     depth({part({"R", "G", "B", "depth.Z"})}, {"", "", "depht.Z"});
   });
   // Any letter is one edit from Z: no suggestion.
-  expect_error(3, {"no channel '['. It has: R G B Z"}, [] {
+  expect_error(ErrorKind::input, {"no channel '['. It has: R G B Z"}, [] {
     depth({part({"R", "G", "B", "Z"})}, {"", "", "["});
   });
 }

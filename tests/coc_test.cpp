@@ -158,12 +158,16 @@ TEST(Lens, RefusesWhatNoLensHas) {
       validate(lens);
     };
   };
-  expect_error(2, {"focal length", "0"}, with([](Lens& l) { l.focal_length_mm = 0; }));
-  expect_error(2, {"focal length", "nan"}, with([](Lens& l) { l.focal_length_mm = NAN; }));
-  expect_error(2, {"sensor width"}, with([](Lens& l) { l.sensor_width_mm = -36; }));
-  expect_error(2, {"aperture", "-1"}, with([](Lens& l) { l.aperture_diameter_mm = -1; }));
-  expect_error(2, {"focus distance"}, with([](Lens& l) { l.focus_distance_units = 0; }));
-  expect_error(2, {"inside the focal length", "--unit"},
+  expect_error(ErrorKind::usage, {"focal length", "0"},
+               with([](Lens& l) { l.focal_length_mm = 0; }));
+  expect_error(ErrorKind::usage, {"focal length", "nan"},
+               with([](Lens& l) { l.focal_length_mm = NAN; }));
+  expect_error(ErrorKind::usage, {"sensor width"}, with([](Lens& l) { l.sensor_width_mm = -36; }));
+  expect_error(ErrorKind::usage, {"aperture", "-1"},
+               with([](Lens& l) { l.aperture_diameter_mm = -1; }));
+  expect_error(ErrorKind::usage, {"focus distance"},
+               with([](Lens& l) { l.focus_distance_units = 0; }));
+  expect_error(ErrorKind::usage, {"inside the focal length", "--unit"},
                with([](Lens& l) { l.focus_distance_units = 0.05; }));
 }
 

@@ -42,10 +42,10 @@ TEST(Depth, AnExplicitBackgroundIsTheOnlyOne) {
   DepthSettings settings;
   settings.background = 7;
   EXPECT_EQ(converted({2, 7, 65504, 3, 4}, settings), (Plane{2, inf, 65504, 3, 4}));
-  expect_error(3, {"z.exr", "depth 0", "(3, 0)", "--background"}, [&] {
+  expect_error(ErrorKind::input, {"z.exr", "depth 0", "(3, 0)", "--background"}, [&] {
     converted({2, 7, 3, 0, 4}, settings);
   });
-  expect_error(3, {"depth -1"}, [&] { converted({2, 7, 3, -1, 4}, settings); });
+  expect_error(ErrorKind::input, {"depth -1"}, [&] { converted({2, 7, 3, -1, 4}, settings); });
 }
 
 TEST(Depth, NothingButBackground) {
@@ -88,12 +88,12 @@ TEST(Depth, DistanceAlongTheRayKnowsThePixelsPlaceInTheDisplayWindow) {
 TEST(Depth, SettingsThatContradictEachOther) {
   DepthSettings settings;
   settings.invert = true;
-  expect_error(2, {"--invert", "normalized"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"--invert", "normalized"}, [&] { validate(settings); });
   settings = {};
   settings.near_units = 1;
-  expect_error(2, {"--near", "normalized"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"--near", "normalized"}, [&] { validate(settings); });
   settings.kind = DepthKind::normalized;
-  expect_error(2, {"--near < --far"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"--near < --far"}, [&] { validate(settings); });
 }
 
 std::string write_text(const Folder& folder, const std::string& text) {
@@ -114,22 +114,26 @@ TEST(Camera, ReadsTheSharedShape) {
   EXPECT_DOUBLE_EQ(*a.aperture_diameter_mm, 20);
   EXPECT_FALSE(a.fstop);
   EXPECT_DOUBLE_EQ(*read_camera_json(path, "b", 1).fstop, 2);
-  expect_error(3, {"a b", "--focus-setting"}, [&] { read_camera_json(path, "", 1); });
-  expect_error(3, {"'c'", "a b"}, [&] { read_camera_json(path, "c", 1); });
+  expect_error(ErrorKind::input, {"a b", "--focus-setting"},
+               [&] { read_camera_json(path, "", 1); });
+  expect_error(ErrorKind::input, {"'c'", "a b"}, [&] { read_camera_json(path, "c", 1); });
 }
 
 TEST(Camera, BadFiles) {
   const Folder folder;
-  expect_error(3, {"cannot open"}, [&] { read_camera_json(folder / "none.json", "", 1); });
+  expect_error(ErrorKind::input, {"cannot open"},
+               [&] { read_camera_json(folder / "none.json", "", 1); });
   for (const char* text :
        {"", "{", "[1]", "3", R"({"focal_length_mm": "x"})", R"({"focus_settings": 3})"}) {
-    expect_error(3, {"camera.json"}, [&] { read_camera_json(write_text(folder, text), "", 1); });
+    expect_error(ErrorKind::input, {"camera.json"},
+                 [&] { read_camera_json(write_text(folder, text), "", 1); });
   }
-  expect_error(3, {"cannot open"}, [&] { read_camera_json(folder.path(), "", 1); });
+  expect_error(ErrorKind::input, {"cannot open"}, [&] { read_camera_json(folder.path(), "", 1); });
   const CameraValues half =
       read_camera_json(write_text(folder, R"({"focal_length_mm": 50, "f_stop": 2})"), "", 1);
   EXPECT_DOUBLE_EQ(*half.fstop, 2);
-  expect_error(2, {"--focus", "camera.json"}, [&] { make_lens(half, 1, LensModel::cg, 0); });
+  expect_error(ErrorKind::usage, {"--focus", "camera.json"},
+               [&] { make_lens(half, 1, LensModel::cg, 0); });
 }
 
 TEST(Camera, ExplicitValuesWin) {
@@ -145,18 +149,18 @@ TEST(Camera, ExplicitValuesWin) {
 }
 
 TEST(Camera, SaysWhatIsMissing) {
-  expect_error(2, {"--focus", "--focal-length", "--fstop"},
+  expect_error(ErrorKind::usage, {"--focus", "--focal-length", "--fstop"},
                [] { make_lens({}, 1, LensModel::cg, 0); });
   CameraValues both;
   both.focal_length_mm = 50;
   both.fstop = 2;
   both.aperture_diameter_mm = 20;
   both.focus_distance_units = 3;
-  expect_error(2, {"one of them"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
+  expect_error(ErrorKind::usage, {"one of them"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
   both.aperture_diameter_mm.reset();
   for (const double f : {0.0, -2.0, double{NAN}}) {
     both.fstop = f;
-    expect_error(2, {"f-number"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
+    expect_error(ErrorKind::usage, {"f-number"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
   }
 }
 

@@ -52,7 +52,7 @@ TEST(ExtremeFiles, NoDepthIsPassedOnThatIsNotAboveZero) {
         EXPECT_LE(report.farthest_units, double{largest}) << stored;
       } catch (const Error& error) {
         ++refused;
-        EXPECT_EQ(error.code(), ExitCode::input);
+        EXPECT_EQ(error.kind(), ErrorKind::input);
         EXPECT_TRUE(std::isfinite(stored)) << "NaN and inf are background: " << error.what();
       }
     }
@@ -65,7 +65,7 @@ TEST(ExtremeFiles, NormalizedDepthNeedsAFiniteFarEnd) {
   DepthSettings s;
   s.kind = DepthKind::normalized;
   s.near_units = 1, s.far_units = double{infinite};
-  expect_error(2, {"--near < --far", "inf"}, [&] { validate(s); });
+  expect_error(ErrorKind::usage, {"--near < --far", "inf"}, [&] { validate(s); });
 }
 
 RenderSettings settings_of(Method method, GatherKind kind, double aperture_mm) {

@@ -122,7 +122,7 @@ TEST(ExtremeLenses, ValuesOutsideTheirRangeAreRefused) {
   const auto refused = [](double Lens::*value, double bad, const std::string& words) {
     Lens lens = lens_of(3, 2.8);
     lens.*value = bad;
-    expect_error(2, {words}, [&] { validate(lens); });
+    expect_error(ErrorKind::usage, {words}, [&] { validate(lens); });
   };
   for (const double bad : {-1.0, 0.9e-30, 1.1e30, double{HUGE_VAL}, double{NAN}}) {
     refused(&Lens::focal_length_mm, bad, "focal length");

@@ -60,7 +60,7 @@ TEST(ImageFile, EveryDamagedFileIsRefusedUnderBothNames) {
     std::filesystem::copy_file(entry.path(), copy,
                                std::filesystem::copy_options::overwrite_existing);
     for (const std::string& path : {entry.path().string(), copy}) {
-      expect_error(3, {path}, [&] { ImageFile::read(path); });
+      expect_error(ErrorKind::input, {path}, [&] { ImageFile::read(path); });
     }
     ++count;
   }
@@ -77,7 +77,7 @@ TEST(ImageFile, TruncatedAtEveryLength) {
   const std::string whole = bytes_of(folder / "whole.exr");
   for (std::size_t length = 0; length + 40 < whole.size(); length += 97) {
     std::ofstream(folder / "cut.exr", std::ios::binary) << whole.substr(0, length);
-    expect_error(3, {"cut.exr"}, [&] { ImageFile::read(folder / "cut.exr"); });
+    expect_error(ErrorKind::input, {"cut.exr"}, [&] { ImageFile::read(folder / "cut.exr"); });
   }
 }
 
@@ -89,14 +89,15 @@ TEST(ImageFile, AbsurdHeaderSizesAreRefusedBeforeAllocation) {
   const std::uint32_t far_right = 3000000;
   bytes.replace(window + 8, 4, reinterpret_cast<const char*>(&far_right), 4);
   std::ofstream(folder / "huge.exr", std::ios::binary) << bytes;
-  expect_error(3, {"huge.exr", "3000001x2", "allowed"},
+  expect_error(ErrorKind::input, {"huge.exr", "3000001x2", "allowed"},
                [&] { ImageFile::read(folder / "huge.exr"); });
 }
 
 TEST(ImageFile, MissingFilesAndFolders) {
   const Folder folder;
-  expect_error(3, {"none.exr", "no such file"}, [&] { ImageFile::read(folder / "none.exr"); });
-  expect_error(3, {"is a folder"}, [&] { ImageFile::read(folder.path()); });
+  expect_error(ErrorKind::input, {"none.exr", "no such file"},
+               [&] { ImageFile::read(folder / "none.exr"); });
+  expect_error(ErrorKind::input, {"is a folder"}, [&] { ImageFile::read(folder.path()); });
 }
 
 TEST(Ldr, EncodesAndDecodesSrgb) {
@@ -161,10 +162,10 @@ TEST(Output, DisplayWindowCropsAndPads) {
 TEST(SafeOutput, FailureLeavesTheOldFileAndNothingElse) {
   const Folder folder;
   std::ofstream(folder / "out.txt") << "old";
-  expect_error(4, {"out.txt", "broken"}, [&] {
+  expect_error(ErrorKind::output, {"out.txt", "broken"}, [&] {
     write_safely(folder / "out.txt", [](const std::string& name) {
       std::ofstream(name) << "half";
-      fail(ExitCode::output, "{}: broken", name);
+      fail(ErrorKind::output, "{}: broken", name);
     });
   });
   EXPECT_EQ(bytes_of(folder / "out.txt"), "old");
@@ -173,10 +174,12 @@ TEST(SafeOutput, FailureLeavesTheOldFileAndNothingElse) {
 
 TEST(SafeOutput, UnwritablePlacesAreFoundEarly) {
   const Folder folder;
-  expect_error(4, {"cannot write in folder"}, [&] { check_can_write(folder / "no/such/out.exr"); });
-  expect_error(4, {"cannot write in folder"}, [] { check_can_write("/proc/out.exr"); });
-  expect_error(4, {"is a folder"}, [&] { check_can_write(folder.path()); });
-  expect_error(4, {"cannot write in folder", "too long"},
+  expect_error(ErrorKind::output, {"cannot write in folder"},
+               [&] { check_can_write(folder / "no/such/out.exr"); });
+  expect_error(ErrorKind::output, {"cannot write in folder"},
+               [] { check_can_write("/proc/out.exr"); });
+  expect_error(ErrorKind::output, {"is a folder"}, [&] { check_can_write(folder.path()); });
+  expect_error(ErrorKind::output, {"cannot write in folder", "too long"},
                [&] { check_can_write(folder / (std::string(300, 'a') + ".exr")); });
 }
 

@@ -149,7 +149,7 @@ TEST(Eye, RefusesContradictions) {
   const auto refuse = [](const std::vector<std::string>& words, const auto& change) {
     CameraValues values = eye_at(75);
     change(values);
-    expect_error(2, words, [&] { make_lens(values, 1, LensModel::cg, 0); });
+    expect_error(ErrorKind::usage, words, [&] { make_lens(values, 1, LensModel::cg, 0); });
   };
   refuse({"--scale", "--perceived-distance"}, [](CameraValues& v) {
     v.perceived_scale = 1;

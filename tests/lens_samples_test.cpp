@@ -165,9 +165,12 @@ TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
 
 TEST(LensSamples, RefuseAbsurdCounts) {
   for (const int count : {0, -1, 4097}) {
-    expect_error(2, {std::to_string(count), "1 to 4096"}, [&] { make_lens_samples({}, count); });
+    expect_error(ErrorKind::usage, {std::to_string(count), "1 to 4096"},
+                 [&] { make_lens_samples({}, count); });
   }
-  expect_error(2, {"--blades is 2"}, [&] { make_lens_samples({2, 0, 0, 1, "", 0}, 16); });
+  expect_error(ErrorKind::usage, {"--blades is 2"}, [&] {
+    make_lens_samples({2, 0, 0, 1, "", 0}, 16);
+  });
 }
 
 }  // namespace

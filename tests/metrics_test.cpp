@@ -98,10 +98,12 @@ TEST(Metrics, ErrorsWhereCountsOnlyItsPixels) {
 }
 
 TEST(Metrics, RefusesOtherSizesAndPicturesWithoutColour) {
-  expect_error(2, {"10 and 11 pixels"}, [] { compare(grey(10, 0), grey(11, 0), 5); });
-  expect_error(2, {"differ in size"}, [] { compare({}, grey(11, 0), 5); });
-  expect_error(2, {"9 and 8"}, [] { errors_where(grey(9, 0), grey(8, 0), {}, 0); });
-  expect_error(2, {"9 and 8"}, [] { difference_picture(grey(9, 0), grey(8, 0), 4); });
+  expect_error(ErrorKind::usage, {"10 and 11 pixels"},
+               [] { compare(grey(10, 0), grey(11, 0), 5); });
+  expect_error(ErrorKind::usage, {"differ in size"}, [] { compare({}, grey(11, 0), 5); });
+  expect_error(ErrorKind::usage, {"9 and 8"}, [] { errors_where(grey(9, 0), grey(8, 0), {}, 0); });
+  expect_error(ErrorKind::usage, {"9 and 8"},
+               [] { difference_picture(grey(9, 0), grey(8, 0), 4); });
 }
 
 TEST(DifferencePicture, IsWhiteWhereEqualAndDarkerBeyond) {
@@ -195,8 +197,8 @@ TEST(EdgeBand, StepDecidesWhatIsAnEdge) {
   EXPECT_TRUE(is_edge(1e9f, infinite, 100));
   EXPECT_FALSE(is_edge(infinite, infinite, 0));
   EXPECT_FALSE(is_edge(3, 3, 0));
-  expect_error(2, {"--edge-step is -1"}, [&] { is_edge(1, 2, -1); });
-  expect_error(2, {"--edge-step is nan"}, [&] { is_edge(1, 2, NAN); });
+  expect_error(ErrorKind::usage, {"--edge-step is -1"}, [&] { is_edge(1, 2, -1); });
+  expect_error(ErrorKind::usage, {"--edge-step is nan"}, [&] { is_edge(1, 2, NAN); });
 }
 
 }  // namespace

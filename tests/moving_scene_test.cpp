@@ -28,8 +28,10 @@ TEST(Drift, MovesByAFractionOfAPixelSidewaysAlone) {
   EXPECT_TRUE(step == 84 || step == 85) << step;
   const Plane top = render_pinhole(make_scene("drift", 640, 480, 24)).depth;
   for (std::size_t x = 0; x < 640; ++x) EXPECT_EQ(top[x] == 1, top[100 * 640 + x] == 1);
-  expect_error(2, {"'drift' has no frame 25", "1 to 24"}, [] { make_scene("drift", 8, 8, 25); });
-  expect_error(2, {"'fence' has no frame 2", "1 to 1"}, [] { make_scene("fence", 8, 8, 2); });
+  expect_error(ErrorKind::usage, {"'drift' has no frame 25", "1 to 24"},
+               [] { make_scene("drift", 8, 8, 25); });
+  expect_error(ErrorKind::usage, {"'fence' has no frame 2", "1 to 1"},
+               [] { make_scene("fence", 8, 8, 2); });
 }
 
 TEST(Drift, WhatDoesNotMoveStaysAsItWas) {

@@ -76,8 +76,10 @@ TEST(Pinhole, AlphaIsTheShareThatHits) {
 
 TEST(Pinhole, SamplesHaveBounds) {
   const Scene scene = half_plane(0.5, 0);
-  expect_error(2, {"--pinhole-samples is 0", "1 to 65536"}, [&] { render_pinhole(scene, {0}); });
-  expect_error(2, {"--pinhole-samples is 65537"}, [&] { render_pinhole(scene, {65537}); });
+  expect_error(ErrorKind::usage, {"--pinhole-samples is 0", "1 to 65536"},
+               [&] { render_pinhole(scene, {0}); });
+  expect_error(ErrorKind::usage, {"--pinhole-samples is 65537"},
+               [&] { render_pinhole(scene, {65537}); });
 }
 
 TEST(CoverageTest, PartsAPixelIntoItsSurfaces) {
@@ -108,9 +110,11 @@ TEST(CoverageTest, StepDecidesWhatIsASilhouette) {
   const Scene scene = half_plane(0.25, 0);  // depths 2 and 8
   EXPECT_EQ(render_coverage(scene, 64, 3).share[middle], 1);
   EXPECT_NEAR(render_coverage(scene, 64, 2.9).share[middle], 0.25, 1e-6);
-  expect_error(2, {"step of a silhouette is -1"}, [&] { render_coverage(scene, 4, -1); });
-  expect_error(2, {"step of a silhouette is inf"}, [&] { render_coverage(scene, 4, HUGE_VAL); });
-  expect_error(2, {"samples is 0"}, [&] { render_coverage(scene, 0); });
+  expect_error(ErrorKind::usage, {"step of a silhouette is -1"},
+               [&] { render_coverage(scene, 4, -1); });
+  expect_error(ErrorKind::usage, {"step of a silhouette is inf"},
+               [&] { render_coverage(scene, 4, HUGE_VAL); });
+  expect_error(ErrorKind::usage, {"samples is 0"}, [&] { render_coverage(scene, 0); });
 }
 
 }  // namespace

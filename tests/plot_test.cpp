@@ -145,7 +145,7 @@ TEST(Plot, LabelsKeepClearOfEachOtherAndOfTheBorder) {
 TEST(Plot, RefusesWhatCannotBeDrawn) {
   const Folder folder;
   const auto refuse = [&](Plot plot, const std::vector<std::string>& words) {
-    expect_error(2, words, [&] { write_plot(folder / "plot.png", plot); });
+    expect_error(ErrorKind::usage, words, [&] { write_plot(folder / "plot.png", plot); });
     EXPECT_FALSE(std::filesystem::exists(folder / "plot.png"));
   };
   refuse({"Empty", "x", "y"}, {"no points"});
@@ -159,8 +159,12 @@ TEST(Plot, RefusesWhatCannotBeDrawn) {
   plot = plot_of({{1, 1}, {1, -2}});
   plot.y_log = true;
   refuse(plot, {"'y' is logarithmic", "-2 cannot"});
-  expect_error(2, {"PNG or JPEG"}, [&] { write_plot(folder / "plot.exr", plot_of({{1, 1}})); });
-  expect_error(4, {"none"}, [&] { write_plot(folder / "none/plot.png", plot_of({{1, 1}})); });
+  expect_error(ErrorKind::usage, {"PNG or JPEG"}, [&] {
+    write_plot(folder / "plot.exr", plot_of({{1, 1}}));
+  });
+  expect_error(ErrorKind::output, {"none"}, [&] {
+    write_plot(folder / "none/plot.png", plot_of({{1, 1}}));
+  });
 }
 
 std::vector<std::string> labels(const std::vector<double>& values, bool is_log) {

@@ -64,7 +64,8 @@ TEST(PoissonDisk, SeedsDifferAndRepeat) {
 
 TEST(PoissonDisk, RefusesAbsurdCounts) {
   for (const int count : {0, -3, 1025}) {
-    expect_error(2, {std::to_string(count), "1 to 1024"}, [&] { make_poisson_disk(count, 0); });
+    expect_error(ErrorKind::usage, {std::to_string(count), "1 to 1024"},
+                 [&] { make_poisson_disk(count, 0); });
   }
 }
 

@@ -105,20 +105,21 @@ TEST(Scene, AccumulationIsTheMeanOfItsViews) {
   for (std::size_t i = 0; i < both[0].size(); ++i) {
     EXPECT_NEAR(both[0][i], (a[0][i] + b[0][i]) / 2, 1e-6);
   }
-  expect_error(2, {"lens point"}, [&] { render_accumulation(scene, lens, {}); });
+  expect_error(ErrorKind::usage, {"lens point"}, [&] { render_accumulation(scene, lens, {}); });
 }
 
 TEST(Scene, RefusesWhatIsUnknown) {
-  expect_error(2, {"unknown scene 'plat1'", "Did you mean 'plate1'?", "blocks-lake"},
+  expect_error(ErrorKind::usage, {"unknown scene 'plat1'", "Did you mean 'plate1'?", "blocks-lake"},
                [] { make_scene("plat1", 64, 48); });
-  expect_error(2, {"scene size"}, [] { make_scene("plate1", 0, 48); });
-  expect_error(2, {"scene size"}, [] { make_scene("plate1", 64, 16385); });
+  expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 0, 48); });
+  expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 64, 16385); });
   const Scene scene = make_scene("fence", 8, 8);
-  expect_error(2, {"'fence' has no focus setting 'fance'", "Did you mean 'fence'?", "bg"},
+  expect_error(ErrorKind::usage,
+               {"'fence' has no focus setting 'fance'", "Did you mean 'fence'?", "bg"},
                [&] { find_setting(scene, "fance"); });
-  expect_error(2, {"--truth-samples"}, [&] { default_truth(scene, 0); });
-  expect_error(2, {"--truth-samples"}, [&] { default_truth(scene, 65537); });
-  expect_error(2, {"complexity"}, [] { make_plate2(8, 8, 0); });
+  expect_error(ErrorKind::usage, {"--truth-samples"}, [&] { default_truth(scene, 0); });
+  expect_error(ErrorKind::usage, {"--truth-samples"}, [&] { default_truth(scene, 65537); });
+  expect_error(ErrorKind::usage, {"complexity"}, [] { make_plate2(8, 8, 0); });
 }
 
 TEST(Scene, TruthIsSharpInFocus) {

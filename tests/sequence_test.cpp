@@ -19,13 +19,13 @@ TEST(Sequence, Ranges) {
   EXPECT_EQ(parse_frames("1-999999999x500000000"), (std::vector<int>{1, 500000001}));
   EXPECT_EQ(parse_frames("1,1,3-1"), (std::vector<int>{1, 3, 2}));
   for (const char* bad : {"", "a", "1-", "-", "1..3", "1-3x0", "1,,2", "1-3;4", "1e3"}) {
-    expect_error(2, {"--frames"}, [bad] { parse_frames(bad); });
+    expect_error(ErrorKind::usage, {"--frames"}, [bad] { parse_frames(bad); });
   }
   for (const char* many : {"1-999999999", "1-999999999y1", "1-600000,600001-1200000"}) {
-    expect_error(2, {"at most"}, [many] { parse_frames(many); });
+    expect_error(ErrorKind::usage, {"at most"}, [many] { parse_frames(many); });
   }
-  expect_error(2, {"not a frame range"}, [] { parse_frames("1-2000000000"); });
-  expect_error(2, {"no frame"}, [] { parse_frames("1-1y2"); });
+  expect_error(ErrorKind::usage, {"not a frame range"}, [] { parse_frames("1-2000000000"); });
+  expect_error(ErrorKind::usage, {"no frame"}, [] { parse_frames("1-1y2"); });
 }
 
 TEST(Sequence, Patterns) {
@@ -46,14 +46,14 @@ TEST(Sequence, Patterns) {
     std::ofstream(folder / name) << "x";
   }
   EXPECT_EQ(find_frames(folder / "s.####.exr"), (std::vector<int>{1, 3}));
-  expect_error(3, {"no file matches"}, [&] { find_frames(folder / "u.####.exr"); });
+  expect_error(ErrorKind::input, {"no file matches"}, [&] { find_frames(folder / "u.####.exr"); });
   EXPECT_EQ(find_frames(folder / "s.###.exr"), (std::vector<int>{1}));
   for (const std::string wide : {"%0999d", "%099999999999999999999d"}) {
-    expect_error(2, {"too many digits"}, [&] { frame_path(wide + ".exr", 1); });
+    expect_error(ErrorKind::usage, {"too many digits"}, [&] { frame_path(wide + ".exr", 1); });
   }
   const std::string hashes(1000000, '#');  // std::regex would run out of stack
-  expect_error(2, {"too many digits"}, [&] { has_frame_pattern(hashes); });
-  expect_error(2, {"2 frame patterns"}, [] { frame_path("s_%04d.####.exr", 1); });
+  expect_error(ErrorKind::usage, {"too many digits"}, [&] { has_frame_pattern(hashes); });
+  expect_error(ErrorKind::usage, {"2 frame patterns"}, [] { frame_path("s_%04d.####.exr", 1); });
 }
 
 TEST(Sequence, FoldersAndLiteralNamesAreNoPatterns) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "rdb/rdb.h"
 
 namespace defray::test {
@@ -62,20 +63,13 @@ std::string shared_folder();
 #define SKIP_WITHOUT_SHARED() \
   if (defray::test::shared_folder().empty()) GTEST_SKIP() << "no ../shared beside the project"
 
-/// Expects an Error with this code whose message contains each of the words.
+/// Expects an Error of this kind whose message contains each of the words.
 template <typename Call>
-void expect_error(int code, const std::vector<std::string>& words, const Call& call);
-
-}  // namespace defray::test
-
-#include "base/error.h"
-
-template <typename Call>
-void defray::test::expect_error(int code, const std::vector<std::string>& words, const Call& call) {
+void expect_error(ErrorKind kind, const std::vector<std::string>& words, const Call& call) {
   try {
     call();
   } catch (const Error& error) {
-    EXPECT_EQ(static_cast<int>(error.code()), code) << error.what();
+    EXPECT_EQ(error.kind(), kind) << error.what();
     for (const std::string& word : words) {
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
           << "'" << word << "' is not in: " << error.what();
@@ -84,3 +78,5 @@ void defray::test::expect_error(int code, const std::vector<std::string>& words,
   }
   ADD_FAILURE() << "no error was thrown";
 }
+
+}  // namespace defray::test

@@ -58,10 +58,18 @@ TEST(Tiltshift, BandAsHighAsTheFrameBlursNothing) {
 }
 
 TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
-  expect_error(2, {"--band-centre", "1.5"}, [] { validate(TiltshiftSettings{1.5, 0.1, 5}); });
-  expect_error(2, {"--band-width", "-0.1"}, [] { validate(TiltshiftSettings{0.5, -0.1, 5}); });
-  expect_error(2, {"--max-blur", "-1"}, [] { validate(TiltshiftSettings{0.5, 0.1, -1}); });
-  expect_error(2, {"--max-blur", "1024"}, [] { validate(TiltshiftSettings{0.5, 0.1, 1e6}); });
+  expect_error(ErrorKind::usage, {"--band-centre", "1.5"}, [] {
+    validate(TiltshiftSettings{1.5, 0.1, 5});
+  });
+  expect_error(ErrorKind::usage, {"--band-width", "-0.1"}, [] {
+    validate(TiltshiftSettings{0.5, -0.1, 5});
+  });
+  expect_error(ErrorKind::usage, {"--max-blur", "-1"}, [] {
+    validate(TiltshiftSettings{0.5, 0.1, -1});
+  });
+  expect_error(ErrorKind::usage, {"--max-blur", "1024"}, [] {
+    validate(TiltshiftSettings{0.5, 0.1, 1e6});
+  });
 }
 
 }  // namespace

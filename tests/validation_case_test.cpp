@@ -100,7 +100,7 @@ TEST(Case, WhatIsNotSaidKeepsItsDefault) {
 TEST(Case, RefusesWhatItDoesNotKnow) {
   const auto refused = [](const std::string& text, std::vector<std::string> words) {
     words.push_back("--case");
-    expect_error(2, words, [&] { parse_case(text); });
+    expect_error(ErrorKind::usage, words, [&] { parse_case(text); });
   };
   refused("", {"empty"});
   refused("64x48,,ties", {"''"});

@@ -98,7 +98,7 @@ TEST(KernelChecks, EveryEntryIsAKernelsAndItsNameIsItsOwn) {
     })) << name;
     EXPECT_NE(std::string(check.rule), "") << name;
   }
-  expect_error(2, {"rdb_mrege", "Did you mean 'rdb_merge'", "tiltshift"},
+  expect_error(ErrorKind::usage, {"rdb_mrege", "Did you mean 'rdb_merge'", "tiltshift"},
                [] { find_check("rdb_mrege"); });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What every part of defray throws. The CLI prints it once, at the top, and exits with its code.
+// What every part of defray throws.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -8,30 +8,28 @@
 
 namespace defray {
 
-/// Exit codes of the program; the README documents them.
-enum class ExitCode : int {
-  ok = 0,
-  failed = 1,  ///< Some frames of a sequence failed, or a comparison missed its bound.
-  usage = 2,   ///< An option, or a combination of options, that makes no sense.
-  input = 3,   ///< An input that is missing, unreadable, or not what was asked for.
-  output = 4,  ///< An output that cannot be written.
-  device = 5,  ///< No OpenCL device, or an OpenCL call that failed.
-  internal = 70,
+/// What went wrong. What follows from it (the program's exit code) is for who catches it to say.
+enum class ErrorKind {
+  usage,   ///< A setting, or a combination of settings, that makes no sense.
+  input,   ///< An input that is missing, unreadable, or not what was asked for.
+  output,  ///< An output that cannot be written.
+  device,  ///< No OpenCL device, or an OpenCL call that failed.
+  internal,
 };
 
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  ExitCode code() const { return code_; }
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const { return kind_; }
 
  private:
-  ExitCode code_;
+  ErrorKind kind_;
 };
 
-/// Throws Error(code) with a formatted message.
+/// Throws Error(kind) with a formatted message.
 template <typename... Args>
-[[noreturn]] void fail(ExitCode code, fmt::format_string<Args...> format, Args&&... args) {
-  throw Error(code, fmt::format(format, std::forward<Args>(args)...));
+[[noreturn]] void fail(ErrorKind kind, fmt::format_string<Args...> format, Args&&... args) {
+  throw Error(kind, fmt::format(format, std::forward<Args>(args)...));
 }
 
 }  // namespace defray

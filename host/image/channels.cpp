@@ -127,13 +127,13 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
     all.push_back(name.full);
   }
   if (found.empty()) {
-    fail(ExitCode::input, "{}: has no channel '{}'.{} It has: {}", path, request.depth_channel,
+    fail(ErrorKind::input, "{}: has no channel '{}'.{} It has: {}", path, request.depth_channel,
          did_you_mean(request.depth_channel, all), channel_listing(names));
   }
   prefer(found, [&](const ChannelName& n) { return n.view == colour.view; });
   prefer(found, [&](const ChannelName& n) { return n.part == colour.part; });
   if (found.size() > 1) {
-    fail(ExitCode::input, "{}: several channels are called '{}': {}; choose with --view", path,
+    fail(ErrorKind::input, "{}: several channels are called '{}': {}; choose with --view", path,
          request.depth_channel, depth_listing(found, parts));
   }
   return found.front();
@@ -146,7 +146,7 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
   const std::vector<ChannelName> names = channel_names(parts);
   const std::vector<ColourChoice> all = colour_candidates(names);
   if (all.empty()) {
-    fail(ExitCode::input, "{}: no colour: no layer has channels R, G and B. It has: {}", path,
+    fail(ErrorKind::input, "{}: no colour: no layer has channels R, G and B. It has: {}", path,
          channel_listing(names));
   }
   std::vector<ColourChoice> left;
@@ -157,8 +157,8 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
     }
   }
   if (left.empty()) {
-    fail(ExitCode::input, "{}: no colour in layer '{}' view '{}'; there is {}", path, request.layer,
-         request.view, colour_listing(all));
+    fail(ErrorKind::input, "{}: no colour in layer '{}' view '{}'; there is {}", path,
+         request.layer, request.view, colour_listing(all));
   }
   static const std::set<std::string> beauty{"rgba", "rgb",    "beauty", "combined",
                                             "c",    "colour", "color",  "main"};
@@ -172,7 +172,7 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
     prefer(left, [&](const ColourChoice& c) { return c.view == parts.front().views.front(); });
   }
   if (left.size() > 1) {
-    fail(ExitCode::input, "{}: colour could be {}; choose with --layer or --view", path,
+    fail(ErrorKind::input, "{}: colour could be {}; choose with --layer or --view", path,
          colour_listing(left));
   }
   return left.front();
@@ -196,13 +196,13 @@ ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& p
     if (rank == best_rank) best.push_back(name);
   }
   if (best.empty()) {
-    fail(ExitCode::input,
+    fail(ErrorKind::input,
          "{}: no depth: no channel is called Z or depth (a Z beside X and Y is a vector). Give "
          "--depth FILE or --depth-channel NAME. It has: {}",
          path, channel_listing(names));
   }
   if (best.size() > 1) {
-    fail(ExitCode::input, "{}: depth could be {}; choose with --depth-channel", path,
+    fail(ErrorKind::input, "{}: depth could be {}; choose with --depth-channel", path,
          depth_listing(best, parts));
   }
   return best.front();

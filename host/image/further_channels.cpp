@@ -24,7 +24,7 @@ bool is_alpha(const ChannelName& name) {
   for (const ChannelName& n : names) {
     if (is_colour(n, colour)) {
       if (n.full == pattern) {
-        fail(ExitCode::input, "{}: channel '{}' is colour, which goes through the lens anyway",
+        fail(ErrorKind::input, "{}: channel '{}' is colour, which goes through the lens anyway",
              file.path(), pattern);
       }
       continue;
@@ -37,13 +37,13 @@ bool is_alpha(const ChannelName& name) {
       return file.parts()[static_cast<std::size_t>(part)].name;
     };
     if (n.part != colour.part) {
-      fail(ExitCode::input, "{}: channel '{}' is in part '{}', the colour in part '{}'",
+      fail(ErrorKind::input, "{}: channel '{}' is in part '{}', the colour in part '{}'",
            file.path(), n.full, part_name(n.part), part_name(colour.part));
     }
-    fail(ExitCode::input, "{}: channel '{}' is of view '{}', the colour of view '{}'", file.path(),
+    fail(ErrorKind::input, "{}: channel '{}' is of view '{}', the colour of view '{}'", file.path(),
          n.full, n.view, colour.view);
   }
-  fail(ExitCode::input, "{}: has no channel '{}' beside its colour.{} {}", file.path(), pattern,
+  fail(ErrorKind::input, "{}: has no channel '{}' beside its colour.{} {}", file.path(), pattern,
        did_you_mean(pattern, there),
        there.empty() ? "It has no other" : "It has: " + join(there, " "));
 }
@@ -77,7 +77,7 @@ std::vector<LightGroup> in_groups(const std::vector<ChannelName>& light) {
 std::vector<std::string> parse_channel_list(const std::string& list) {
   const std::vector<std::string> patterns = split(list + ",", ',');  // "" is one empty name
   for (const std::string& pattern : patterns) {
-    if (pattern.empty()) fail(ExitCode::usage, "--channels '{}': a name in it is empty", list);
+    if (pattern.empty()) fail(ErrorKind::usage, "--channels '{}': a name in it is empty", list);
   }
   return patterns;
 }

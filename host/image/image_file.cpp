@@ -35,21 +35,21 @@ void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t by
   const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
   if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
       pixels > max_pixels || spec.depth > 1) {
-    fail(ExitCode::input,
+    fail(ErrorKind::input,
          "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all", path,
          spec.width, spec.height, spec.depth, max_side, max_pixels);
   }
   if (spec.nchannels < 1 || spec.nchannels > max_channels) {
-    fail(ExitCode::input, "{}: header says {} channels; allowed are 1 to {}", path, spec.nchannels,
+    fail(ErrorKind::input, "{}: header says {} channels; allowed are 1 to {}", path, spec.nchannels,
          max_channels);
   }
   if (spec.full_width < 1 || spec.full_height < 1) {
-    fail(ExitCode::input, "{}: display window {}x{} is empty", path, spec.full_width,
+    fail(ErrorKind::input, "{}: display window {}x{} is empty", path, spec.full_width,
          spec.full_height);
   }
   const std::uint64_t bytes = bytes_before + spec.image_bytes(true);
   if (bytes > physical_memory()) {
-    fail(ExitCode::input, "{}: its pixels take {} MiB; this machine has {} MiB of memory", path,
+    fail(ErrorKind::input, "{}: its pixels take {} MiB; this machine has {} MiB of memory", path,
          bytes >> 20, physical_memory() >> 20);
   }
 }
@@ -85,9 +85,9 @@ ImageFile::~ImageFile() = default;
 
 ImageFile ImageFile::read(const std::string& path, Content content) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail(ExitCode::input, "{}: no such file", path);
+  if (!std::filesystem::exists(path, error)) fail(ErrorKind::input, "{}: no such file", path);
   if (std::filesystem::is_directory(path, error)) {
-    fail(ExitCode::input, "{}: is a folder, not an image", path);
+    fail(ErrorKind::input, "{}: is a folder, not an image", path);
   }
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path, content);
@@ -105,7 +105,7 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
   try {
     const auto input = ImageInput::open(path);
     if (!input) {
-      fail(ExitCode::input, "{}: not a readable image: {}", path, first_line(OIIO::geterror()));
+      fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(OIIO::geterror()));
     }
     std::uint64_t bytes = 0;
     for (int s = 0; input->seek_subimage(s, 0); ++s) {
@@ -113,11 +113,11 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
       check_size(path, spec, bytes);
       bytes += spec.image_bytes(true);
       if (spec.deep) {
-        fail(ExitCode::input, "{}: is a deep image; flatten it first (oiiotool --flatten)", path);
+        fail(ErrorKind::input, "{}: is a deep image; flatten it first (oiiotool --flatten)", path);
       }
       Part part{spec, std::vector<std::byte>(spec.image_bytes(true))};
       if (!input->read_image(s, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, part.pixels.data())) {
-        fail(ExitCode::input, "{}: cannot read its pixels: {}", path,
+        fail(ErrorKind::input, "{}: cannot read its pixels: {}", path,
              first_line(input->geterror()));
       }
       file.parts_.push_back(std::move(part));
@@ -125,11 +125,11 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    fail(ExitCode::input, "{}: not enough memory to read it", path);
+    fail(ErrorKind::input, "{}: not enough memory to read it", path);
   } catch (const std::exception& error) {
-    fail(ExitCode::input, "{}: not a readable image: {}", path, first_line(error.what()));
+    fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(error.what()));
   }
-  if (file.parts_.empty()) fail(ExitCode::input, "{}: holds no image", path);
+  if (file.parts_.empty()) fail(ErrorKind::input, "{}: holds no image", path);
   file.refresh_info();
   return file;
 }
@@ -264,11 +264,11 @@ ImageFile ImageFile::extract(int part, const std::vector<int>& channels) const {
 void ImageFile::write(const std::string& path) const {
   const auto output = ImageOutput::create(path);
   if (!output) {
-    fail(ExitCode::output, "{}: unknown image format: {}", path, first_line(OIIO::geterror()));
+    fail(ErrorKind::output, "{}: unknown image format: {}", path, first_line(OIIO::geterror()));
   }
   const auto check = [&](bool ok) {
     if (!ok) {
-      fail(ExitCode::output, "{}: cannot write: {}", path, first_line(output->geterror()));
+      fail(ErrorKind::output, "{}: cannot write: {}", path, first_line(output->geterror()));
     }
   };
   std::vector<ImageSpec> specs;

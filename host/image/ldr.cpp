@@ -53,11 +53,12 @@ LdrPicture read_ldr(const std::string& path, Content content) {
   try {
     image = cv::imread(path, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
-    fail(ExitCode::input, "{}: not a readable image: {}", path, error.err);
+    fail(ErrorKind::input, "{}: not a readable image: {}", path, error.err);
   }
-  if (image.empty()) fail(ExitCode::input, "{}: not a readable image (damaged or truncated)", path);
+  if (image.empty())
+    fail(ErrorKind::input, "{}: not a readable image (damaged or truncated)", path);
   if (image.depth() != CV_8U && image.depth() != CV_16U) {
-    fail(ExitCode::input, "{}: neither 8 nor 16 bits a channel", path);
+    fail(ErrorKind::input, "{}: neither 8 nor 16 bits a channel", path);
   }
   LdrPicture picture;
   picture.width = image.cols;
@@ -114,12 +115,12 @@ void write_encoded(const std::string& path, const void* mat) {
     cv::imencode(extension(path), *static_cast<const cv::Mat*>(mat), bytes,
                  {cv::IMWRITE_JPEG_QUALITY, 95});
   } catch (const cv::Exception& error) {
-    fail(ExitCode::output, "{}: cannot encode: {}", path, error.err);
+    fail(ErrorKind::output, "{}: cannot encode: {}", path, error.err);
   }
   std::ofstream stream(path, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
-  if (!stream.flush()) fail(ExitCode::output, "{}: cannot write: {}", path, std::strerror(errno));
+  if (!stream.flush()) fail(ErrorKind::output, "{}: cannot write: {}", path, std::strerror(errno));
 }
 
 }  // namespace defray

@@ -74,7 +74,7 @@ void check_output_format(const std::string& path) {
   const std::string found = std::filesystem::is_directory(path) ? "is a folder"
                             : e.empty()                         ? "has no extension"
                                         : fmt::format("cannot write format '{}'", e);
-  fail(ExitCode::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
+  fail(ErrorKind::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
 }
 
 bool keeps_other_channels(const std::string& path, const ImageFile& file) {
@@ -114,7 +114,7 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
 
 void check_plane_format(const std::string& path, const std::string& name) {
   if (!is_exr(path) && extension(path) != ".tif" && extension(path) != ".tiff") {
-    fail(ExitCode::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
+    fail(ErrorKind::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
          name);
   }
 }

@@ -64,7 +64,7 @@ void sync_path(const std::string& what, const std::string& path) {
   const bool ok = file >= 0 && fsync(file) == 0;
   const int code = errno;
   if (file >= 0) close(file);
-  if (!ok) fail(ExitCode::output, "{}: cannot sync it to disk: {}", what, std::strerror(code));
+  if (!ok) fail(ErrorKind::output, "{}: cannot sync it to disk: {}", what, std::strerror(code));
 }
 
 }  // namespace
@@ -72,12 +72,12 @@ void sync_path(const std::string& what, const std::string& path) {
 void check_can_write(const std::string& path) {
   std::error_code names_nothing;  // what is wrong with it then, opening tells
   if (fs::is_directory(path, names_nothing)) {
-    fail(ExitCode::output, "{}: is a folder, not a file name", path);
+    fail(ErrorKind::output, "{}: is a folder, not a file name", path);
   }
   const std::string probe = temporary_name(path);
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
-    fail(ExitCode::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),
+    fail(ErrorKind::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),
          std::strerror(errno));
   }
   close(file);
@@ -96,11 +96,11 @@ void write_safely(const std::string& to, const std::function<void(const std::str
     for (auto at = message.find(name); at != std::string::npos; at = message.find(name)) {
       message.replace(at, name.size(), path);
     }
-    throw Error(error.code(), message);
+    throw Error(error.kind(), message);
   }
   sync_path(path, name);
   if (std::rename(name.c_str(), path.c_str()) != 0) {
-    fail(ExitCode::output, "{}: cannot rename the finished file to it: {}", path,
+    fail(ErrorKind::output, "{}: cannot rename the finished file to it: {}", path,
          std::strerror(errno));
   }
   sync_path(path, folder_of(path).string());
@@ -110,7 +110,7 @@ void write_text(const std::string& path, const std::string& text) {
   write_safely(path, [&](const std::string& name) {
     std::ofstream stream(name);
     stream << text;
-    if (!stream.flush()) fail(ExitCode::output, "{}: cannot write", name);
+    if (!stream.flush()) fail(ErrorKind::output, "{}: cannot write", name);
   });
 }
 

@@ -59,7 +59,7 @@ Pattern pattern_of(const std::string& path, const std::string& name, std::size_t
     if (error == std::errc::result_out_of_range) pattern.width = max_width + 1;
   }
   if (pattern.width > max_width) {
-    fail(ExitCode::usage, "{}: the frame number has too many digits; allowed are {}", path,
+    fail(ErrorKind::usage, "{}: the frame number has too many digits; allowed are {}", path,
          max_width);
   }
   return pattern;
@@ -77,7 +77,7 @@ std::optional<Pattern> find_pattern(const std::string& path) {
   std::error_code no_file;  // a name that is too long, too
   if (count == 0 || std::filesystem::is_regular_file(path, no_file)) return std::nullopt;
   if (count > 1) {
-    fail(ExitCode::usage, "{}: has {} frame patterns; allowed is one: ####, @@ or %04d", path,
+    fail(ErrorKind::usage, "{}: has {} frame patterns; allowed is one: ####, @@ or %04d", path,
          count);
   }
   return pattern_of(path, name, at, length);
@@ -155,7 +155,7 @@ std::vector<int> parse_frames(const std::string& text) {
   for (const std::string& part : split(text + ",", ',')) {
     const auto range = parse_range(part);
     if (!range) {
-      fail(ExitCode::usage,
+      fail(ErrorKind::usage,
            "--frames '{}': '{}' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12, "
            "numbers up to {}",
            text, part, largest_frame);
@@ -164,12 +164,12 @@ std::vector<int> parse_frames(const std::string& text) {
     ranges.push_back(*range);
   }
   if (count > max_frames) {
-    fail(ExitCode::usage, "--frames '{}' goes over {} frames: allowed are at most {}", text, count,
+    fail(ErrorKind::usage, "--frames '{}' goes over {} frames: allowed are at most {}", text, count,
          max_frames);
   }
   std::vector<int> frames;
   for (const Range& range : ranges) append(range, frames);
-  if (frames.empty()) fail(ExitCode::usage, "--frames '{}' names no frame", text);
+  if (frames.empty()) fail(ErrorKind::usage, "--frames '{}' names no frame", text);
   erase_repeated(frames);
   return frames;
 }
@@ -188,7 +188,7 @@ std::vector<int> find_frames(const std::string& pattern) {
     const auto frame = take_number(rest);
     if (frame && wanted->name(*frame) == name) frames.push_back(*frame);
   }
-  if (frames.empty()) fail(ExitCode::input, "{}: no file matches this pattern", pattern);
+  if (frames.empty()) fail(ErrorKind::input, "{}: no file matches this pattern", pattern);
   std::sort(frames.begin(), frames.end());
   return frames;
 }

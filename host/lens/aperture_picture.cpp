@@ -59,10 +59,10 @@ Luminance read_luminance(const std::string& path) {
   for (int y = data.y - display.y; y < data.y - display.y + data.height; ++y) {
     for (int x = data.x - display.x; x < data.x - display.x + data.width; ++x, ++i) {
       if (!std::isfinite(stored[i])) {
-        fail(ExitCode::input, "{}: holds NaN or Inf at pixel {},{}: no aperture", path, x, y);
+        fail(ErrorKind::input, "{}: holds NaN or Inf at pixel {},{}: no aperture", path, x, y);
       }
       if (stored[i] < 0) {
-        fail(ExitCode::input, "{}: {:.3g} at pixel {},{}: an aperture lets 0 or more light pass",
+        fail(ErrorKind::input, "{}: {:.3g} at pixel {},{}: an aperture lets 0 or more light pass",
              path, stored[i], x, y);
       }
       const bool is_shown = x >= 0 && y >= 0 && x < light.width && y < light.height;
@@ -121,7 +121,7 @@ ApertureMask rasterise_picture(const Aperture& aperture) {
   }
   const double most = *std::max_element(sums.begin(), sums.end());
   if (!(most > 0)) {
-    fail(ExitCode::input, "{}: is black: an aperture must let light through", aperture.image);
+    fail(ErrorKind::input, "{}: is black: an aperture must let light through", aperture.image);
   }
   ApertureMask mask;
   for (const double sum : sums) {

@@ -80,18 +80,18 @@ namespace {
 /// m of Glatzel & Wilhelm, eq. 5: the perceived size of the scene, 1 where nothing is asked for.
 double perceived_scale(const CameraValues& values, double metres_per_unit) {
   if (values.perceived_scale && values.perceived_distance_m) {
-    fail(ExitCode::usage, "--scale and --perceived-distance say the same thing: give one of them");
+    fail(ErrorKind::usage, "--scale and --perceived-distance say the same thing: give one of them");
   }
   double scale = values.perceived_scale.value_or(1);
   if (values.perceived_distance_m) {
     scale = *values.perceived_distance_m / (*values.focus_distance_units * metres_per_unit);
     if (std::isinf(*values.focus_distance_units)) {
-      fail(ExitCode::usage, "--perceived-distance needs a finite --focus; --scale does not");
+      fail(ErrorKind::usage, "--perceived-distance needs a finite --focus; --scale does not");
     }
   }
   if (!(scale > 0) || !std::isfinite(scale)) {
     const bool is_scale = values.perceived_scale.has_value();
-    fail(ExitCode::usage, "{} {} makes the perceived scale {}: allowed are finite numbers above 0",
+    fail(ErrorKind::usage, "{} {} makes the perceived scale {}: allowed are finite numbers above 0",
          is_scale ? "--scale" : "--perceived-distance",
          is_scale ? *values.perceived_scale : *values.perceived_distance_m, scale);
   }
@@ -109,21 +109,21 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
     missing.push_back("--fstop or --aperture-diameter");
   }
   if (!missing.empty()) {
-    fail(ExitCode::usage, "the lens is not complete: give {}{}", join(missing, ", "),
+    fail(ErrorKind::usage, "the lens is not complete: give {}{}", join(missing, ", "),
          values.source.empty() ? " (or --camera)"
                                : fmt::format("; {} has no such value", values.source));
   }
   if (values.fstop && values.aperture_diameter_mm) {
-    fail(ExitCode::usage, "--fstop and --aperture-diameter say the same thing: give one of them");
+    fail(ErrorKind::usage, "--fstop and --aperture-diameter say the same thing: give one of them");
   }
   if (values.fstop && !(*values.fstop > 0)) {
-    fail(ExitCode::usage, "f-number is {}: it must be above 0", *values.fstop);
+    fail(ErrorKind::usage, "f-number is {}: it must be above 0", *values.fstop);
   }
   if (values.sensor_width_mm && values.pixels_per_metre) {
-    fail(ExitCode::usage, "--sensor-width and --pixel-scale say the same thing: give one of them");
+    fail(ErrorKind::usage, "--sensor-width and --pixel-scale say the same thing: give one of them");
   }
   if (values.pixels_per_metre && !(*values.pixels_per_metre > 0)) {
-    fail(ExitCode::usage, "--pixel-scale is {}: it must be above 0", *values.pixels_per_metre);
+    fail(ErrorKind::usage, "--pixel-scale is {}: it must be above 0", *values.pixels_per_metre);
   }
   Lens lens;
   lens.focal_length_mm = *values.focal_length_mm;

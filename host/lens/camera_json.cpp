@@ -16,13 +16,13 @@ json parse(const std::string& text, const std::string& path) {
     return json::parse(text);
   } catch (const json::exception& error) {
     const std::string what = error.what();  // begins with the library's own "[json...] "
-    fail(ExitCode::input, "{}: not valid JSON: {}", path, what.substr(what.find("] ") + 2));
+    fail(ErrorKind::input, "{}: not valid JSON: {}", path, what.substr(what.find("] ") + 2));
   }
 }
 
 std::optional<double> number(const std::string& path, const json& object, const char* key) {
   if (!object.is_object() || !object.contains(key)) return std::nullopt;
-  if (!object[key].is_number()) fail(ExitCode::input, "{}: '{}' is not a number", path, key);
+  if (!object[key].is_number()) fail(ErrorKind::input, "{}: '{}' is not a number", path, key);
   return object[key].get<double>();
 }
 
@@ -32,16 +32,16 @@ const json& choose_setting(const std::string& path, const json& root, const std:
   // A file without settings may state focus and aperture beside the focal length.
   if (!root.contains("focus_settings")) return root;
   const json& settings = root["focus_settings"];
-  if (!settings.is_object()) fail(ExitCode::input, "{}: 'focus_settings' is no object", path);
+  if (!settings.is_object()) fail(ErrorKind::input, "{}: 'focus_settings' is no object", path);
   std::vector<std::string> names;
   for (const auto& item : settings.items()) names.push_back(item.key());
   if (!setting.empty()) {
     if (settings.contains(setting)) return settings[setting];
-    fail(ExitCode::input, "{}: no focus setting '{}'.{} It has: {}", path, setting,
+    fail(ErrorKind::input, "{}: no focus setting '{}'.{} It has: {}", path, setting,
          did_you_mean(setting, names), join(names, " "));
   }
   if (names.size() > 1) {
-    fail(ExitCode::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
+    fail(ErrorKind::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
          join(names, " "));
   }
   static const json nothing = json::object();
@@ -58,7 +58,7 @@ std::optional<double> times(std::optional<double> value, double factor) {
 CameraValues parse_camera_json(const std::string& text, const std::string& path,
                                const std::string& setting, double metres_per_unit) {
   const json root = parse(text, path);
-  if (!root.is_object()) fail(ExitCode::input, "{}: not a JSON object", path);
+  if (!root.is_object()) fail(ErrorKind::input, "{}: not a JSON object", path);
   const json& focus = choose_setting(path, root, setting);
   CameraValues values;
   values.source = path;
@@ -75,7 +75,7 @@ CameraValues read_camera_json(const std::string& path, const std::string& settin
                               double metres_per_unit) {
   std::ifstream stream(path);
   if (!stream || !std::filesystem::is_regular_file(path)) {
-    fail(ExitCode::input, "{}: cannot open the camera file", path);
+    fail(ErrorKind::input, "{}: cannot open the camera file", path);
   }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return parse_camera_json(text, path, setting, metres_per_unit);

@@ -47,14 +47,14 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
 void validate(const DepthSettings& s) {
   if (s.kind == DepthKind::normalized) {
     if (!(s.near_units > 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
-      fail(ExitCode::usage,
+      fail(ErrorKind::usage,
            "--depth-kind normalized needs 0 < --near < --far in scene units; found near {} far {}",
            s.near_units, s.far_units);
     }
   } else if (s.invert) {
-    fail(ExitCode::usage, "--invert goes with --depth-kind normalized only");
+    fail(ErrorKind::usage, "--invert goes with --depth-kind normalized only");
   } else if (s.near_units != 0 || s.far_units != 0) {
-    fail(ExitCode::usage, "--near and --far go with --depth-kind normalized only");
+    fail(ErrorKind::usage, "--near and --far go with --depth-kind normalized only");
   }
 }
 
@@ -85,7 +85,7 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
       }
       depth[i] = static_cast<float>(z);
       if (!(depth[i] > 0)) {
-        fail(ExitCode::input,
+        fail(ErrorKind::input,
              "{}: depth {} at pixel ({}, {}) is not in front of the camera (stored: {}); if it "
              "means background, say so with --background {}",
              path, z, x, y, stored, stored);

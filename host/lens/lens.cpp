@@ -19,7 +19,7 @@ bool is_usable(double value) { return value >= smallest && value <= largest; }
 
 void require_positive(const char* what, double value) {
   if (!is_usable(value)) {
-    fail(ExitCode::usage, "{} is {}: it must be a number from {} to {}", what, value, smallest,
+    fail(ErrorKind::usage, "{} is {}: it must be a number from {} to {}", what, value, smallest,
          largest);
   }
 }
@@ -57,18 +57,18 @@ void validate(const Lens& lens) {
   require_positive("scene unit", lens.metres_per_unit);
   if (lens.pixels_per_metre != 0) require_positive("--pixel-scale", lens.pixels_per_metre);
   if (lens.aperture_diameter_mm != 0 && !is_usable(lens.aperture_diameter_mm)) {
-    fail(ExitCode::usage, "aperture diameter is {} mm: it must be 0, or from {} to {}",
+    fail(ErrorKind::usage, "aperture diameter is {} mm: it must be 0, or from {} to {}",
          lens.aperture_diameter_mm, smallest, largest);
   }
   if (!(lens.max_coc_px >= 0)) {
-    fail(ExitCode::usage, "--max-coc is {} px: it must be above 0", lens.max_coc_px);
+    fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", lens.max_coc_px);
   }
   if (!(lens.focus_distance_units >= smallest)) {
-    fail(ExitCode::usage, "focus distance is {}: it must be {} or more (inf is allowed)",
+    fail(ErrorKind::usage, "focus distance is {}: it must be {} or more (inf is allowed)",
          lens.focus_distance_units, smallest);
   }
   if (lens.focus_distance_units <= focal_length_units(lens)) {
-    fail(ExitCode::usage,
+    fail(ErrorKind::usage,
          "focus distance {} lies inside the focal length ({} mm = {} scene units): focus farther "
          "away, or set --unit if depth is not in metres",
          lens.focus_distance_units, lens.focal_length_mm, focal_length_units(lens));

@@ -72,7 +72,7 @@ LensCells sample_picture(const ApertureMask& mask, int count) {
 LensCells make_lens_samples(const Aperture& aperture, int count) {
   validate(aperture);
   if (count < 1 || count > lens_samples_max_count) {
-    fail(ExitCode::usage, "lens samples: {} asked for, allowed are 1 to {}", count,
+    fail(ErrorKind::usage, "lens samples: {} asked for, allowed are 1 to {}", count,
          lens_samples_max_count);
   }
   if (aperture.image.empty()) return sample_iris(aperture, count);

@@ -101,7 +101,7 @@ double shown_value(float linear) { return srgb_encode(clipped(linear)); }
 
 void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b) {
   if (a.size() < rgb || b.size() < rgb || a[0].size() != b[0].size()) {
-    fail(ExitCode::usage, "pictures to compare differ in size: {} and {} pixels",
+    fail(ErrorKind::usage, "pictures to compare differ in size: {} and {} pixels",
          a.empty() ? 0 : a[0].size(), b.empty() ? 0 : b[0].size());
   }
 }

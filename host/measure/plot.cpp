@@ -223,7 +223,7 @@ std::array<double, 2> plot_position(const Plot& plot, const Point& point) {
 }
 
 void write_plot(const std::string& path, const Plot& plot) {
-  if (!is_ldr_path(path)) fail(ExitCode::usage, "{}: a chart is PNG or JPEG", path);
+  if (!is_ldr_path(path)) fail(ErrorKind::usage, "{}: a chart is PNG or JPEG", path);
   const cv::Mat image = Chart(plot).draw();
   write_safely(path, [&](const std::string& name) { write_encoded(name, &image); });
 }

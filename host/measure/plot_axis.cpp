@@ -11,14 +11,14 @@ namespace {
 constexpr double largest = 1e100;
 
 void validate(const std::string& name, const std::vector<double>& values, bool is_log) {
-  if (values.empty()) fail(ExitCode::usage, "the chart has no points to draw");
+  if (values.empty()) fail(ErrorKind::usage, "the chart has no points to draw");
   for (const double value : values) {
     if (!(std::fabs(value) <= largest)) {
-      fail(ExitCode::usage, "chart axis '{}': {} cannot be drawn (finite numbers up to {:g} can)",
+      fail(ErrorKind::usage, "chart axis '{}': {} cannot be drawn (finite numbers up to {:g} can)",
            name, value, largest);
     }
     if (is_log && !(value >= 1 / largest)) {
-      fail(ExitCode::usage, "chart axis '{}' is logarithmic: {} cannot be drawn, only numbers > 0",
+      fail(ErrorKind::usage, "chart axis '{}' is logarithmic: {} cannot be drawn, only numbers > 0",
            name, value);
     }
   }

@@ -52,13 +52,13 @@ std::vector<Node> composite_rule(int panels) {
 PointImage image_of_point(const Lens& lens, double depth_units, int width_px) {
   validate(lens);
   if (!(lens.aperture_diameter_mm > 0)) {
-    fail(ExitCode::usage, "aperture diameter is 0: no light passes, there is no PSF");
+    fail(ErrorKind::usage, "aperture diameter is 0: no light passes, there is no PSF");
   }
   if (!(depth_units > 0)) {
-    fail(ExitCode::usage, "--depth is {}: it must be above 0 (inf is allowed)", depth_units);
+    fail(ErrorKind::usage, "--depth is {}: it must be above 0 (inf is allowed)", depth_units);
   }
   if (width_px < 1 || width_px > 65536) {
-    fail(ExitCode::usage, "--width is {}: 1 to 65536 pixels are possible", width_px);
+    fail(ErrorKind::usage, "--width is {}: 1 to 65536 pixels are possible", width_px);
   }
   const double f = lens.focal_length_mm / 1000;
   const double focus = lens.focus_distance_units * lens.metres_per_unit;
@@ -99,7 +99,7 @@ DiffractionPsf::DiffractionPsf(const PointImage& image, double wavelength_m,
     if (change < tolerance) return;
   }
   fail(
-      ExitCode::usage,
+      ErrorKind::usage,
       "the diffraction integral does not converge with {} nodes: {:.4g} Fresnel zones, radii up "
       "to {:.4g} Airy radii; so far from focus, or with such pixels, diffraction is nothing beside "
       "the geometric disc of {:.4g} px",

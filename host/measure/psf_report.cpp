@@ -17,10 +17,10 @@ constexpr double largest_share_outside = 0.1;
 constexpr double chart_floor = 1e-6;
 
 void validate(const std::vector<double>& wavelengths_nm) {
-  if (wavelengths_nm.empty()) fail(ExitCode::usage, "no wavelength is given");
+  if (wavelengths_nm.empty()) fail(ErrorKind::usage, "no wavelength is given");
   for (const double nm : wavelengths_nm) {
     if (!(nm >= 100 && nm <= 20000)) {
-      fail(ExitCode::usage, "--wavelength is {} nm: 100 to 20000 nm are possible", nm);
+      fail(ErrorKind::usage, "--wavelength is {} nm: 100 to 20000 nm are possible", nm);
     }
   }
 }

@@ -95,7 +95,7 @@ constexpr std::size_t planes_in = 5, planes_out = 4;
 int band_rows_for(int width, int height, int reach, std::size_t memory_bytes) {
   const std::size_t least = linear_band_bytes(width, reach, 1);
   if (memory_bytes < least) {
-    fail(ExitCode::usage,
+    fail(ErrorKind::usage,
          "--memory is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
          std::ldexp(static_cast<double>(memory_bytes), -20), width, reach, (least >> 20) + 1);
   }
@@ -161,7 +161,7 @@ std::size_t linear_band_bytes(int width, int reach, int rows) {
 int linear_reach(const std::vector<std::int32_t>& coc_quanta) {
   const std::int32_t largest = largest_coc(coc_quanta);
   if (largest > linear_max_radius_px << DEFRAY_COC_FRACTION_BITS) {
-    fail(ExitCode::usage,
+    fail(ErrorKind::usage,
          "CoC radii go up to {:.6g} px: linear filtering takes {} px at most; limit them with "
          "--max-coc, or use --method rdb",
          static_cast<double>(radius_px(largest)), linear_max_radius_px);

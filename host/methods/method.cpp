@@ -42,7 +42,7 @@ std::vector<Plane> apply_twin(const PinholeFrame& f, const MethodSettings& s,
         return reference::render_linear<float>(f.width, f.height, f.coc_quanta, planes);
       });
   }
-  fail(ExitCode::internal, "a method without a twin");
+  fail(ErrorKind::internal, "a method without a twin");
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ std::vector<Plane> apply_method(const PinholeFrame& f, const MethodSettings& s, 
         return render_linear(*session, f.width, f.height, f.coc_quanta, planes, s.linear, progress);
       });
   }
-  fail(ExitCode::internal, "a method without a kernel");
+  fail(ErrorKind::internal, "a method without a kernel");
 }
 
 }  // namespace defray

@@ -77,7 +77,7 @@ std::vector<DeviceInfo> list_devices() {
 DeviceInfo select_device(const std::string& wanted, const std::string& otherwise) {
   const std::vector<DeviceInfo> devices = list_devices();
   if (devices.empty()) {
-    fail(ExitCode::device,
+    fail(ErrorKind::device,
          "no OpenCL device found: install one (Debian: apt-get install pocl-opencl-icd){}",
          otherwise);
   }
@@ -95,11 +95,11 @@ DeviceInfo select_device(const std::string& wanted, const std::string& otherwise
     if (contains_ignoring_case(info.platform + " " + info.name, wanted)) matches.push_back(info);
   }
   if (matches.empty()) {
-    fail(ExitCode::device, "no OpenCL device is called '{}'; found: {}{}", wanted, listing(devices),
-         otherwise);
+    fail(ErrorKind::device, "no OpenCL device is called '{}'; found: {}{}", wanted,
+         listing(devices), otherwise);
   }
   if (matches.size() > 1) {
-    fail(ExitCode::device, "'{}' names more than one OpenCL device: {}", wanted, listing(matches));
+    fail(ErrorKind::device, "'{}' names more than one OpenCL device: {}", wanted, listing(matches));
   }
   return matches.front();
 }

@@ -19,7 +19,7 @@ decltype(auto) checked(const DeviceInfo& info, const std::string& what, Call&& c
   try {
     return call();
   } catch (const cl::Error& error) {
-    fail(ExitCode::device, "{} failed on {}: {} ({})", what, info.name,
+    fail(ErrorKind::device, "{} failed on {}: {} ({})", what, info.name,
          opencl_error_name(error.err()), error.what());
   }
 }
@@ -46,7 +46,7 @@ cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
       const std::string log = build_log(program, info.device);
       const bool is_real = log.find_first_not_of(" \n\t") != std::string::npos;
       if (is_real || attempt == attempts) {
-        fail(ExitCode::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
+        fail(ErrorKind::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
              opencl_error_name(error.err()), options, log);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(50 * attempt));
@@ -63,7 +63,7 @@ std::string substituted(std::string text, const std::vector<Substitution>& subst
       ++count;
     }
     if (count == 0 || (count > 1 && !s.everywhere)) {
-      fail(ExitCode::internal, "'{}' is {} times in the kernels", s.from, count);
+      fail(ErrorKind::internal, "'{}' is {} times in the kernels", s.from, count);
     }
   }
   return text;
@@ -125,7 +125,7 @@ std::map<std::string, double> Session::take_kernel_seconds() {
 
 void Session::set_work_group(std::size_t x, std::size_t y) {
   if (x * y > info_.max_work_group) {
-    fail(ExitCode::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
+    fail(ErrorKind::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
          info_.name, info_.max_work_group);
   }
   group_x_ = x;
@@ -134,8 +134,9 @@ void Session::set_work_group(std::size_t x, std::size_t y) {
 
 cl::Buffer Session::buffer(std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
-    fail(ExitCode::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory",
-         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
+    fail(ErrorKind::device,
+         "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory", bytes >> 20,
+         info_.name, info_.max_buffer_bytes >> 20);
   }
   return checked(info_, "clCreateBuffer", [&] {
     cl::Buffer made(context_, CL_MEM_READ_WRITE, bytes);
@@ -146,7 +147,7 @@ cl::Buffer Session::buffer(std::size_t bytes) {
 
 cl::Buffer Session::view(const void* data, std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
-    fail(ExitCode::device,
+    fail(ErrorKind::device,
          "{} MiB of one image plane are within reach of a band: {} allows at most {} MiB a buffer; "
          "lower --max-coc",
          bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
@@ -190,7 +191,7 @@ cl::Kernel& Session::kernel_of(const char* name) {
 }
 
 void Session::fail_argument(const char* name, cl_uint index, int code) const {
-  fail(ExitCode::device, "clSetKernelArg({}, {}) failed on {}: {}", name, index, info_.name,
+  fail(ErrorKind::device, "clSetKernelArg({}, {}) failed on {}: {}", name, index, info_.name,
        opencl_error_name(code));
 }
 

@@ -61,7 +61,7 @@ void add_room(Scene& scene) {
 
 Scene make_plate2(int width, int height, int complexity) {
   if (complexity < 1 || complexity > 1000) {
-    fail(ExitCode::usage, "complexity is {}: allowed are 1 to 1000", complexity);
+    fail(ErrorKind::usage, "complexity is {}: allowed are 1 to 1000", complexity);
   }
   Scene scene;
   scene.name = "plate2";

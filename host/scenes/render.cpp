@@ -69,7 +69,7 @@ std::ptrdiff_t sort_and_split(std::vector<Hit>& hits, double step) {
 
 void check_samples(const std::string& option, int samples) {
   if (samples < 1 || samples > 65536) {
-    fail(ExitCode::usage, "{} is {}: allowed are 1 to 65536", option, samples);
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 65536", option, samples);
   }
 }
 
@@ -105,7 +105,8 @@ ScenePicture render_hidden(const Scene& scene) {
 Coverage render_coverage(const Scene& scene, int samples, double step) {
   check_samples("samples", samples);
   if (!(step >= 0) || std::isinf(step)) {
-    fail(ExitCode::usage, "the step of a silhouette is {}: it must be finite and at least 0", step);
+    fail(ErrorKind::usage, "the step of a silhouette is {}: it must be finite and at least 0",
+         step);
   }
   const Tracer tracer(scene);
   const ScenePicture empty = empty_picture(scene);

@@ -52,7 +52,7 @@ const Builtin& find_builtin(const std::string& name) {
   for (const Builtin& builtin : builtins()) {
     if (builtin.info.name == name) return builtin;
   }
-  fail(ExitCode::usage, "unknown scene '{}'.{} There are: {}", name,
+  fail(ErrorKind::usage, "unknown scene '{}'.{} There are: {}", name,
        did_you_mean(name, scene_names()), join(scene_names(), " "));
 }
 
@@ -89,11 +89,11 @@ const SceneInfo& scene_info(const std::string& name) { return find_builtin(name)
 
 Scene make_scene(const std::string& name, int width, int height, int frame) {
   if (width < 1 || height < 1 || width > 16384 || height > 16384) {
-    fail(ExitCode::usage, "scene size {}x{}: allowed are 1 to 16384 a side", width, height);
+    fail(ErrorKind::usage, "scene size {}x{}: allowed are 1 to 16384 a side", width, height);
   }
   const Builtin& builtin = find_builtin(name);
   if (frame < 1 || frame > builtin.info.frames) {
-    fail(ExitCode::usage, "scene '{}' has no frame {}: allowed are 1 to {}", name, frame,
+    fail(ErrorKind::usage, "scene '{}' has no frame {}: allowed are 1 to {}", name, frame,
          builtin.info.frames);
   }
   Scene scene = builtin.make(width, height, frame);
@@ -107,7 +107,7 @@ const FocusSetting& find_setting(const Scene& scene, const std::string& name) {
     if (setting.name == name) return setting;
     names.push_back(setting.name);
   }
-  fail(ExitCode::usage, "scene '{}' has no focus setting '{}'.{} It has: {}", scene.name, name,
+  fail(ErrorKind::usage, "scene '{}' has no focus setting '{}'.{} It has: {}", scene.name, name,
        did_you_mean(name, names), join(names, " "));
 }
 

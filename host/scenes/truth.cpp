@@ -126,7 +126,7 @@ Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint3
 std::vector<Plane> render_accumulation(const Scene& scene, const Lens& lens,
                                        const std::vector<std::array<double, 2>>& lens_points,
                                        const Progress& progress) {
-  if (lens_points.empty()) fail(ExitCode::usage, "the accumulation buffer needs a lens point");
+  if (lens_points.empty()) fail(ErrorKind::usage, "the accumulation buffer needs a lens point");
   const Tracer tracer(scene);
   std::vector<Plane> mean = empty_planes(scene);
   for_each_pixel(scene, progress, [&](int x, int y, std::size_t at) {

@@ -204,7 +204,7 @@ std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width,
   for (std::size_t i = 0; i < trials.size(); ++i, step()) {
     results.push_back(open_trial(info, variants()[i], level, trials[i]));
   }
-  if (!trials[0].session) fail(ExitCode::device, "{}", results[0].error);
+  if (!trials[0].session) fail(ErrorKind::device, "{}", results[0].error);
   const Subject subject =
       make_subject(*trials[0].session, make_scene("fence", width, height), "bg");
   const std::vector<NamedMethod> all = methods();

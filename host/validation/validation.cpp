@@ -22,7 +22,7 @@ void require_same_shape(const Values& kernel, const Values& twin) {
   for (std::size_t p = 0; same && p < twin.planes.size(); ++p) {
     same = kernel.planes[p].size() == twin.planes[p].size();
   }
-  if (!same) fail(ExitCode::internal, "kernel and twin give different numbers of values");
+  if (!same) fail(ErrorKind::internal, "kernel and twin give different numbers of values");
 }
 
 class CheckRun {
@@ -116,9 +116,9 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
     try {
       run.run(cases[i]);
       const std::string found = log.take();
-      if (!found.empty()) fail(ExitCode::device, "Oclgrind: {}", found);
+      if (!found.empty()) fail(ErrorKind::device, "Oclgrind: {}", found);
     } catch (const Error& error) {
-      if (error.code() == ExitCode::usage) throw;
+      if (error.kind() == ErrorKind::usage) throw;
       run.stop_at(cases[i], error);
       break;
     }
@@ -141,7 +141,7 @@ const KernelCheck& find_check(const std::string& kernel) {
     if (kernel == check.name) return check;
     names.push_back(check.name);
   }
-  fail(ExitCode::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
+  fail(ErrorKind::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
        did_you_mean(kernel, names), join(names, " "));
 }
 

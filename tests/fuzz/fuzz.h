@@ -22,7 +22,7 @@ void run_parser(const Call& call) {
   try {
     call();
   } catch (const Error& error) {
-    require(error.code() == ExitCode::usage || error.code() == ExitCode::input);
+    require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::input);
     require(error.what()[0] != '\0');
   }
 }
