@@ -124,7 +124,7 @@ typedef struct {
   DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
-  DEFRAY_UINT has_rim;      ///< 1: the lens's rim cuts off cells, see rim.h.
+  DEFRAY_UINT has_rim;      ///< 1: the lens's rim cuts off cells, see rim.clh.
   DEFRAY_UINT all_cells;    ///< Lens cells of all passes.
   DEFRAY_UINT has_data_of;  ///< 0: every fragment has data of its own (`rdb_nearest`).
 } DefrayRdbParams;

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "kernels_source.h"
 
 namespace defray {
 namespace {
@@ -54,21 +53,6 @@ cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
   }
 }
 
-std::string substituted(std::string text, const std::vector<Substitution>& substitutions) {
-  for (const Substitution& s : substitutions) {
-    std::size_t count = 0;
-    for (auto at = text.find(s.from); at != std::string::npos;
-         at = text.find(s.from, at + s.to.size())) {
-      text.replace(at, s.from.size(), s.to);
-      ++count;
-    }
-    if (count == 0 || (count > 1 && !s.everywhere)) {
-      fail(ErrorKind::internal, "'{}' is {} times in the kernels", s.from, count);
-    }
-  }
-  return text;
-}
-
 std::string build_options(const DeviceInfo& info, const SessionOptions& options,
                           bool int64_atomics) {
   std::string text = "-cl-std=CL1.2 " + options.build_options;
@@ -90,8 +74,7 @@ Session::Session(const DeviceInfo& info, const SessionOptions& options)
   queue_ = checked(info_, "clCreateCommandQueue", [&] {
     return cl::CommandQueue(context_, info.device, measures_ ? CL_QUEUE_PROFILING_ENABLE : 0);
   });
-  const std::string source =
-      substituted(fmt::to_string(fmt::join(kernel_sources, "")), options.substitutions);
+  const std::string source = kernel_source(options.files, options.substitutions);
   program_ = checked(info_, "clCreateProgramWithSource", [&] {
     return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
   });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "opencl/device.h"
+#include "opencl/kernel_source.h"
 
 namespace defray {
 
@@ -19,17 +20,12 @@ enum class Math {
   fast,    ///< The compiler may fuse and approximate: results differ from device to device.
 };
 
-/// A change of the kernels' text, for experiments and for faults that tests must find.
-struct Substitution {
-  std::string from, to;
-  bool everywhere = false;  ///< Otherwise `from` must be there exactly once.
-};
-
 struct SessionOptions {
   bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
   Math math = Math::strict;
   std::string build_options = {};  ///< More options for the OpenCL compiler.
   std::vector<Substitution> substitutions = {};
+  std::vector<std::string> files = {};  ///< Names of the .cl files to build; empty: all.
   bool half_planes = false;  ///< `picture` hands kernels half floats: they must be told to read so.
   bool measures = false;     ///< Keep each kernel's time on the device.
 };

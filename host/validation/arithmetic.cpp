@@ -17,7 +17,7 @@ constexpr const char* no_pragma = "-DDEFRAY_FAST_MATH";  // lets the compiler co
 
 std::vector<Substitution> half_reads() {
   return {
-      {"__global const float* restrict channel", "__global const half* restrict channel", true},
+      {"__global const float* restrict name##", "__global const half* restrict name##", true},
       {"(float4)(channel0[at], channel1[at], channel2[at], channel3[at])",
        "(float4)(vload_half(at, channel0), vload_half(at, channel1), "
        "vload_half(at, channel2), vload_half(at, channel3))"},
