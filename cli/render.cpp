@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "device/device_stages.h"
 #include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
@@ -10,6 +11,7 @@
 #include "options.h"
 #include "parse.h"
 #include "progress.h"
+#include "reference/twin_stages.h"
 
 namespace defray::cli {
 namespace {
@@ -60,6 +62,7 @@ class SequenceRun {
     SessionOptions session;
     session.math = choice<Math>("--math", options.math, math_words);
     if (options.device == "reference") {
+      stages_ = std::make_unique<reference::TwinStages>();
       device_ = "the scalar reference";
       return;
     }
@@ -67,6 +70,8 @@ class SequenceRun {
         select_device(options.device, "; or use --device reference, the slow scalar twin"),
         session);
     session_->set_work_group(group[0], group[1]);
+    session_->set_memory(memory_bytes(options));
+    stages_ = std::make_unique<DeviceStages>(*session_);
     device_ = session_->info().name;
     if (session.math == Math::fast) device_ += " (fast arithmetic)";
   }
@@ -81,7 +86,7 @@ class SequenceRun {
     }
     try {
       bar_.update(done, 0);
-      FrameResult result = render_frame(outcome.paths, settings_, session_.get(),
+      FrameResult result = render_frame(outcome.paths, settings_, *stages_,
                                         [&](double share) { bar_.update(done, share); });
       outcome.report = std::move(result.report);
       last_ = std::move(result.colour);
@@ -126,6 +131,7 @@ class SequenceRun {
   RenderSettings settings_;
   ProgressBar bar_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<Stages> stages_;
   std::string device_;
   std::vector<Plane> last_;
   Window last_data_, last_display_;

@@ -43,11 +43,14 @@ void add_render_options(CLI::App& command, RenderOptions& options);
 
 /// What brings the RDB closer to the truth (render_defocus.cpp).
 void add_defocus_options(CLI::App& command, RenderOptions& options);
-DefocusSettings to_defocus(const RenderOptions& options);
+ChainSettings to_chain(const RenderOptions& options);
 
 /// The lens and the method (render_method.cpp).
 void add_method_options(CLI::App& command, RenderOptions& options);
 MethodSettings to_method(const RenderOptions& options);
+
+/// --memory. Throws Error(usage).
+std::size_t memory_bytes(const RenderOptions& options);
 TiltshiftSettings to_tiltshift(const RenderOptions& options);
 
 /// Throws Error(usage) on values that are not allowed.

@@ -30,8 +30,8 @@ void add_defocus_options(CLI::App& c, RenderOptions& o) {
   add_aperture_options(c, o.aperture);
 }
 
-DefocusSettings to_defocus(const RenderOptions& o) {
-  DefocusSettings s = settings_for(choice<Quality>(
+ChainSettings to_chain(const RenderOptions& o) {
+  ChainSettings s = settings_for(choice<Quality>(
       "--quality", o.quality.empty() ? "normal" : o.quality,
       {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}}));
   if (o.rdb) s.cells_per_side = *o.rdb;

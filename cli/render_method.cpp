@@ -161,23 +161,24 @@ void add_method_options(CLI::App& c, RenderOptions& o) {
       ->group(group);
 }
 
+std::size_t memory_bytes(const RenderOptions& o) {
+  const double mib = o.memory_mib.value_or(512);
+  if (!(mib > 0) || mib > 1048576) {
+    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576", mib);
+  }
+  return static_cast<std::size_t>(mib * 1048576);
+}
+
 MethodSettings to_method(const RenderOptions& o) {
   MethodSettings s;
   s.method = choice<Method>("--method", o.method, methods);
   reject_foreign_options(o);
-  const double memory_mib = o.memory_mib.value_or(512);
-  if (!(memory_mib > 0) || memory_mib > 1048576) {
-    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
-         memory_mib);
-  }
-  const auto memory_bytes = static_cast<std::size_t>(memory_mib * 1048576);
+  memory_bytes(o);
   s.rdb.cells_per_side = o.rdb.value_or(9);
   s.rdb.jitter = o.jitter;
   s.rdb.seed = o.seed.value_or(0);
-  s.rdb.memory_bytes = memory_bytes;
   make_lens_cells(s.rdb.cells_per_side, o.jitter);
-  if (s.method == Method::rdb && !o.literal) s.defocus = to_defocus(o);
-  s.linear = {memory_bytes};
+  if (s.method == Method::rdb && !o.literal) s.chain = to_chain(o);
   s.gather.kind =
       choice<GatherKind>("--gather", o.gather.empty() ? "aware" : o.gather,
                          {{"aware", GatherKind::aware}, {"literal", GatherKind::literal}});

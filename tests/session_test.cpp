@@ -3,6 +3,10 @@
 
 #include <Imath/half.h>
 
+#include <filesystem>
+#include <fstream>
+#include <set>
+
 #include "lens/coc.h"
 #include "support.h"
 
@@ -47,10 +51,48 @@ TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {
             session().kernel_names());
 }
 
-TEST(Session, SubstitutionsReachTheCompiler) {
-  expect_error(ErrorKind::device, {"clBuildProgram", "defray_nonsense"}, [] {
-    with_substitution({"__kernel void coc(", "defray_nonsense __kernel void coc("});
+/// "kernels/NAME:LINE:" of the first line that holds this text.
+std::string place_of(const std::string& name, const std::string& text) {
+  std::ifstream file(DEFRAY_SOURCE_DIR "/kernels/" + name);
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    if (line.find(text) != std::string::npos) return fmt::format("kernels/{}:{}:", name, number);
+  }
+  return "nowhere";
+}
+
+TEST(Session, BuildErrorsNameFileAndLine) {
+  expect_error(ErrorKind::device,
+               {"clBuildProgram", "defray_nonsense", place_of("fill.cl", "__kernel void")}, [] {
+                 with_substitution({"__kernel void fill(", "defray_nonsense __kernel void fill("});
+               });
+  expect_error(ErrorKind::device, {place_of("rim.clh", "bool passes_rim(")}, [] {
+    with_substitution({"bool passes_rim(", "defray_nonsense passes_rim("});
   });
+}
+
+TEST(Session, BuildsTheFilesAskedFor) {
+  SessionOptions options;
+  options.files = {"tiltshift.cl", "edges.cl"};
+  const std::vector<std::string> expected{"edges", "repair", "tiltshift"};
+  EXPECT_EQ(Session(device_under_test(), options).kernel_names(), expected);
+  options.files = {"nonesuch.cl"};
+  expect_error(ErrorKind::internal, {"no kernel file 'nonesuch.cl'"},
+               [&] { Session(device_under_test(), options); });
+}
+
+TEST(Session, EveryFileBuildsAlone) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(DEFRAY_SOURCE_DIR "/kernels")) {
+    if (entry.path().extension() != ".cl") continue;
+    SessionOptions options;
+    options.files = {entry.path().filename()};
+    options.build_options = "-cl-opt-disable";
+    for (const std::string& name : Session(device_under_test(), options).kernel_names()) {
+      EXPECT_TRUE(names.insert(name).second) << name;
+    }
+  }
+  EXPECT_EQ(std::vector<std::string>(names.begin(), names.end()), session().kernel_names());
 }
 
 TEST(Session, PicturesAreFloatsOrHalves) {

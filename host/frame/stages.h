@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "frame/frame.h"
-
-struct DefrayTiltshiftParams;
+#include "kernels/params.h"
 
 namespace defray {
 

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <chrono>
+#include <cstring>
 #include <thread>
 
 #include "base/error.h"
-#include "kernels_source.h"
 #include "opencl/launch_table.h"
 
 namespace defray {
@@ -55,21 +54,6 @@ cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
   }
 }
 
-std::string substituted(std::string text, const std::vector<Substitution>& substitutions) {
-  for (const Substitution& s : substitutions) {
-    std::size_t count = 0;
-    for (auto at = text.find(s.from); at != std::string::npos;
-         at = text.find(s.from, at + s.to.size())) {
-      text.replace(at, s.from.size(), s.to);
-      ++count;
-    }
-    if (count == 0 || (count > 1 && !s.everywhere)) {
-      fail(ErrorKind::internal, "'{}' is {} times in the kernels", s.from, count);
-    }
-  }
-  return text;
-}
-
 std::string build_options(const DeviceInfo& info, const SessionOptions& options,
                           bool int64_atomics) {
   std::string text = "-cl-std=CL1.2 " + options.build_options;
@@ -90,8 +74,7 @@ Session::Session(const DeviceInfo& info, const SessionOptions& options)
   queue_ = checked(info_, "clCreateCommandQueue", [&] {
     return cl::CommandQueue(context_, info.device, measures_ ? CL_QUEUE_PROFILING_ENABLE : 0);
   });
-  const std::string source =
-      substituted(fmt::to_string(fmt::join(kernel_sources, "")), options.substitutions);
+  const std::string source = kernel_source(options.files, options.substitutions);
   program_ = checked(info_, "clCreateProgramWithSource", [&] {
     return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
   });
@@ -229,7 +212,10 @@ void Session::enqueue(cl::Kernel& kernel, const char* name, const std::vector<st
   const auto set = groups_.find(name);
   const bool is_set = set != groups_.end();
   const std::size_t group[3] = {is_set ? set->second[0] : launch.group_x,
-                                global.size() < 2 ? 1 : is_set ? set->second[1] : launch.group_y, 1};
+                                global.size() < 2 ? 1
+                                : is_set          ? set->second[1]
+                                                  : launch.group_y,
+                                1};
   std::size_t padded[3] = {1, 1, 1}, offset[3] = {0, 0, 0};
   std::copy(first.begin(), first.end(), offset);
   for (std::size_t d = 0; d < global.size(); ++d) {

@@ -11,6 +11,7 @@
 #include "frame/frame.h"
 #include "opencl/device.h"
 #include "opencl/device_values.h"
+#include "opencl/kernel_source.h"
 
 namespace defray {
 
@@ -23,18 +24,13 @@ enum class Math {
   fast,    ///< The compiler may fuse and approximate: results differ from device to device.
 };
 
-/// A change of the kernels' text: faults that tests must find.
-struct Substitution {
-  std::string from, to;
-  bool everywhere = false;  ///< Otherwise `from` must be there exactly once.
-};
-
 struct SessionOptions {
   bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
   Math math = Math::strict;
   std::string build_options = {};  ///< More options for the OpenCL compiler.
   std::vector<Substitution> substitutions = {};
-  bool measures = false;  ///< Keep each kernel's time on the device.
+  std::vector<std::string> files = {};  ///< Names of the .cl files to build; empty: all.
+  bool measures = false;                ///< Keep each kernel's time on the device.
 };
 
 /// Runs kernels on one device. Every failure is an Error(device) that names the call and the
