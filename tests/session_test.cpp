@@ -122,7 +122,7 @@ TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
   EXPECT_EQ(seconds.begin()->first, "coc");
   EXPECT_GE(seconds.begin()->second, 0);
   EXPECT_TRUE(own.take_kernel_seconds().empty());
-  coc_on_device(session(), Lens(), 100, depth);
+  device().coc(Lens(), 100, depth);
   EXPECT_TRUE(session().take_kernel_seconds().empty());
 }
 
@@ -135,7 +135,7 @@ TEST(Session, FastArithmeticBuildsAndStaysNear) {
   lens.focus_distance_units = 3;
   lens.aperture_diameter_mm = 100;
   const Plane depth = random_depth({64, 16}, 1);
-  const auto strict_coc = coc_on_device(session(), lens, 64, depth);
+  const auto strict_coc = device().coc(lens, 64, depth);
   const auto fast_coc = coc_on_device(fast, lens, 64, depth);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (std::isinf(depth[i])) continue;  // -cl-fast-relaxed-math leaves open what Inf gives
