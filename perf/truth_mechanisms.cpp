@@ -66,7 +66,7 @@ Timing ratio(const Paired& p, std::size_t variant) {
 Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& all) {
   const Subject& s = setup.subject;
   const Subject filtered = make_antialiased(
-      bench.session, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
+      bench.stages, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
   Paired p;
   p.seconds.resize(all.size());
   for (int round = -1; round < (bench.is_quick ? 1 : 3); ++round) {  // -1: the picture
@@ -113,7 +113,7 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
     cost.rows.push_back({v.name});
   }
   for (const Setup& setup : setups) {
-    check_against_twin(bench.session, setup.subject, default_chain());
+    check_against_twin(bench.stages, setup.subject, default_chain());
     const Paired p = run(bench, setup, all);
     quality.columns.push_back(setup.name());
     cost.columns.push_back(setup.name());
