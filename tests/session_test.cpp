@@ -1,13 +1,12 @@
 // OpenCL errors say what failed, where and why.
 #include "opencl/session.h"
 
-#include <Imath/half.h>
-
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "lens/coc.h"
+#include "lens/lens.h"
 #include "support.h"
 
 namespace defray::test {
@@ -16,7 +15,7 @@ namespace {
 TEST(Session, AnUnknownKernelIsNamed) {
   expect_error(ErrorKind::device,
                {"clCreateKernel nonesuch", "CL_INVALID_KERNEL_NAME", session().info().name},
-               [] { session().launch("nonesuch", 1, {1}); });
+               [] { session().launch("nonesuch", {1}); });
 }
 
 TEST(Session, BuffersBeyondTheDevicesLimitAreRefused) {
@@ -95,28 +94,13 @@ TEST(Session, EveryFileBuildsAlone) {
   EXPECT_EQ(std::vector<std::string>(names.begin(), names.end()), session().kernel_names());
 }
 
-TEST(Session, PicturesAreFloatsOrHalves) {
-  const Plane plane{0, -1.5f, 65504, 1.0f / 3, 1e-7f};
-  Plane floats(plane.size());
-  session().read(session().picture(plane.data(), plane.size()), floats.data(),
-                 plane.size() * sizeof(float));
-  EXPECT_EQ(floats, plane);
-  SessionOptions options;
-  options.half_planes = true;
-  Session own(device_under_test(), options);
-  std::vector<Imath::half> halves(plane.size());
-  own.read(own.picture(plane.data(), plane.size()), halves.data(),
-           plane.size() * sizeof(Imath::half));
-  for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_EQ(halves[i], Imath::half(plane[i]));
-}
-
 TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
   SessionOptions options;
   options.measures = true;
   Session own(device_under_test(), options);
   EXPECT_TRUE(own.take_kernel_seconds().empty());
   const Plane depth(1000, 2);
-  coc_on_device(own, Lens(), 100, depth);
+  DeviceStages(own).coc(Lens(), 100, depth);
   const auto seconds = own.take_kernel_seconds();
   ASSERT_EQ(seconds.size(), 1u);
   EXPECT_EQ(seconds.begin()->first, "coc");
@@ -136,7 +120,7 @@ TEST(Session, FastArithmeticBuildsAndStaysNear) {
   lens.aperture_diameter_mm = 100;
   const Plane depth = random_depth({64, 16}, 1);
   const auto strict_coc = device().coc(lens, 64, depth);
-  const auto fast_coc = coc_on_device(fast, lens, 64, depth);
+  const auto fast_coc = DeviceStages(fast).coc(lens, 64, depth);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (std::isinf(depth[i])) continue;  // -cl-fast-relaxed-math leaves open what Inf gives
     EXPECT_NEAR(fast_coc[i], strict_coc[i], 1) << depth[i];
