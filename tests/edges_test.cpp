@@ -69,9 +69,9 @@ TEST(Repair, AntiAliasedDepthIsPutOnOneOfTheTwoSurfaces) {
 
 TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
   const auto expect_untouched = [](const std::vector<std::int32_t>& coc) {
-    Words own(coc.size());
+    std::vector<std::uint32_t> own(coc.size());
     std::iota(own.begin(), own.end(), 0u);
-    EXPECT_EQ(device().repair({side, side, coc}), own);
+    EXPECT_EQ(device().repair({side, side, coc}), Words(own));
   };
   for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
     expect_untouched(step_along(dx, dy, 0, 0.25, 1));

@@ -156,9 +156,9 @@ TEST(Linear, RefusesWhatItCannotReach) {
   expect_error(ErrorKind::usage, {"1025 px", "1024", "--max-coc", "rdb"}, [&] {
     render({2, 2}, wide, {Plane(4)});
   });
-  expect_error(ErrorKind::usage, {"--memory", "100 px", "MiB"}, [&] {
-    render({2, 2}, some, {Plane(4)}, {1000});
-  });
+  const InBands in_bands(session(), 1000);
+  expect_error(ErrorKind::usage, {"--memory", "100 px", "MiB"},
+               [&] { render({2, 2}, some, {Plane(4)}); });
 }
 
 }  // namespace

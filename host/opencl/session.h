@@ -129,7 +129,7 @@ class Session {
   void launch_from(const std::vector<std::size_t>& first, const char* name,
                    const std::vector<std::size_t>& global, const Args&... args) {
     cl::Kernel& kernel = kernel_of(name);
-    cl_uint index = 0;
+    [[maybe_unused]] cl_uint index = 0;
     (set_arguments(kernel, name, index, args), ...);
     enqueue(kernel, name, global, first);
   }
