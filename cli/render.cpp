@@ -7,6 +7,7 @@
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
+#include "option_names.h"
 #include "options.h"
 #include "parse.h"
 #include "progress.h"
@@ -87,11 +88,11 @@ class SequenceRun {
       last_ = std::move(result.colour);
     } catch (const Error& error) {
       outcome.status = "failed";
-      outcome.error = error.what();
+      outcome.error = message_of(error);
       if (options_.json) report(outcome);
       bar_.clear();
       if (!options_.skip_bad_frames || error.kind() == ErrorKind::device) throw;
-      fmt::print(stderr, "defray: error: {}\n", error.what());
+      fmt::print(stderr, "defray: error: {}\n", outcome.error);
       return false;
     }
     last_data_ = outcome.report.data;

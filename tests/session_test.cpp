@@ -17,10 +17,10 @@ TEST(Session, AnUnknownKernelIsNamed) {
 
 TEST(Session, BuffersBeyondTheDevicesLimitAreRefused) {
   const std::size_t too_much = session().info().max_buffer_bytes + 1;
-  expect_error(ErrorKind::device, {"allows at most", "--memory"},
+  expect_error(ErrorKind::device, {"allows at most", "memory"},
                [&] { session().buffer(too_much); });
   const char byte = 0;
-  expect_error(ErrorKind::device, {"allows at most", "--max-coc"},
+  expect_error(ErrorKind::device, {"allows at most", "max_coc_px"},
                [&] { session().view(&byte, too_much); });
 }
 

@@ -99,7 +99,7 @@ TEST(Case, WhatIsNotSaidKeepsItsDefault) {
 
 TEST(Case, RefusesWhatItDoesNotKnow) {
   const auto refused = [](const std::string& text, std::vector<std::string> words) {
-    words.push_back("--case");
+    words.push_back("case");
     expect_error(ErrorKind::usage, words, [&] { parse_case(text); });
   };
   refused("", {"empty"});

@@ -222,10 +222,12 @@ constexpr std::size_t bytes_a_pixel = 200;
 void require_memory(const PinholeFrame& frame, const DeviceInfo& device) {
   const std::size_t needed = size(frame.width) * size(frame.height) * bytes_a_pixel;
   if (!device.shares_host_memory || needed <= device.global_memory_bytes) return;
-  fail(ErrorKind::device,
-       "{}x{} pixels: the stages of rdb need about {} MiB of host memory, {} has {} MiB; --literal "
-       "needs a third",
-       frame.width, frame.height, needed >> 20, device.name, device.global_memory_bytes >> 20);
+  fail(
+      ErrorKind::device,
+      "{}x{} pixels: the stages of rdb need about {} MiB of host memory, {} has {} MiB; {} needs a "
+      "third",
+      frame.width, frame.height, needed >> 20, device.name, device.global_memory_bytes >> 20,
+      field("literal"));
 }
 
 }  // namespace

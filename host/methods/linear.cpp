@@ -96,8 +96,9 @@ int band_rows_for(int width, int height, int reach, std::size_t memory_bytes) {
   const std::size_t least = linear_band_bytes(width, reach, 1);
   if (memory_bytes < least) {
     fail(ErrorKind::usage,
-         "--memory is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
-         std::ldexp(static_cast<double>(memory_bytes), -20), width, reach, (least >> 20) + 1);
+         "{} is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
+         field("memory"), std::ldexp(static_cast<double>(memory_bytes), -20), width, reach,
+         (least >> 20) + 1);
   }
   const std::size_t row = linear_band_bytes(width, reach, 2) - least;
   return static_cast<int>(std::min(as_size(height), 1 + (memory_bytes - least) / row));
@@ -162,9 +163,10 @@ int linear_reach(const std::vector<std::int32_t>& coc_quanta) {
   const std::int32_t largest = largest_coc(coc_quanta);
   if (largest > linear_max_radius_px << DEFRAY_COC_FRACTION_BITS) {
     fail(ErrorKind::usage,
-         "CoC radii go up to {:.6g} px: linear filtering takes {} px at most; limit them with "
-         "--max-coc, or use --method rdb",
-         static_cast<double>(radius_px(largest)), linear_max_radius_px);
+         "CoC radii go up to {:.6g} px: linear filtering takes {} px at most; limit them with {}, "
+         "or use {} rdb",
+         static_cast<double>(radius_px(largest)), linear_max_radius_px, field("max_coc_px"),
+         field("method"));
   }
   return reach_of(largest);
 }

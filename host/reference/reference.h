@@ -1,6 +1,6 @@
 #pragma once
 // The scalar twins: every kernel once more, written from the papers' formulas and not from the
-// kernels. They define what a kernel must compute; --device reference runs them.
+// kernels. They define what a kernel must compute; they run where there is no Session.
 #include <cstdint>
 #include <functional>
 #include <vector>
