@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
-#include "option_names.h"
+#include "option_table.h"
 
 namespace defray::cli {
 namespace {

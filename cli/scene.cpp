@@ -11,7 +11,6 @@
 #include "image/image_file.h"
 #include "image/safe_output.h"
 #include "image/sequence.h"
-#include "options.h"
 #include "progress.h"
 #include "scenes/render.h"
 

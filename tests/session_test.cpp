@@ -36,6 +36,33 @@ Session with_substitution(const Substitution& substitution) {
   return Session(device_under_test(), options);
 }
 
+TEST(Session, AKernelsOwnWorkGroupWinsOverThatOfAll) {
+  Session own = with_substitution({"__kernel void coc(",
+                                   "__kernel void group_size(__global uint* size) {\n"
+                                   "  size[0] = get_local_size(0);\n"
+                                   "  size[1] = get_local_size(1);\n"
+                                   "}\n"
+                                   "__kernel void coc("});
+  const auto size_of_group = [&] {
+    std::array<std::uint32_t, 2> size{};
+    const cl::Buffer buffer = own.buffer(sizeof size);
+    own.launch("group_size", 16, {64, 4}, buffer);
+    own.read(buffer, size.data(), sizeof size);
+    return size;
+  };
+  using Size = std::array<std::uint32_t, 2>;
+  EXPECT_EQ(size_of_group(), (Size{16, 1}));
+  own.set_work_group(8, 2);
+  EXPECT_EQ(size_of_group(), (Size{8, 2}));
+  own.set_work_group("group_size", 4, 4);
+  own.set_work_group("coc", 2, 1);
+  EXPECT_EQ(size_of_group(), (Size{4, 4}));
+  own.set_work_group(0, 0);
+  EXPECT_EQ(size_of_group(), (Size{4, 4}));
+  expect_error(ErrorKind::usage, {"work-items", "allows at most"},
+               [&] { own.set_work_group("coc", own.info().max_work_group, 2); });
+}
+
 TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {
   expect_error(ErrorKind::internal, {"'no such text'", "0 times"}, [] {
     with_substitution({"no such text", ""});

@@ -123,13 +123,21 @@ std::map<std::string, double> Session::take_kernel_seconds() {
   return seconds;
 }
 
-void Session::set_work_group(std::size_t x, std::size_t y) {
+void Session::check_work_group(std::size_t x, std::size_t y) const {
   if (x * y > info_.max_work_group) {
     fail(ErrorKind::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
          info_.name, info_.max_work_group);
   }
-  group_x_ = x;
-  group_y_ = y;
+}
+
+void Session::set_work_group(std::size_t x, std::size_t y) {
+  check_work_group(x, y);
+  group_ = {x, y};
+}
+
+void Session::set_work_group(const std::string& kernel, std::size_t x, std::size_t y) {
+  check_work_group(x, y);
+  group_of_[kernel] = {x, y};
 }
 
 cl::Buffer Session::buffer(std::size_t bytes) {
@@ -197,9 +205,11 @@ void Session::fail_argument(const char* name, cl_uint index, int code) const {
 void Session::enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
                       const std::vector<std::size_t>& global,
                       const std::vector<std::size_t>& first) {
-  const bool is_set = group_x_ != 0;
-  const std::size_t group[3] = {is_set ? group_x_ : default_group_x,
-                                is_set && global.size() > 1 ? group_y_ : 1, 1};
+  const auto own = group_of_.find(name);
+  const WorkGroup& wanted = own == group_of_.end() ? group_ : own->second;
+  const bool is_set = wanted[0] != 0;
+  const std::size_t group[3] = {is_set ? wanted[0] : default_group_x,
+                                is_set && global.size() > 1 ? wanted[1] : 1, 1};
   std::size_t padded[3] = {1, 1, 1}, offset[3] = {0, 0, 0};
   std::copy(first.begin(), first.end(), offset);
   for (std::size_t d = 0; d < global.size(); ++d) {

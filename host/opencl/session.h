@@ -1,5 +1,6 @@
 #pragma once
 // One device, made ready: context, queue and the kernels, built once.
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -51,6 +52,8 @@ class Session {
 
   /// Work-group for every kernel, {x, y}; {0, 0}: each kernel's own default.
   void set_work_group(std::size_t x, std::size_t y);
+  /// For one kernel, whatever is set for all.
+  void set_work_group(const std::string& kernel, std::size_t x, std::size_t y);
 
   cl::Buffer buffer(std::size_t bytes);
 
@@ -93,6 +96,7 @@ class Session {
   void finish();
 
  private:
+  void check_work_group(std::size_t x, std::size_t y) const;
   cl::Kernel& kernel_of(const char* name);
   template <typename T>
   void set_argument(cl::Kernel& kernel, const char* name, cl_uint index, const T& value) {
@@ -110,8 +114,9 @@ class Session {
   bool int64_atomics_, half_planes_, measures_;
   std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;
-  std::size_t group_x_ = 0;
-  std::size_t group_y_ = 0;
+  using WorkGroup = std::array<std::size_t, 2>;
+  WorkGroup group_ = {};
+  std::map<std::string, WorkGroup> group_of_;  ///< Of single kernels.
   cl::Context context_;
   cl::CommandQueue queue_;
   cl::Program program_;
