@@ -45,9 +45,8 @@ OptionGroup stage_options(DefocusSettings& s) {
        {"--edges",
         word(s.split_edges, Words<bool>{{"split", true}, {"keep", false}}),
         "Anti-aliased pixels: split into what is in front and behind, or keep",
-        {.needs =
-             {[&s](const Given&) { return s.hidden != Hidden::off; },
-              "means nothing to --hidden off: pixels are split before what lies behind them"}}},
+        {.needs = {[&s](const Given&) { return s.hidden != Hidden::off; },
+                   "means nothing to --hidden off: without what lies behind no pixel is split"}}},
        {"--keep-depth", flag(s.repair_depth, false), "Do not repair depth that looks anti-aliased"},
        {"--highlights", word(s.highlights, Words<bool>{{"discs", true}, {"rays", false}}),
         "Small bright sources: discs of the aperture's shape, or rays like others"},

@@ -133,7 +133,7 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
   Lens lens;
   lens.focal_length_mm = *values.focal_length_mm;
   lens.pixels_per_metre = values.pixels_per_metre.value_or(0);
-  lens.sensor_width_mm = values.sensor_width_mm.value_or(36);
+  lens.sensor_width_mm = values.sensor_width_mm.value_or(lens.sensor_width_mm);
   lens.focus_distance_units = *values.focus_distance_units;
   lens.aperture_diameter_mm =
       values.fstop ? lens.focal_length_mm / *values.fstop : *values.aperture_diameter_mm;
