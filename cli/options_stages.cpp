@@ -13,7 +13,7 @@ const Words<Border> border_words{
 
 /// "draft: --rdb 9 --hidden smooth".
 std::string about(Quality quality) {
-  const DefocusSettings s = settings_for(quality);
+  const ChainSettings s = settings_for(quality);
   const std::string hidden = word_of(s.hidden, hidden_words);
   return fmt::format("{}: --rdb {} --hidden {}", word_of(quality, quality_words), s.cells_per_side,
                      hidden);
@@ -22,7 +22,7 @@ std::string about(Quality quality) {
 }  // namespace
 
 /// It says how many cells, whether there is something hidden, and how far to look for patterns.
-OptionRow quality_row(DefocusSettings& s) {
+OptionRow quality_row(ChainSettings& s) {
   const auto is_heard = [&s](const Given& given) {
     return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::on;
   };
@@ -36,7 +36,7 @@ OptionRow quality_row(DefocusSettings& s) {
        .needs = {is_heard, "means nothing beside --rdb and this --hidden: they say all of it"}}};
 }
 
-OptionGroup stage_options(DefocusSettings& s) {
+OptionGroup stage_options(ChainSettings& s) {
   return {
       "Closer to the truth",
       {{"--hidden", word(s.hidden, hidden_words),

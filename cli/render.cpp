@@ -5,11 +5,13 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "device/device_stages.h"
 #include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
 #include "progress.h"
+#include "reference/twin_stages.h"
 #include "render_job.h"
 
 namespace defray::cli {
@@ -79,6 +81,7 @@ std::unique_ptr<Session> open_session(const RenderJob& job) {
   options.math = job.math;
   auto session = std::make_unique<Session>(
       select_device(job.device, "; or use --device reference, the slow scalar twin"), options);
+  session->set_memory(job.memory_bytes());
   for (const WorkGroup& group : job.work_groups) set_work_group(*session, group);
   return session;
 }
@@ -90,10 +93,12 @@ class SequenceRun {
       : job_(job), bar_(frame_count, frame_count == 1 ? "frame" : "frames", !job.quiet) {
     check_output_format(job.paths.output);
     if (job.is_on_reference()) {
+      stages_ = std::make_unique<reference::TwinStages>();
       device_ = "the scalar reference";
       return;
     }
     session_ = open_session(job);
+    stages_ = std::make_unique<DeviceStages>(*session_);
     device_ = session_->info().name;
     if (job.math == Math::fast) device_ += " (fast arithmetic)";
   }
@@ -108,7 +113,7 @@ class SequenceRun {
     }
     try {
       bar_.update(done, 0);
-      FrameResult result = render_frame(outcome.paths, job_.settings, session_.get(),
+      FrameResult result = render_frame(outcome.paths, job_.settings, *stages_,
                                         [&](double share) { bar_.update(done, share); });
       outcome.report = std::move(result.report);
       last_ = std::move(result.colour);
@@ -152,6 +157,7 @@ class SequenceRun {
   const RenderJob& job_;
   ProgressBar bar_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<Stages> stages_;
   std::string device_;
   std::vector<Plane> last_;
   Window last_data_, last_display_;

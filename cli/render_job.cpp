@@ -1,16 +1,13 @@
 #include "render_job.h"
 
 namespace defray::cli {
-namespace {
-
-std::size_t memory_bytes(double mib) {
-  if (!(mib > 0) || mib > 1048576) {
-    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576", mib);
+std::size_t RenderJob::memory_bytes() const {
+  if (!(memory_mib > 0) || memory_mib > 1048576) {
+    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
+         memory_mib);
   }
-  return static_cast<std::size_t>(mib * 1048576);
+  return static_cast<std::size_t>(memory_mib * 1048576);
 }
-
-}  // namespace
 
 std::vector<OptionGroup> render_options(RenderJob& job) {
   return {main_options(job),
@@ -28,8 +25,8 @@ std::vector<OptionGroup> render_options(RenderJob& job) {
 void finish(RenderJob& job) {
   RenderSettings& s = job.settings;
   MethodSettings& m = s.method;
-  m.rdb.memory_bytes = m.linear.memory_bytes = memory_bytes(job.memory_mib);
-  if (m.method == Method::rdb && !job.is_literal) m.defocus = job.stages;
+  job.memory_bytes();  // before anything is read
+  if (m.method == Method::rdb && !job.is_literal) m.chain = job.stages;
   make_lens_cells(m.rdb.cells_per_side, m.rdb.jitter);
   validate(job.stages.aperture);
   validate(m.gather);

@@ -24,7 +24,7 @@ struct RenderJob {
   std::string frames;
   RenderSettings settings;
   bool is_literal = false;
-  DefocusSettings stages;  ///< Of rdb, unless it is literal.
+  ChainSettings stages;  ///< Of rdb, unless it is literal.
   EyeOptions eye;
   std::string camera, focus_setting;  ///< Of a camera file, or "from-metadata".
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
@@ -33,6 +33,8 @@ struct RenderJob {
   std::vector<WorkGroup> work_groups;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
 
+  /// Throws Error(usage).
+  std::size_t memory_bytes() const;
   bool is_on_reference() const { return device == "reference"; }
 };
 
@@ -48,8 +50,8 @@ OptionGroup channel_options(RenderJob& job);
 OptionGroup lens_options(RenderJob& job);
 OptionGroup method_options(RenderJob& job);
 OptionGroup tiltshift_options(TiltshiftSettings& tiltshift);
-OptionRow quality_row(DefocusSettings& stages);  ///< Before what it sets: --rdb, --hidden.
-OptionGroup stage_options(DefocusSettings& stages);
+OptionRow quality_row(ChainSettings& stages);  ///< Before what it sets: --rdb, --hidden.
+OptionGroup stage_options(ChainSettings& stages);
 OptionGroup aperture_options(Aperture& aperture);
 OptionGroup device_options(RenderJob& job);
 OptionGroup terminal_options(RenderJob& job);

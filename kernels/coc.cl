@@ -6,7 +6,7 @@
 //
 // Every value has an answer, and no NaN reaches the rounding: what is no finite depth (inf, NaN, 0,
 // negative) is background. A difference or quotient that overflows stands for a radius far beyond
-// the limit (host/lens.cpp sees to it), and becomes the limit.
+// the limit (host/lens/lens.cpp sees to it), and becomes the limit.
 //
 // depth_units  [pixel_count]  planar depth > 0, scene units; anything else is background
 // coc_quanta   [pixel_count]  signed radius, 1/256 px, rounded to nearest even

@@ -10,7 +10,7 @@
 // mixed       [height][width]  edges: 1 where a neighbour lies on another surface: anti-aliased
 //                              colour holds both there
 // Global size of both: (width, height).
-#include "frame.h"
+#include "frame.clh"
 
 // A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat,
 // all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come closer to one end.
@@ -28,8 +28,8 @@ int ramp(const int before, const int low, const int middle, const int high, cons
 
 __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                      __global uint* restrict source) {
-  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
-  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const int2 at = work_item();
+  if (!is_inside(p.width, p.height, at)) return;
   const int2 directions[4] = {(int2)(1, 0), (int2)(0, 1), (int2)(1, 1), (int2)(1, -1)};
   uint found = pixel_at(p.width, p.height, at);
   const int own = coc_of(coc_quanta, found);
@@ -51,8 +51,8 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
 
 __kernel void edges(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                     __global uint* restrict mixed) {
-  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
-  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const int2 at = work_item();
+  if (!is_inside(p.width, p.height, at)) return;
   const uint own = pixel_at(p.width, p.height, at);
   int largest = 0;
   for (int j = -1; j <= 1; ++j) {

@@ -15,10 +15,11 @@
 // channel0..3  [height][width]
 // behind_coc   [height][width]    signed radius; as given where nothing was found
 // behind_inverse [height][width]  1/depth; negative where nothing was found
-// behind       [height][width]    colour
+// behind0..3   [height][width]    colour
 // Global size: (width, height).
-#include "colour.h"
-#include "frame.h"
+#include "colour.clh"
+#include "frame.clh"
+#include "rank.clh"
 
 // What a ray over the picture has found.
 typedef struct {
@@ -28,10 +29,6 @@ typedef struct {
   float inverse;   // 1/depth: continued to where the ray began
   float weight;    // of its colour
 } Found;
-
-bool is_inside(const DefrayFillParams p, const int2 at) {
-  return at.x >= 0 && at.y >= 0 && at.x < (int)p.width && at.y < (int)p.height;
-}
 
 // CoC and depth of the surface at q, continued back along the ray. Its slant is taken from four
 // pixels further on, if they are still the same surface; the result keeps half the step. Places are
@@ -44,7 +41,7 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
   const int2 beyond = start + back + on;
   const uint q = pixel_at(p.width, p.height, start + back);
   Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q], 0.0f};
-  if (!is_inside(p, beyond)) return found;
+  if (!is_inside(p.width, p.height, beyond)) return found;
   const uint b = pixel_at(p.width, p.height, beyond);
   const float slant = (float)(coc_of(coc_quanta, q) - coc_of(coc_quanta, b));
   const float most = 0.5f * (float)(coc_of(coc_quanta, q) - own);
@@ -68,7 +65,7 @@ Found look_behind(const DefrayFillParams p, __global const int* restrict coc_qua
   int before = own;
   for (int t = 1, step = 1; t <= reach; t += step) {
     const int2 at = start + convert_int2(rint((float)t * direction));
-    if (!is_inside(p, at)) return nothing;
+    if (!is_inside(p.width, p.height, at)) return nothing;
     const uint q = pixel_at(p.width, p.height, at);
     const int coc = coc_of(coc_quanta, q);
     const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
@@ -76,7 +73,7 @@ Found look_behind(const DefrayFillParams p, __global const int* restrict coc_qua
       // The surface begins here; its first pixels may be mixed.
       for (int i = t; i <= t + 3; ++i) {
         const int2 further = start + convert_int2(rint((float)i * direction));
-        if (!is_inside(p, further)) return nothing;
+        if (!is_inside(p.width, p.height, further)) return nothing;
         const uint f = pixel_at(p.width, p.height, further);
         if (!mixed[f] && coc_of(coc_quanta, f) - own > DEFRAY_JUMP_QUANTA) {
           return continue_back(p, coc_quanta, inverse, mixed, start, direction, i, own);
@@ -105,21 +102,19 @@ float sum_of_squares(const float4 c) {
 // they are still the same surface. A small highlight gives its place to the brightest of them,
 // unless it lies so close to the edge that it may well go on behind it.
 Found look_further(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                   __global const uint* restrict mixed, __global const float* restrict channel0,
-                   __global const float* restrict channel1, __global const float* restrict channel2,
-                   __global const float* restrict channel3, const int2 start,
-                   const float2 direction, Found found) {
+                   __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel),
+                   const int2 start, const float2 direction, Found found) {
   const int coc = coc_of(coc_quanta, found.source);
-  const float4 colour = colour_at(channel0, channel1, channel2, channel3, found.source);
+  const float4 colour = colour_at(CHANNELS(channel), found.source);
   float change = 0.0f, size = sum_of_squares(colour), brightest = -1.0f;
   uint source = found.source;
   found.weight = 1.0f / (found.distance * found.distance);
   for (int i = 1; i <= 4; ++i) {
     const int2 at = start + convert_int2(rint((found.distance + (float)(4 * i)) * direction));
-    if (!is_inside(p, at)) break;
+    if (!is_inside(p.width, p.height, at)) break;
     const uint q = pixel_at(p.width, p.height, at);
     if (mixed[q] || abs(coc_of(coc_quanta, q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
-    const float4 c = colour_at(channel0, channel1, channel2, channel3, q);
+    const float4 c = colour_at(CHANNELS(channel), q);
     change += sum_of_squares(c - colour);
     size += sum_of_squares(c);
     if (!(brightness(c) > brightest)) continue;
@@ -137,16 +132,15 @@ Found look_further(const DefrayFillParams p, __global const int* restrict coc_qu
 
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
                    __global const float* restrict inverse, __global const uint* restrict mixed,
-                   __global const uint* restrict active, __global const float* restrict channel0,
-                   __global const float* restrict channel1, __global const float* restrict channel2,
-                   __global const float* restrict channel3, __global int* restrict behind_coc,
-                   __global float* restrict behind_inverse, __global float4* restrict behind) {
-  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
-  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+                   __global const uint* restrict active, CHANNEL_PARAMETERS(channel),
+                   __global int* restrict behind_coc, __global float* restrict behind_inverse,
+                   WRITTEN_CHANNELS(behind)) {
+  const int2 at = work_item();
+  if (!is_inside(p.width, p.height, at)) return;
   const uint pixel = pixel_at(p.width, p.height, at);
   behind_inverse[pixel] = -1.0f;
   behind_coc[pixel] = coc_quanta[pixel];
-  behind[pixel] = 0.0f;
+  set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
   const uint tile = (uint)at.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)at.x / DEFRAY_FILL_TILE;
   if (!active[tile]) return;
 
@@ -165,10 +159,9 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
     Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own);
     if (f.distance == 0.0f) continue;
-    f = look_further(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at, sixteenth(i),
-                     f);
+    f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, sixteenth(i), f);
     found[count] = f;
-    bright[count] = brightness(colour_at(channel0, channel1, channel2, channel3, f.source));
+    bright[count] = brightness(colour_at(CHANNELS(channel), f.source));
     if (f.distance < found[nearest].distance) nearest = count;
     ++count;
   }
@@ -188,11 +181,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
 
   float median = 0.0f;
   for (uint i = 0; i < count; ++i) {
-    uint rank = 0u;
-    for (uint k = 0; k < count; ++k) {
-      rank += bright[k] < bright[i] || (bright[k] == bright[i] && k < i) ? 1u : 0u;
-    }
-    if (rank == count / 2u) median = bright[i];
+    if (rank_of(bright, count, i) == count / 2u) median = bright[i];
   }
   float weights = 0.0f, coc = 0.0f, inverse_sum = 0.0f, colour_weights = 0.0f;
   float4 colour = 0.0f;
@@ -204,10 +193,10 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     inverse_sum += weight * f.inverse;
     if (bright[i] > 10.0f * median) continue;
     colour_weights += f.weight;
-    colour += f.weight * colour_at(channel0, channel1, channel2, channel3, f.source);
+    colour += f.weight * colour_at(CHANNELS(channel), f.source);
   }
   behind_coc[pixel] = convert_int_rte(coc / weights);
   const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;
   behind_inverse[pixel] = mean < most ? mean : most;
-  behind[pixel] = colour / colour_weights;
+  set_colour(CHANNELS(behind), pixel, colour / colour_weights);
 }

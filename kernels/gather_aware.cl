@@ -13,7 +13,7 @@
 // reach       [tiles_y][tiles_x]              largest radius that matters to a tile, quanta
 // samples, rotations, channel0..3, out        as in gather_literal
 // Samples are taken at whole pixels: no colour is mixed across an edge.
-#include "gather.h"
+#include "gather.clh"
 
 // Share of a disc's border pixel at this distance from its centre.
 float covers(const float radius, const float distance) {
@@ -33,11 +33,8 @@ float pixels_a_sample(const float radius, const uint count) {
 __kernel void gather_aware(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                            __global const int* restrict reach,
                            __global const float2* restrict samples,
-                           __global const float2* restrict rotations,
-                           __global const float* restrict channel0,
-                           __global const float* restrict channel1,
-                           __global const float* restrict channel2,
-                           __global const float* restrict channel3, __global float4* restrict out) {
+                           __global const float2* restrict rotations, CHANNEL_PARAMETERS(channel),
+                           __global float4* restrict out) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
@@ -45,7 +42,7 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
   const size_t target = (size_t)row * p.width + x;
   const size_t own_at = (size_t)y * p.width + x;
   const float quantum = (1.0f / 256.0f) * p.radius_scale;
-  const float4 own = colour_at(channel0, channel1, channel2, channel3, own_at);
+  const float4 own = colour_at(CHANNELS(channel), own_at);
   const float own_coc = (float)coc_quanta[own_at] * quantum;
   const uint tiles_x = (p.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
   const uint tile = y / DEFRAY_GATHER_TILE * tiles_x + x / DEFRAY_GATHER_TILE;
@@ -74,7 +71,7 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
     const float coc = (float)coc_quanta[source] * quantum;
     const float distance = sqrt(offset.x * offset.x + offset.y * offset.y);
     const float nearer = clamp(own_coc - coc - 0.5f, 0.0f, 1.0f);
-    const float4 c = colour_at(channel0, channel1, channel2, channel3, source) - own;
+    const float4 c = colour_at(CHANNELS(channel), source) - own;
     const float near = nearer * covers(fabs(coc), distance) * near_area / disc_area(fabs(coc));
     const float base = (1.0f - nearer) * covers(own_radius, distance);
     const float near_share = only_base ? 0.0f : near, base_share = only_near ? 0.0f : base;

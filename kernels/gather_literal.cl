@@ -10,15 +10,11 @@
 // channel0..3  [height][width]
 // out          [band_rows][width]
 // Global size: (width, band_rows).
-#include "gather.h"
+#include "gather.clh"
 
 __kernel void gather_literal(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                              __global const float2* restrict samples,
-                             __global const float2* restrict rotations,
-                             __global const float* restrict channel0,
-                             __global const float* restrict channel1,
-                             __global const float* restrict channel2,
-                             __global const float* restrict channel3,
+                             __global const float2* restrict rotations, CHANNEL_PARAMETERS(channel),
                              __global float4* restrict out) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
@@ -26,7 +22,7 @@ __kernel void gather_literal(const DefrayGatherParams p, __global const int* res
   const uint y = p.band_y + row;
   const size_t target = (size_t)row * p.width + x;
   const size_t own_at = (size_t)y * p.width + x;
-  const float4 own = colour_at(channel0, channel1, channel2, channel3, own_at);
+  const float4 own = colour_at(CHANNELS(channel), own_at);
   const float radius = fabs((float)coc_quanta[own_at]) * (1.0f / 256.0f) * p.radius_scale;
   const float2 turn = gather_turn(p, rotations, x, y);
 
@@ -39,10 +35,10 @@ __kernel void gather_literal(const DefrayGatherParams p, __global const int* res
     const int2 last = (int2)((int)p.width - 1, (int)p.height - 1);
     const int2 a = clamp(low, 0, last), b = clamp(low + 1, 0, last);
     const size_t top = (size_t)a.y * p.width, bottom = (size_t)b.y * p.width;
-    const float4 c00 = colour_at(channel0, channel1, channel2, channel3, top + (uint)a.x);
-    const float4 c10 = colour_at(channel0, channel1, channel2, channel3, top + (uint)b.x);
-    const float4 c01 = colour_at(channel0, channel1, channel2, channel3, bottom + (uint)a.x);
-    const float4 c11 = colour_at(channel0, channel1, channel2, channel3, bottom + (uint)b.x);
+    const float4 c00 = colour_at(CHANNELS(channel), top + (uint)a.x);
+    const float4 c10 = colour_at(CHANNELS(channel), top + (uint)b.x);
+    const float4 c01 = colour_at(CHANNELS(channel), bottom + (uint)a.x);
+    const float4 c11 = colour_at(CHANNELS(channel), bottom + (uint)b.x);
     const float4 upper = c00 + (c10 - c00) * part.x;
     const float4 lower = c01 + (c11 - c01) * part.x;
     sum += upper + (lower - upper) * part.y - own;

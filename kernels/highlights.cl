@@ -11,8 +11,9 @@
 // channel0..3  [height][layers][width]
 // kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
 // Global size: (width, height x layers).
-#include "colour.h"
-#include "frame.h"
+#include "colour.clh"
+#include "frame.clh"
+#include "rank.clh"
 
 // The largest of the light channels: alpha is no light.
 float light_of(const float4 c, const uint channels) {
@@ -27,19 +28,15 @@ int2 around(const int2 at, const float radius, const uint i) {
 }
 
 __kernel void highlights(const DefrayHighlightParams p, __global const int* restrict coc_quanta,
-                         __global const uint* restrict coverage,
-                         __global const float* restrict channel0,
-                         __global const float* restrict channel1,
-                         __global const float* restrict channel2,
-                         __global const float* restrict channel3, __global float* restrict kept) {
+                         __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
+                         __global float* restrict kept) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.height * p.layers) return;
   const uint own = row * p.width + x;
   kept[own] = 1.0f;
   const uint share = coverage[own] < DEFRAY_SYNTHESISED ? coverage[own] : 0u;
-  const float own_light =
-      light_of(colour_at(channel0, channel1, channel2, channel3, own), p.light_channels);
+  const float own_light = light_of(colour_at(CHANNELS(channel), own), p.light_channels);
   const int coc = coc_of(coc_quanta, own);
   if (share == 0u || coc == 0 || !(own_light > 0.0f) || isinf(own_light)) return;
 
@@ -48,20 +45,15 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
   uint count = 0u, dim = 0u;
   for (uint i = 0; i < 32u; ++i) {
     const int2 q = around(at, fabs((float)coc) * (1.0f / 256.0f), i);
-    if (q.x < 0 || q.y < 0 || q.x >= (int)p.width || q.y >= (int)p.height) continue;
+    if (!is_inside(p.width, p.height, q)) continue;
     const size_t front = (size_t)q.y * p.layers * p.width + (uint)q.x;
     if (coverage[front] >= DEFRAY_SYNTHESISED) continue;
-    light[count] =
-        light_of(colour_at(channel0, channel1, channel2, channel3, front), p.light_channels);
+    light[count] = light_of(colour_at(CHANNELS(channel), front), p.light_channels);
     dim += light[count] * DEFRAY_HIGHLIGHT < own_light ? 1u : 0u;
     ++count;
   }
   if (dim <= count / 2u) return;
   for (uint i = 0; i < count; ++i) {
-    uint rank = 0u;
-    for (uint k = 0; k < count; ++k) {
-      rank += light[k] < light[i] || (light[k] == light[i] && k < i) ? 1u : 0u;
-    }
-    if (rank == count / 2u) kept[own] = fmax(light[i], 0.0f) / own_light;
+    if (rank_of(light, count, i) == count / 2u) kept[own] = fmax(light[i], 0.0f) / own_light;
   }
 }

@@ -11,13 +11,13 @@
 // list                            highlights of each tile, in source order
 // where        [highlights]       (x, y in the frame, coc in quanta, depth bits)
 // excess       [highlights]       their light
-// table        [side][side]       summed light of the aperture (host/aperture_table.h)
+// table        [side][side]       summed light of the aperture (host/lens/aperture_table.h)
 // cell_at      [side][side]       nearest lens cell, over the square around the lens
 // winner, coc_quanta, coverage (window)     as in rdb_merge; all cells in one pass
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
 // sum          [band_rows][width] in and out
 // Global size: (width, band_rows).
-#include "frame.h"
+#include "frame.clh"
 
 #define LENS_RADIUS (1L << DEFRAY_LENS_FRACTION_BITS)
 

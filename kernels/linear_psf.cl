@@ -12,7 +12,7 @@
 // out0..3     [band_rows][target_stride]
 // One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run,
 // launch_rows).
-#include "params.h"
+#include "colour.clh"
 
 // Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
 float16 lit(const float16 weight, const float16 colour) {
@@ -20,13 +20,9 @@ float16 lit(const float16 weight, const float16 colour) {
 }
 
 __kernel void linear_psf(const DefrayLinearParams p, __global const int* restrict row_reach,
-                         __global const float* restrict radius_px,
-                         __global const float* restrict channel0,
-                         __global const float* restrict channel1,
-                         __global const float* restrict channel2,
-                         __global const float* restrict channel3, __global float* restrict out0,
-                         __global float* restrict out1, __global float* restrict out2,
-                         __global float* restrict out3) {
+                         __global const float* restrict radius_px, CHANNEL_PARAMETERS(channel),
+                         __global float* restrict out0, __global float* restrict out1,
+                         __global float* restrict out2, __global float* restrict out3) {
   const uint x = get_global_id(0) * DEFRAY_LINEAR_RUN;
   const uint y = p.first_row + get_global_id(1);
   if (x >= p.width || get_global_id(1) >= p.launch_rows) return;

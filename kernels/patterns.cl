@@ -29,7 +29,7 @@
 // weight       [rows][width]                  (w, w D), the same
 // Global size: (units), of DEFRAY_PATTERN_RUN pixels of a row; COLUMNS x STRIP; CHUNK of a row.
 // units        (x, y) of the first pixel, in the window
-#include "colour.h"
+#include "colour.clh"
 #include "params.h"
 
 // Of one surface: rays of two such pixels land close together through all of the lens.
@@ -135,16 +135,14 @@ float2 weight_of(const ulong sum) {
   return (float2)(w, w * d);
 }
 
-__kernel void patterns_match(
-    const DefrayPatternParams p, __global const uint2* restrict units,
-    __global const uint* restrict pixels, __global const int* restrict coc_quanta,
-    __global const ulong* restrict sums, __global const int* restrict behind_coc,
-    __global const float* restrict behind_inverse, __global const float* restrict channel_behind0,
-    __global const float* restrict channel_behind1, __global const float* restrict channel_behind2,
-    __global const float* restrict channel_behind3, __global const float* restrict channel0,
-    __global const float* restrict channel1, __global const float* restrict channel2,
-    __global const float* restrict channel3, __global float4* restrict sum,
-    __global float2* restrict weight) {
+__kernel void patterns_match(const DefrayPatternParams p, __global const uint2* restrict units,
+                             __global const uint* restrict pixels,
+                             __global const int* restrict coc_quanta,
+                             __global const ulong* restrict sums,
+                             __global const int* restrict behind_coc,
+                             __global const float* restrict behind_inverse,
+                             CHANNEL_PARAMETERS(channel_behind), CHANNEL_PARAMETERS(channel),
+                             __global float4* restrict sum, __global float2* restrict weight) {
   if (get_global_id(0) >= p.unit_count) return;
   const uint2 unit = units[get_global_id(0)];
   const int n = p.window_px;
@@ -177,9 +175,8 @@ __kernel void patterns_match(
           const size_t source =
               (size_t)((long)(p.source_row + y) + shift.y) * p.width + (x0 + i) + shift.x;
           const float2 w = weight_of(window);
-          total += w.x * (colour_at(channel0, channel1, channel2, channel3, source) -
-                          colour_at(channel_behind0, channel_behind1, channel_behind2,
-                                    channel_behind3, target));
+          total += w.x * (colour_at(CHANNELS(channel), source) -
+                          colour_at(CHANNELS(channel_behind), target));
           weights += w;
         }
         sum[target] = total;

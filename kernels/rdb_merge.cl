@@ -20,8 +20,8 @@
 //                                                   y: source of the first of them)
 // seen            [band_rows][width]               cells won by what the picture shows
 // Global size: (width, band_rows).
-#include "colour.h"
-#include "rim.h"
+#include "colour.clh"
+#include "rim.clh"
 
 // What shows through where no ray arrives: the farthest fragment behind the pixel and those around
 // it. Windows reach one row beyond their band: no band changes the answer.
@@ -34,7 +34,7 @@ uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict cove
     for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
       const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
       if (coverage[i] == 0u) continue;
-      if (found == DEFRAY_EMPTY || depth_at(depth_bits, i) > depth_at(depth_bits, found)) found = i;
+      if (found == DEFRAY_EMPTY || depth_bits[i] > depth_bits[found]) found = i;
     }
   }
   return found;
@@ -44,11 +44,9 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
                         __global const uint* restrict coverage,
                         __global const uint* restrict depth_bits,
                         __global const int2* restrict lens, __global const int* restrict rim_x,
-                        __global const int* restrict rim_y, __global const float* restrict channel0,
-                        __global const float* restrict channel1,
-                        __global const float* restrict channel2,
-                        __global const float* restrict channel3, __global float4* restrict sum,
-                        __global uint2* restrict filled, __global uint* restrict seen) {
+                        __global const int* restrict rim_y, CHANNEL_PARAMETERS(channel),
+                        __global float4* restrict sum, __global uint2* restrict filled,
+                        __global uint* restrict seen) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
@@ -61,7 +59,7 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
   uint count = state.x & 0xffffu;
   uint seen_count = p.is_first_pass ? 0u : seen[target];
   uint f = state.y;  // the pixel itself while no ray has arrived
-  float4 first = colour_at(channel0, channel1, channel2, channel3, f);
+  float4 first = colour_at(CHANNELS(channel), f);
   int4 varies = (int4)((int)(state.x >> 16)) << (int4)(31, 30, 29, 28);  // in the sign bits
 
   const uint behind = farthest_behind(p, coverage, depth_bits, (int2)((int)x, (int)row));
@@ -73,7 +71,7 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
     if (p.has_rim && !passes_rim(lens[p.first_cell + cell], rim_x[x], rim_y[p.band_y + row])) {
       continue;
     }
-    const float4 colour = colour_at(channel0, channel1, channel2, channel3, s);
+    const float4 colour = colour_at(CHANNELS(channel), s);
     if (count == 0u) {
       f = s;
       first = colour;

@@ -23,9 +23,9 @@
 // is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
 // of the indices that have this depth. Global size: (width, window_rows x layers,
 // cell_count).
-#include "colour.h"
+#include "colour.clh"
 #include "params.h"
-#include "pcg3d.h"
+#include "pcg3d.clh"
 
 #ifdef DEFRAY_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
@@ -93,7 +93,7 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   if (sx >= p.width || row >= p.window_rows * p.layers || cell >= p.cell_count) return;
 
   const uint source = row * p.width + sx;
-  const uint depth = depth_at(depth_bits, source);
+  const uint depth = depth_bits[source];
   if (depth == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
   const long r = radius;

@@ -8,25 +8,22 @@
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
 // channel0..3  [height][layers][width]
-// out          [height][layers][width]
+// out0..3      [height][layers][width]
 // Global size: (width, height x layers).
-#include "colour.h"
-#include "frame.h"
+#include "colour.clh"
+#include "frame.clh"
 
 __kernel void soften(const DefraySoftenParams p, __global const int* restrict coc_quanta,
-                     __global const uint* restrict coverage,
-                     __global const float* restrict channel0,
-                     __global const float* restrict channel1,
-                     __global const float* restrict channel2,
-                     __global const float* restrict channel3, __global float4* restrict out) {
+                     __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
+                     WRITTEN_CHANNELS(out)) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.height * p.layers) return;
   const uint own_at = row * p.width + x;
-  const float4 own = colour_at(channel0, channel1, channel2, channel3, own_at);
+  const float4 own = colour_at(CHANNELS(channel), own_at);
   const int own_coc = coc_quanta[own_at];
   const float side = fabs((float)own_coc) * (2.0f / 256.0f) / p.cells_a_side;
-  out[own_at] = own;
+  set_colour(CHANNELS(out), own_at, own);
   if (side <= 1.0f || (coverage[own_at] & ~DEFRAY_SYNTHESISED) == 0u) return;
 
   const float half_side = 0.5f * side;
@@ -42,17 +39,18 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
     for (int i = -taps; i <= taps; ++i) {
       const int2 d = stride * (int2)(i, j);
       const int2 at = (int2)((int)x, (int)y) + d;
-      if (at.x < 0 || at.y < 0 || at.x >= (int)p.width || at.y >= (int)p.height) continue;
+      if (!is_inside(p.width, p.height, at)) continue;
       const uint q = ((uint)at.y * p.layers + layer) * p.width + (uint)at.x;
       if (fabs((float)coc_quanta[q] - (float)own_coc) > alike) continue;
       const float2 inside = clamp(half_side + 0.5f - convert_float2(abs(d)), 0.0f, 1.0f);
       const uint share = coverage[q] & ~DEFRAY_SYNTHESISED;
       const float weight = inside.x * inside.y * ((float)share * 0x1p-16f);
       if (!(weight > 0.0f)) continue;
-      sum += weight * (colour_at(channel0, channel1, channel2, channel3, q) - own);
+      sum += weight * (colour_at(CHANNELS(channel), q) - own);
       weights += weight;
     }
   }
   const float4 difference = sum / weights;  // the fragment itself has weight
-  out[own_at] = difference == 0.0f || !isfinite(own) ? own : own + difference;  // -0 stays -0
+  const float4 changed = difference == 0.0f || !isfinite(own) ? own : own + difference;
+  set_colour(CHANNELS(out), own_at, changed);  // -0 stays -0
 }

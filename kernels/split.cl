@@ -9,15 +9,15 @@
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
 // behind_coc      [height][width]  in and out
-// behind          [height][width]  colour, in and out
+// behind0..3      [height][width]  colour, in and out
 // behind_flags    [height][width]  coverage of the fragment behind
 // front_coc       [height][width]
 // front_inverse   [height][width]
-// front           [height][width]  colour
+// front0..3       [height][width]  colour
 // front_coverage  [height][width]  2^-16 of the pixel
 // Global size: (width, height).
-#include "colour.h"
-#include "frame.h"
+#include "colour.clh"
+#include "frame.clh"
 
 // Coverages that are as good as none or all; and bounds, beyond which differences grow too much.
 #define LEAST_COVERAGE 0.03f
@@ -34,10 +34,8 @@ typedef struct {
 // Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
 // depth.
 Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-                   __global const uint* restrict mixed, __global const float* restrict channel0,
-                   __global const float* restrict channel1, __global const float* restrict channel2,
-                   __global const float* restrict channel3, const int2 at, const int low,
-                   const int high) {
+                   __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
+                   const int low, const int high) {
   Nearby found = {0.0f, 0u, false};
   float weights = 0.0f, nearest = 0.0f;
   for (int i = 0; i < 49; ++i) {
@@ -46,7 +44,7 @@ Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
     const int coc = coc_of(coc_quanta, q);
     if (mixed[q] || coc < low || coc > high) continue;
     const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
-    found.colour += weight * colour_at(channel0, channel1, channel2, channel3, q);
+    found.colour += weight * colour_at(CHANNELS(channel), q);
     weights += weight;
     if (weight > nearest) found.source = q;
     nearest = fmax(nearest, weight);
@@ -58,15 +56,14 @@ Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
 
 // Of a surface in front that is too thin for pure pixels, the one least like what lies behind.
 Nearby thin_front(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-                  __global const float* restrict channel0, __global const float* restrict channel1,
-                  __global const float* restrict channel2, __global const float* restrict channel3,
-                  const int2 at, const int middle, const float4 behind) {
+                  CHANNEL_PARAMETERS(channel), const int2 at, const int middle,
+                  const float4 behind) {
   Nearby front = {0.0f, 0u, false};
   float farthest_colour = -1.0f;
   for (int i = 0; i < 49; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
     if (coc_of(coc_quanta, q) >= middle) continue;
-    const float4 c = colour_at(channel0, channel1, channel2, channel3, q);
+    const float4 c = colour_at(CHANNELS(channel), q);
     const float4 d = c - behind;
     const float far = d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w;
     if (!(far > farthest_colour)) continue;
@@ -112,21 +109,18 @@ float4 rest_of(const float4 c, const float4 other, const float others_share) {
 
 __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                     __global const float* restrict inverse, __global const uint* restrict mixed,
-                    __global const float* restrict channel0,
-                    __global const float* restrict channel1,
-                    __global const float* restrict channel2,
-                    __global const float* restrict channel3, __global int* restrict behind_coc,
-                    __global float* restrict behind_inverse, __global float4* restrict behind,
+                    CHANNEL_PARAMETERS(channel), __global int* restrict behind_coc,
+                    __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind),
                     __global uint* restrict behind_flags, __global int* restrict front_coc,
-                    __global float* restrict front_inverse, __global float4* restrict front,
+                    __global float* restrict front_inverse, WRITTEN_CHANNELS(front),
                     __global uint* restrict front_coverage) {
-  const int2 at = (int2)((int)get_global_id(0), (int)get_global_id(1));
-  if (at.x >= (int)p.width || at.y >= (int)p.height) return;
+  const int2 at = work_item();
+  if (!is_inside(p.width, p.height, at)) return;
   const uint pixel = pixel_at(p.width, p.height, at);
-  const float4 c = colour_at(channel0, channel1, channel2, channel3, pixel);
+  const float4 c = colour_at(CHANNELS(channel), pixel);
   front_coc[pixel] = coc_quanta[pixel];
   front_inverse[pixel] = inverse[pixel];
-  front[pixel] = c;
+  set_colour(CHANNELS(front), pixel, c);
   front_coverage[pixel] = DEFRAY_WHOLE;
   behind_flags[pixel] = DEFRAY_WHOLE | DEFRAY_SYNTHESISED;
   if (!mixed[pixel] || behind_inverse[pixel] < 0.0f) return;
@@ -140,17 +134,17 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   }
   const int middle = nearest + (farthest - nearest) / 2;
   const bool saw_front = coc_of(coc_quanta, pixel) < middle;
-  float4 b = behind[pixel];
-  Nearby f = pure_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3, at,
-                         -DEFRAY_TAME_QUANTA, middle - 1);
+  float4 b = (float4)(behind0[pixel], behind1[pixel], behind2[pixel], behind3[pixel]);
+  Nearby f =
+      pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, -DEFRAY_TAME_QUANTA, middle - 1);
   if (!f.is_found) {
-    f = thin_front(p, coc_quanta, channel0, channel1, channel2, channel3, at, middle, b);
+    f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b);
   }
   // Where `fill` found another surface than the one that was seen there are three.
   const int own = coc_of(coc_quanta, pixel);
   if (!saw_front && abs(coc_of(behind_coc, pixel) - own) > DEFRAY_JUMP_QUANTA) {
-    const Nearby seen = pure_nearby(p, coc_quanta, mixed, channel0, channel1, channel2, channel3,
-                                    at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
+    const Nearby seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
+                                    own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     if (seen.is_found) b = seen.colour;
   }
   const float share =
@@ -159,17 +153,17 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
     if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     const uint kept = stored(fmax(share, LEAST_OF_FRONT));
-    front[pixel] = rest_of(c, b, 1.0f - (float)kept * 0x1p-16f);
+    set_colour(CHANNELS(front), pixel, rest_of(c, b, 1.0f - (float)kept * 0x1p-16f));
     front_coverage[pixel] = kept;
   } else if (share < LEAST_COVERAGE) {
     behind_inverse[pixel] = -1.0f;
   } else {
     const uint kept = stored(fmin(share, MOST_OF_BEHIND));
-    front[pixel] = f.colour;
+    set_colour(CHANNELS(front), pixel, f.colour);
     front_coc[pixel] = coc_quanta[f.source];
     front_inverse[pixel] = inverse[f.source];
     front_coverage[pixel] = kept;
-    behind[pixel] = rest_of(c, f.colour, (float)kept * 0x1p-16f);
+    set_colour(CHANNELS(behind), pixel, rest_of(c, f.colour, (float)kept * 0x1p-16f));
     behind_coc[pixel] = coc_quanta[pixel];
     behind_inverse[pixel] = inverse[pixel];
     behind_flags[pixel] = DEFRAY_WHOLE;

@@ -31,7 +31,7 @@ void check_against_twin(Session& session, const Subject& s, const MethodSettings
   const auto colour = crop(s.pinhole.colour, s.scene.width, x0, y0, w, h);
   const Plane depth = crop({s.pinhole.depth}, s.scene.width, x0, y0, w, h)[0];
   const auto coc = reference::coc(s.lens, s.scene.width, depth);
-  const PinholeFrame frame{w, h, coc, depth, colour};
+  const Frame frame{w, h, coc, depth, colour};
   if (apply_method(frame, settings, &session) != apply_method(frame, settings, nullptr)) {
     fail(ErrorKind::internal, "a timed picture differs from its twin");
   }
@@ -66,7 +66,7 @@ Timing time_method(const Bench& bench, const Subject& subject, const MethodSetti
   std::vector<Plane> first;
   bool repeats = true;
   const Timing timing = time_of(bench.repetitions(), [&] {
-    std::vector<Plane> picture = render(bench.session, subject, settings);
+    std::vector<Plane> picture = render(bench.stages, subject, settings);
     if (first.empty())
       first = std::move(picture);
     else

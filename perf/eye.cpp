@@ -55,7 +55,7 @@ std::vector<Plane> render_tiltshift(Session& session, const Subject& s) {
 View render_view(const Bench& bench, const std::string& name) {
   bench.step(name + ": truth");
   View v{
-      make_subject(bench.session, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
+      make_subject(bench.stages, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
       {},
       {},
       {},
@@ -63,9 +63,9 @@ View render_view(const Bench& bench, const std::string& name) {
       {}};
   v.truth = render_truth(v.subject.scene, v.subject.lens, bench.is_quick ? 16 : 128, 1).colour;
   bench.step(name + ": filters");
-  v.literal = render(bench.session, v.subject, gather_of(GatherKind::literal, 32, 2));
-  v.aware = render(bench.session, v.subject, gather_of(GatherKind::aware, 32, 2));
-  v.rdb = render(bench.session, v.subject, rdb_of(17));
+  v.literal = render(bench.stages, v.subject, gather_of(GatherKind::literal, 32, 2));
+  v.aware = render(bench.stages, v.subject, gather_of(GatherKind::aware, 32, 2));
+  v.rdb = render(bench.stages, v.subject, rdb_of(17));
   v.tiltshift = render_tiltshift(bench.session, v.subject);
   return v;
 }

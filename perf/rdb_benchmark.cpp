@@ -80,7 +80,7 @@ void coc(benchmark::State& state) {
   const Frame f = frame_of(state);
   Lens lens;
   lens.focus_distance_units = 5;
-  for (auto _ : state) benchmark::DoNotOptimize(coc_on_device(session(), lens, f.width, f.depth));
+  for (auto _ : state) benchmark::DoNotOptimize(device().coc(lens, f.width, f.depth));
   set_rate(state, double(f.width) * f.height, "pixels/s");
 }
 

@@ -52,15 +52,15 @@ std::vector<Setup> make_setups(const Bench& bench) {
 
 MethodSettings default_chain(Quality quality) {
   MethodSettings s;
-  s.defocus = settings_for(quality);
+  s.chain = settings_for(quality);
   return s;
 }
 
 void add_pictures(const Bench& bench, const std::vector<Setup>& setups, Section& section) {
   for (const Setup& setup : setups) {
     bench.step(setup.name() + ": pictures");
-    const auto literal = render(bench.session, setup.subject, rdb_of(9));
-    const auto whole = render(bench.session, setup.subject, default_chain());
+    const auto literal = render(bench.stages, setup.subject, rdb_of(9));
+    const auto whole = render(bench.stages, setup.subject, default_chain());
     const auto difference = difference_picture(whole, setup.truth.colour, 4);
     section.figures.push_back(
         sheet(bench, "truth-" + setup.scene + "-" + setup.setting,

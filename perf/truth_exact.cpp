@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chain/stages.h"
+#include "frame/stages.h"
 #include "rdb/rdb.h"
 
 namespace defray::perf {
@@ -73,8 +73,8 @@ bool saw_farther(const Subject& s, int x, int y) {
   return coc(x, y) >= least + (most - least) / 2;
 }
 
-Fragments fragments_of(const Wide& w, const Layer& front, const Layer& behind) {
-  Fragments f{w.subject.scene.width, w.subject.scene.height, 2, {}, {}, {}, {}};
+Frame fragments_of(const Wide& w, const Layer& front, const Layer& behind) {
+  Frame f{w.subject.scene.width, w.subject.scene.height, 2, {}, {}, {}, {}};
   f.channels.resize(3);
   const auto append = [&](auto& to, const auto& from, std::size_t row) {
     const auto begin = from.begin() + static_cast<std::ptrdiff_t>(row * size(f.width));
@@ -106,7 +106,7 @@ Layer layer_of(Surface s) {
 Wide make_wide(const Bench& bench, const Setup& setup) {
   const Scene& scene = setup.subject.scene;
   const int margin = std::min(rdb_reach(largest_coc(setup.subject.coc)), scene.height);
-  Wide w{setup, margin, make_antialiased(bench.session, widened(scene, margin), setup.setting),
+  Wide w{setup, margin, make_antialiased(bench.stages, widened(scene, margin), setup.setting),
          {},    {},     {}};
   const Subject& s = w.subject;
   w.exact = render_coverage(s.scene, pinhole_samples);
@@ -117,7 +117,7 @@ Wide make_wide(const Bench& bench, const Setup& setup) {
   return w;
 }
 
-Fragments exact_fragments(const Bench& bench, const Wide& w) {
+Frame exact_fragments(const Bench& bench, const Wide& w) {
   Layer front = layer_of(bench, w.subject, w.exact.front);
   for (std::size_t i = 0; i < front.coverage.size(); ++i) {
     const double share = static_cast<double>(w.exact.share[i]);
@@ -128,7 +128,7 @@ Fragments exact_fragments(const Bench& bench, const Wide& w) {
   return fragments_of(w, front, behind_of(bench, w));
 }
 
-Fragments split_fragments(const Bench& bench, const Wide& w) {
+Frame split_fragments(const Bench& bench, const Wide& w) {
   const Subject& s = w.subject;
   const Plane inverse = inverse_of(s.pinhole.depth);
   const FrameView view{s.scene.width, s.scene.height, s.coc, inverse, s.pinhole.colour};

@@ -1,6 +1,6 @@
 #pragma once
 // A scene's surfaces as fragments, exactly as they are: what the chain must guess.
-#include "rdb/fragments.h"
+#include "frame/frame.h"
 #include "truth.h"
 
 namespace defray::perf {
@@ -20,9 +20,9 @@ struct Wide {
 Wide make_wide(const Bench& bench, const Setup& setup);
 
 /// Surfaces and coverage as they are.
-Fragments exact_fragments(const Bench& bench, const Wide& wide);
+Frame exact_fragments(const Bench& bench, const Wide& wide);
 
 /// Surfaces as they are, mixed pixels taken apart as the chain does it.
-Fragments split_fragments(const Bench& bench, const Wide& wide);
+Frame split_fragments(const Bench& bench, const Wide& wide);
 
 }  // namespace defray::perf

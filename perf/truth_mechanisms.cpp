@@ -14,10 +14,10 @@ struct Variant {
 };
 
 /// The default but for one change.
-Variant with(const std::string& name, const std::function<void(DefocusSettings&)>& change,
+Variant with(const std::string& name, const std::function<void(ChainSettings&)>& change,
              bool averages_depth = false) {
   Variant v{name, default_chain(), averages_depth};
-  change(*v.settings.defocus);
+  change(*v.settings.chain);
   return v;
 }
 
@@ -74,7 +74,7 @@ Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& a
       bench.step(fmt::format("{}: {}, round {}", setup.name(), all[v].name, round + 1));
       std::vector<Plane> picture;
       const double seconds = seconds_of([&] {
-        picture = render(bench.session, all[v].averages_depth ? filtered : s, all[v].settings);
+        picture = render(bench.stages, all[v].averages_depth ? filtered : s, all[v].settings);
       });
       if (round < 0) {
         p.pictures.push_back(std::move(picture));

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
 #include "scenes/subject.h"
 #include "stages_support.h"
 
@@ -94,11 +94,11 @@ TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
 
 /// Pixels that the chain repairs of a built-in scene's picture.
 std::size_t repaired(const std::string& scene, int width, int height, bool is_antialiased) {
-  Subject s = make_subject(session(), make_scene(scene, width, height),
+  Subject s = make_subject(device(), make_scene(scene, width, height),
                            make_scene(scene, 8, 8).settings[0].name);
   if (is_antialiased) s.pinhole.depth = render_pinhole(s.scene, {16, true}).depth;
-  s.coc = coc_on_device(session(), s.lens, width, s.pinhole.depth);
-  DefocusSettings settings;
+  s.coc = device().coc(s.lens, width, s.pinhole.depth);
+  ChainSettings settings;
   settings.hidden = Hidden::off;
   RdbSettings rdb;
   rdb.cells_per_side = 2;

@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, MethodSettings>> methods() {
 }
 
 /// Renders with the kernels, and expects the twin's bits.
-std::vector<Plane> render_both(const PinholeFrame& frame, const MethodSettings& settings) {
+std::vector<Plane> render_both(const Frame& frame, const MethodSettings& settings) {
   auto kernel = apply_method(frame, settings, &session());
   EXPECT_EQ(hash_of(kernel), hash_of(apply_method(frame, settings, nullptr)));
   return kernel;
@@ -52,13 +52,13 @@ TEST(ExtremeFrames, CocFromAMillionthOfAPixelToAMillion) {
   for (int exponent = -6; exponent <= 6; ++exponent) {
     const double radius_px = std::pow(10.0, exponent);
     const Lens lens = lens_of_background(radius_px);
-    EXPECT_NEAR(coc_on_device(session(), lens, width, {infinite})[0], 256 * radius_px,
+    EXPECT_NEAR(device().coc(lens, width, {infinite})[0], 256 * radius_px,
                 0.5 + 256 * radius_px * 0x1p-21);
-    const auto coc = coc_on_device(session(), lens, width, depth);
+    const auto coc = device().coc(lens, width, depth);
     for (const auto& method : methods()) {
       const MethodSettings& settings = method.second;
       SCOPED_TRACE(method.first + ", background CoC " + std::to_string(radius_px) + " px");
-      const PinholeFrame frame{size.width, size.height, coc, depth, colour};
+      const Frame frame{size.width, size.height, coc, depth, colour};
       if (settings.method == Method::linear && radius_px > linear_max_radius_px) {
         expect_error(ErrorKind::usage, {"1024"},
                      [&] { apply_method(frame, settings, &session()); });
@@ -117,7 +117,7 @@ TEST(ExtremeFrames, CheckerboardDepth) {
     for (const double limit_px : {0.4, 3.0, 12.0}) {
       Lens lens = lens_of_background(limit_px);
       lens.max_coc_px = limit_px;
-      const auto coc = coc_on_device(session(), lens, width, depth);
+      const auto coc = device().coc(lens, width, depth);
       EXPECT_EQ(coc, reference::coc(lens, width, depth));
       EXPECT_EQ(coc[0], -std::lround(256 * limit_px));
       for (const auto& [name, settings] : methods()) {

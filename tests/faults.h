@@ -176,10 +176,8 @@ inline const std::vector<Fault>& faults() {
        {"const float2 whole = floor(offset);", "const float2 whole = floor(offset + 0.5f);"}},
       {"gather_literal",
        "band's first row forgotten",
-       {"const float4 own = colour_at(channel0, channel1, channel2, channel3, own_at);\n  const "
-        "float radius",
-        "const float4 own = colour_at(channel0, channel1, channel2, channel3, target);\n  const "
-        "float radius"}},
+       {"colour_at(CHANNELS(channel), own_at);\n  const float radius",
+        "colour_at(CHANNELS(channel), target);\n  const float radius"}},
       {"gather_literal",
        "turn's x and y swapped",
        {"pcg3d((uint3)(x, y, p.seed))", "pcg3d((uint3)(y, x, p.seed))"}},

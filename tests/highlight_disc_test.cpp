@@ -96,7 +96,7 @@ struct Disc {
   double at(std::size_t i) const { return (double{picture[i]} - grey) / (double{light} - grey); }
 };
 
-Disc render_disc(std::int32_t quanta, float grey, const DefocusSettings& settings, Session* on) {
+Disc render_disc(std::int32_t quanta, float grey, const ChainSettings& settings, Session* on) {
   const double radius = quanta / 256.0;
   const int side = 2 * (static_cast<int>(std::fabs(radius)) + 6) + 1;
   const Plane depth(static_cast<std::size_t>(side * side), 4.0f);
@@ -104,8 +104,8 @@ Disc render_disc(std::int32_t quanta, float grey, const DefocusSettings& setting
   Plane picture(depth.size(), grey);
   picture[depth.size() / 2] = light;
   MethodSettings method;
-  method.defocus = settings;
-  PinholeFrame frame{side, side, coc, depth, {picture}};
+  method.chain = settings;
+  Frame frame{side, side, coc, depth, {picture}};
   frame.display_width = frame.display_height = 1 << 20;    // its lower right corner, so that
   frame.origin_x = frame.origin_y = (1 << 20) - side / 2;  // the rim is the same all over
   return {side, radius, apply_method(frame, method, on)[0], double{grey}};
@@ -151,8 +151,8 @@ std::vector<double> radii() {
   return {0.3, 0.5, 0.77, 1, 1.5, 2, 3.3, 5, 8, 13, 21, 34.7, 55, 90, 128};
 }
 
-DefocusSettings with_blades(int blades) {
-  DefocusSettings settings;
+ChainSettings with_blades(int blades) {
+  ChainSettings settings;
   settings.aperture.blades = blades;
   return settings;
 }
@@ -188,7 +188,7 @@ TEST(HighlightDisc, KeepsTheLightThatTheRimLeaves) {
           const auto quanta = static_cast<std::int32_t>(std::lround(256 * radius)) * sign;
           const double r = quanta / 256.0;
           const auto shape = behind_rim(shape_of(blades, r), r, strength);
-          DefocusSettings settings = with_blades(blades);
+          ChainSettings settings = with_blades(blades);
           settings.aperture.cats_eye = strength;
           const Disc disc = render_disc(quanta, 0.18f, settings, &session());
           const Ghosts g = ghosts_of(disc, shares(shape, disc.side), area(shape));
@@ -217,7 +217,7 @@ TEST(HighlightDisc, AnEdgeThatCutsItIsEven) {
   }
   picture[side * side / 2] = light;
   MethodSettings method;
-  method.defocus = DefocusSettings{};
+  method.chain = ChainSettings{};
   const Plane out = apply_method({side, side, coc, depth, {picture}}, method, &session())[0];
   const double level = light / (std::numbers::pi * 12 * 12);
   for (int y = side / 2 - 8; y <= side / 2 + 8; ++y) {
@@ -255,7 +255,7 @@ TEST(HighlightDisc, TwinsGiveTheSameDisc) {
       if (radius > 34.7) continue;  // the scalar RDB takes its time
       for (const int sign : {1, -1}) {
         const auto quanta = static_cast<std::int32_t>(std::lround(256 * radius)) * sign;
-        DefocusSettings settings = with_blades(blades);
+        ChainSettings settings = with_blades(blades);
         settings.aperture.cats_eye = sign > 0 ? 0.5 : 0;
         const Plane kernel = render_disc(quanta, 0.18f, settings, &session()).picture;
         EXPECT_EQ(hash_of({kernel}),
@@ -267,7 +267,7 @@ TEST(HighlightDisc, TwinsGiveTheSameDisc) {
 }
 
 TEST(HighlightDisc, WithoutTheStageItIsDots) {
-  DefocusSettings rays;
+  ChainSettings rays;
   rays.highlights = rays.soften = false;
   const auto shape = shape_of(0, 13);
   const Disc disc = render_disc(13 * 256, 0, rays, &session());

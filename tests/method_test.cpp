@@ -100,7 +100,7 @@ TEST(Method, ConstantDepthGivesOnePictureFromAllOfThem) {
   const Scene scene = waves();
   const Lens lens = lens_of(scene, scene.settings[0]);
   const ScenePicture pinhole = render_pinhole(scene);
-  const auto coc = coc_on_device(session(), lens, scene.width, pinhole.depth);
+  const auto coc = device().coc(lens, scene.width, pinhole.depth);
   // Vogel's spiral fills the disc evenly: the integral over the lens to about 1/count.
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i < 4000; ++i) {
@@ -136,7 +136,7 @@ TEST(Method, TwinsGiveTheSamePicture) {
   const auto coc = random_coc(size, 4, 2);
   const std::vector<Plane> colour{random_plane(size, 3)};
   for (const auto& [name, settings] : all_methods()) {
-    const PinholeFrame frame{23, 29, coc, depth, colour};
+    const Frame frame{23, 29, coc, depth, colour};
     const Plane kernel = apply_method(frame, settings, &session())[0];
     const Plane twin = apply_method(frame, settings, nullptr)[0];
     // Only the RDB's twin works in double; its bound is in rdb_test.

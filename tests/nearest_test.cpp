@@ -3,7 +3,7 @@
 #include <limits>
 #include <set>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
 #include "methods/method.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -19,7 +19,7 @@ struct Scene {
   Plane depth;
   std::vector<Plane> channels;
   std::size_t count() const { return depth.size(); }
-  PinholeFrame frame() const { return {size.width, size.height, coc, depth, channels}; }
+  Frame frame() const { return {size.width, size.height, coc, depth, channels}; }
 };
 
 Scene random_scene(Size size, std::uint32_t seed) {
@@ -53,7 +53,7 @@ RdbResult hits(const Scene& s, RdbSettings settings, Session* session) {
                  : reference::distribute_rays(view, settings);
 }
 
-DefocusResult through(const Scene& s, const DefocusSettings& settings, Session* session) {
+MethodResult through(const Scene& s, const ChainSettings& settings, Session* session) {
   RdbSettings rdb;
   rdb.wants_nearest = true;
   return defocus(s.frame(), settings, rdb, session);
@@ -103,7 +103,7 @@ TEST(Nearest, OnlyOnDemand) {
   const Scene s = random_scene({9, 5}, 1);
   EXPECT_TRUE(defocus(s.frame(), {}, {}, &session()).nearest.empty());
   MethodSettings literal;
-  DefocusResult details;
+  MethodResult details;
   apply_method(s.frame(), literal, &session(), {}, &details);
   EXPECT_TRUE(details.nearest.empty());
   literal.rdb.wants_nearest = true;
@@ -117,7 +117,7 @@ TEST(Nearest, OnlyOnDemand) {
 TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
   const Scene s = bar({48, 24}, 20, 30);
   for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
-    const DefocusResult r = through(s, {}, on);
+    const MethodResult r = through(s, {}, on);
     for (std::size_t i = 0; i < s.count(); ++i) {
       const int x = static_cast<int>(i) % 48;
       const float depth = s.depth[r.nearest[i]];
@@ -139,7 +139,7 @@ TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
 TEST(NearestPicture, MadeUpSurfacesHaveNoData) {
   Scene s = bar({48, 24}, 23, 26);
   for (std::size_t i = 0; i < s.count(); ++i) s.coc[i] = s.depth[i] == 1.0f ? 0 : 6 * 256;
-  const DefocusResult r = through(s, {}, &session());
+  const MethodResult r = through(s, {}, &session());
   EXPECT_GT(r.report.behind, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const bool is_bar = s.depth[i] == 1.0f;
@@ -155,7 +155,7 @@ TEST(NearestPicture, WhatSplitTakesFromBesideHasTheDataFromThere) {
     if (x != 19 && x != 30) continue;
     for (std::size_t c = 0; c < 2; ++c) s.channels[c][i] = 0.5f;
   }
-  const DefocusResult r = through(s, {}, &session());
+  const MethodResult r = through(s, {}, &session());
   EXPECT_GT(r.report.split, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const int x = static_cast<int>(i) % 48;
@@ -171,9 +171,9 @@ TEST(NearestPicture, BordersGiveTheEdgesData) {
   s.coc.assign(s.count(), 5 * 256);
   s.depth.assign(s.count(), 2.0f);
   for (const Border border : {Border::clamp, Border::black, Border::renormalise}) {
-    DefocusSettings settings;
+    ChainSettings settings;
     settings.border = border;
-    const DefocusResult r = through(s, settings, &session());
+    const MethodResult r = through(s, settings, &session());
     for (std::size_t i = 0; i < s.count(); ++i) {
       ASSERT_LT(r.nearest[i], s.count());
       const int dx = static_cast<int>(r.nearest[i] % 20) - static_cast<int>(i % 20);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/stages.h"
+#include "reference/twin_stages.h"
 #include "stages_support.h"
 
 namespace defray::test {
@@ -13,8 +13,8 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-Fragments flat_fragments(int width, int height, int layers, double radius_px) {
-  Fragments f{width, height, layers, {}, {}, {}, {}};
+Frame flat_fragments(int width, int height, int layers, double radius_px) {
+  Frame f{width, height, layers, {}, {}, {}, {}};
   const auto count = static_cast<std::size_t>(width * height * layers);
   f.coc_quanta.assign(count, static_cast<std::int32_t>(256 * radius_px));
   f.depth.assign(count, 2);
@@ -26,14 +26,14 @@ Fragments flat_fragments(int width, int height, int layers, double radius_px) {
 TEST(Soften, OneColourStaysBitForBit) {
   for (const float colour :
        {0.1f, -0.0f, 1e-45f, std::numeric_limits<float>::max(), infinite, nan}) {
-    Fragments f = flat_fragments(23, 17, 2, 40);
+    Frame f = flat_fragments(23, 17, 2, 40);
     f.channels[0].assign(f.coc_quanta.size(), colour);
     expect_same_bits(soften(session(), f, 16)[0], f.channels[0]);
   }
 }
 
 TEST(Soften, ACellBelowAPixelChangesNothing) {
-  Fragments f = flat_fragments(23, 17, 1, 0);
+  Frame f = flat_fragments(23, 17, 1, 0);
   f.channels[0] = random_plane({23, 17}, 4);
   // The diameter is as many pixels as a grid has cells a side.
   const auto sharp = static_cast<std::int32_t>(128 * cells_a_side(64));
@@ -47,7 +47,7 @@ TEST(Soften, ACellBelowAPixelChangesNothing) {
 
 TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
   for (const double radius : {6.0, -10.0, 20.0, 80.0}) {
-    Fragments f = flat_fragments(101, 101, 1, radius);
+    Frame f = flat_fragments(101, 101, 1, radius);
     f.channels[0][f.index(50, 50, 0)] = 1000;
     const Plane out = soften(session(), f, 64)[0];
     const double cell = 2 * std::fabs(radius) / cells_a_side(64);
@@ -69,7 +69,7 @@ TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
 }
 
 TEST(Soften, SurfacesDoNotMixNorDoLayersOrEmptyOnes) {
-  Fragments f = flat_fragments(40, 20, 2, 20);
+  Frame f = flat_fragments(40, 20, 2, 20);
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 40; ++x) {
       if (x >= 20) f.coc_quanta[f.index(x, y, 0)] = 10 * 256;
@@ -82,7 +82,7 @@ TEST(Soften, SurfacesDoNotMixNorDoLayersOrEmptyOnes) {
 }
 
 TEST(Soften, WithoutCoverageEveryFragmentIsWhole) {
-  Fragments f = flat_fragments(20, 20, 1, 20);
+  Frame f = flat_fragments(20, 20, 1, 20);
   f.channels[0] = random_plane({20, 20}, 3);
   const auto whole = soften(session(), f, 16);
   f.coverage.clear();

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "chain/stages.h"
+#include "frame/stages.h"
 #include "support.h"
 
 namespace defray::test {

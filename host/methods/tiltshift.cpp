@@ -39,12 +39,4 @@ DefrayTiltshiftParams tiltshift_params(const TiltshiftSettings& s, int width, in
   return p;
 }
 
-std::vector<std::int32_t> tiltshift_on_device(Session& session, const DefrayTiltshiftParams& p) {
-  std::vector<std::int32_t> coc(std::size_t{p.width} * p.rows);
-  const cl::Buffer out = session.buffer(coc.size() * sizeof(std::int32_t));
-  session.launch("tiltshift", DEFRAY_TILTSHIFT_GROUP, {p.width, p.rows}, p, out);
-  session.read(out, coc.data(), coc.size() * sizeof(std::int32_t));
-  return coc;
-}
-
 }  // namespace defray

@@ -3,12 +3,12 @@
 // near surfaces, mixed pixels, highlights, borders. A chain of stages before and after the ray
 // distribution buffers; each can be left out.
 #include <cstddef>
-#include <functional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "frame/stages.h"
 #include "lens/aperture.h"
-#include "rdb/rdb.h"
 
 namespace defray {
 
@@ -26,7 +26,7 @@ enum class Hidden {
   on,      ///< And from where the picture repeats itself.
 };
 
-struct DefocusSettings {
+struct ChainSettings {
   int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
   Hidden hidden = Hidden::on;
   int pattern_shifts = 24;  ///< Shifts at which Hidden::on looks, each with both its signs.
@@ -40,8 +40,8 @@ struct DefocusSettings {
 
 enum class Quality { draft, normal, high };
 
-/// What goes together, the fastest first; Quality::normal is DefocusSettings().
-DefocusSettings settings_for(Quality quality);
+/// What goes together, the fastest first; Quality::normal is ChainSettings().
+ChainSettings settings_for(Quality quality);
 
 /// A stage and its time.
 struct StageTime {
@@ -49,7 +49,7 @@ struct StageTime {
   double seconds;
 };
 
-struct DefocusReport {
+struct ChainReport {
   std::size_t repaired = 0;    ///< Pixels of anti-aliased depth.
   std::size_t behind = 0;      ///< Pixels with a made-up surface behind them.
   std::size_t split = 0;       ///< Mixed pixels taken apart.
@@ -61,21 +61,20 @@ struct DefocusReport {
   std::vector<StageTime> stages;
 };
 
-struct DefocusResult {
+/// What a method gives.
+struct MethodResult {
   std::vector<Plane> colour;
-  /// Share of each pixel's lens rays that end on what the picture shows, 0 to 1.
-  Plane confidence;
+  /// Share of each pixel's lens rays that end on what the picture shows, 0 to 1. Of the chain.
+  Plane confidence = {};
   /// The pixel whose data (ids, normals) each pixel gets: that of the nearest surface its rays end
-  /// on, made-up ones left out; its own where there is none. If RdbSettings::wants_nearest.
+  /// on, made-up ones left out; its own where there is none. Of rays, if wanted.
   std::vector<std::uint32_t> nearest = {};
-  DefocusReport report;
+  ChainReport report = {};
 };
 
-struct PinholeFrame;
-
-/// `session` null: the scalar twins. Throws Error(usage) for settings out of range.
-DefocusResult defocus(const PinholeFrame& frame, const DefocusSettings& settings,
-                      const RdbSettings& rdb, Session* session,
-                      const std::function<void(double)>& progress = {});
+/// `frame` has coc_quanta, depth and channels; `seed` is for what is random. Throws Error(usage)
+/// for settings out of range.
+MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Stages& stages,
+                       bool wants_nearest = false, const Progress& progress = {});
 
 }  // namespace defray

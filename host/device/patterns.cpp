@@ -1,17 +1,17 @@
-// The kernels of `patterns`, band after band and shift after shift.
+// Kernels `patterns_*`: band after band and shift after shift.
 #include <algorithm>
+#include <array>
 
 #include "chain/pattern_window.h"
+#include "device/device_stages.h"
 
 namespace defray {
 namespace {
 
-std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-
 /// A band on the device, and its launches for one shift after the other.
 class PatternBand {
  public:
-  PatternBand(Session& session, const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
+  PatternBand(Session& session, const Frame& frame, const Words& pixels,
               const PatternMargins& margins, const PatternSettings& settings, int band_y,
               int band_rows)
       : session_(session),
@@ -62,7 +62,7 @@ class PatternBand {
   template <typename... Buffers>
   void launch(const char* name, const std::vector<PatternUnit>& units, const Buffers&... buffers) {
     p_.unit_count = static_cast<std::uint32_t>(units.size());
-    session_.launch(name, DEFRAY_PATTERN_GROUP, {units.size()}, p_, buffers...);
+    session_.launch(name, {units.size()}, p_, buffers...);
   }
 
   /// The band's pixels of a window.
@@ -90,105 +90,96 @@ class PatternBand {
 };
 
 /// Four channels from `count` pixels on; a missing one repeats the last.
-struct Channels {
-  Channels(Session& session, const std::vector<Plane>& planes, std::size_t first,
-           std::size_t count) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      buffer[c] = c < planes.size() ? session.picture(&planes[c][first], count) : buffer[c - 1];
-    }
+std::array<cl::Buffer, 4> four_channels(Session& session, const Planes& planes, std::size_t first,
+                                        std::size_t count) {
+  std::array<cl::Buffer, 4> buffers;
+  for (std::size_t c = 0; c < 4; ++c) {
+    buffers[c] =
+        c < planes.size() ? session.view(&planes[c][first], count * sizeof(float)) : buffers[c - 1];
   }
-  cl::Buffer buffer[4];
-};
+  return buffers;
+}
 
-void match_band(Session& session, const PatternFrame& frame, PatternBand& band, int band_y,
-                const std::vector<Plane>& channels, const std::vector<Plane>& behind,
-                const std::vector<PatternShift>& shifts, PatternSums& out) {
+void match_band(Session& session, const Frame& frame, const Frame& behind, const Words& pixels,
+                PatternBand& band, int band_y, const std::vector<PatternShift>& shifts,
+                PatternSums& out) {
   if (!band.anything()) return;
   const DefrayPatternParams& p = band.params();
-  const std::size_t first = as_size(band_y) * p.width, count = std::size_t{p.rows} * p.width;
+  const std::size_t first = size(band_y) * p.width, count = std::size_t{p.rows} * p.width;
   const int source_y = band_y - static_cast<int>(p.source_row);
   const int source_end = std::min(band_y + static_cast<int>(p.rows + p.margin_y), frame.height);
-  const Channels smooth(session, behind, first, count);
-  const Channels source(session, channels, as_size(source_y) * p.width,
-                        as_size(source_end - source_y) * p.width);
+  const auto smooth = four_channels(session, behind.channels, first, count);
+  const auto source = four_channels(session, frame.channels, size(source_y) * p.width,
+                                    size(source_end - source_y) * p.width);
   const cl::Buffer behind_coc =
-      session.view(&frame.behind_coc[first], count * sizeof(std::int32_t));
-  const cl::Buffer behind_inverse =
-      session.view(&frame.behind_inverse[first], count * sizeof(float));
+      session.view(&behind.coc_quanta[first], count * sizeof(std::int32_t));
+  const cl::Buffer behind_inverse = session.view(&behind.inverse[first], count * sizeof(float));
   const cl::Buffer sum = session.buffer(count * sizeof(cl_float4));
   const cl::Buffer weight = session.buffer(count * sizeof(cl_float2));
-  const auto& [s0, s1, s2, s3] = smooth.buffer;
-  const auto& [c0, c1, c2, c3] = source.buffer;
   for (std::size_t i = 0; i < shifts.size(); ++i) {
     band.difference(shifts[i]);
     band.columns();
-    band.match(i == 0, behind_coc, behind_inverse, s0, s1, s2, s3, c0, c1, c2, c3, sum, weight);
+    band.match(i == 0, behind_coc, behind_inverse, smooth, source, sum, weight);
   }
   std::vector<cl_float4> sums(count);
   std::vector<cl_float2> weights(count);
   session.read(sum, sums.data(), count * sizeof(cl_float4));
   session.read(weight, weights.data(), count * sizeof(cl_float2));
   for (std::size_t i = 0; i < count; ++i) {
-    if (!frame.behind[first + i]) continue;
-    for (std::size_t c = 0; c < channels.size(); ++c) out.difference[c][first + i] = sums[i].s[c];
+    if (!(pixels[first + i] & DEFRAY_PATTERN_BEHIND)) continue;
+    for (std::size_t c = 0; c < out.difference.size(); ++c)
+      out.difference[c][first + i] = sums[i].s[c];
     out.weight[first + i] = weights[i].s[0];
     out.weighted_square[first + i] = weights[i].s[1];
   }
 }
 
 /// Rows of a band whose planes fit the memory; at least one, whatever it takes.
-int band_rows_for(const PatternFrame& frame, const PatternMargins& margins,
-                  const PatternSettings& settings) {
+int band_rows_for(const Frame& frame, const PatternMargins& margins, std::size_t memory_bytes) {
   const std::size_t none = pattern_band_bytes(frame.width, margins, 0);
   const std::size_t row = pattern_band_bytes(frame.width, margins, 1) - none;
-  const std::size_t left = settings.memory_bytes - std::min(none, settings.memory_bytes);
-  return static_cast<int>(std::clamp<std::size_t>(left / row, 1, as_size(frame.height)));
+  const std::size_t left = memory_bytes - std::min(none, memory_bytes);
+  return static_cast<int>(std::clamp<std::size_t>(left / row, 1, size(frame.height)));
 }
 
-PatternBand whole_frame(Session& session, const PatternFrame& frame,
-                        const std::vector<std::uint32_t>& pixels, PatternShift shift,
-                        const PatternSettings& settings) {
+PatternBand whole_frame(Session& session, const Frame& frame, const Words& pixels,
+                        PatternShift shift, const PatternSettings& settings) {
   return {session,  frame, pixels,      PatternMargins({shift}, settings.window_px),
           settings, 0,     frame.height};
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> pattern_difference_on_device(Session& session, const PatternFrame& frame,
-                                                        const std::vector<std::uint32_t>& pixels,
-                                                        PatternShift shift,
-                                                        const PatternSettings& settings) {
-  PatternBand band = whole_frame(session, frame, pixels, shift, settings);
-  if (band.anything()) band.difference(shift);
-  return band.anything() ? band.read_difference() : std::vector<std::uint32_t>(pixels.size());
+std::vector<std::uint32_t> DeviceStages::pattern_difference(const Frame& frame, const Words& pixels,
+                                                            PatternShift shift,
+                                                            const PatternSettings& settings) {
+  PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
+  if (!band.anything()) return std::vector<std::uint32_t>(pixels.size());
+  band.difference(shift);
+  return band.read_difference();
 }
 
-std::vector<std::uint64_t> pattern_columns_on_device(Session& session, const PatternFrame& frame,
-                                                     const std::vector<std::uint32_t>& pixels,
-                                                     PatternShift shift,
-                                                     const PatternSettings& settings) {
-  PatternBand band = whole_frame(session, frame, pixels, shift, settings);
+std::vector<std::uint64_t> DeviceStages::pattern_columns(const Frame& frame, const Words& pixels,
+                                                         PatternShift shift,
+                                                         const PatternSettings& settings) {
+  PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
   if (!band.anything()) return std::vector<std::uint64_t>(pixels.size());
   band.difference(shift);
   band.columns();
   return band.read_sums();
 }
 
-PatternSums match_patterns(Session& session, const PatternFrame& frame,
-                           const std::vector<std::uint32_t>& pixels,
-                           const std::vector<Plane>& channels, const std::vector<Plane>& behind,
-                           const std::vector<PatternShift>& shifts, const PatternSettings& settings,
-                           const std::function<void(double)>& progress) {
-  PatternSums out{std::vector<Plane>(channels.size(), Plane(pixels.size())), Plane(pixels.size()),
-                  Plane(pixels.size())};
+PatternSums DeviceStages::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
+                                   const std::vector<PatternShift>& shifts,
+                                   const PatternSettings& settings) {
+  PatternSums out(frame.channels.size(), pixels.size());
   if (shifts.empty()) return out;
   const PatternMargins margins(shifts, settings.window_px);
-  const int most = band_rows_for(frame, margins, settings);
+  const int most = band_rows_for(frame, margins, session_.memory_bytes());
   for (int y = 0; y < frame.height; y += most) {
     const int rows = std::min(most, frame.height - y);
-    PatternBand band(session, frame, pixels, margins, settings, y, rows);
-    match_band(session, frame, band, y, channels, behind, shifts, out);
-    if (progress) progress(static_cast<double>(y + rows) / frame.height);
+    PatternBand band(session_, frame, pixels, margins, settings, y, rows);
+    match_band(session_, frame, behind, pixels, band, y, shifts, out);
   }
   return out;
 }
