@@ -36,12 +36,12 @@ void check_paths(const FramePaths& paths) {
     }
   }
   const std::pair<const char*, const std::string&> outputs[] = {
-      {"-o", paths.output}, {"--coc-out", paths.coc}, {"--confidence-out", paths.confidence}};
+      {"output", paths.output}, {"coc", paths.coc}, {"confidence", paths.confidence}};
   for (const auto& [name, path] : outputs) {
     for (const auto& [other, other_path] : outputs) {
       if (&path == &other_path) break;
       if (!path.empty() && is_same_file(path, other_path)) {
-        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, other, name);
+        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, field(other), field(name));
       }
     }
   }
@@ -57,11 +57,11 @@ std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const
       if (policy == Nonfinite::zero) plane[i] = 0;
       if (policy == Nonfinite::error) {
         const auto width = static_cast<std::size_t>(data.width);
-        fail(ErrorKind::input,
-             "{}: colour {} at pixel ({}, {}); --nonfinite zero replaces such values, keep lets "
-             "them through",
-             path, plane[i], data.x + static_cast<int>(i % width),
-             data.y + static_cast<int>(i / width));
+        fail(
+            ErrorKind::input,
+            "{}: colour {} at pixel ({}, {}); {} zero replaces such values, keep lets them through",
+            path, plane[i], data.x + static_cast<int>(i % width),
+            data.y + static_cast<int>(i / width), field("nonfinite"));
       }
     }
   }
@@ -104,8 +104,8 @@ void choose_further_channels(const FramePaths& paths, const RenderSettings& sett
   if (settings.channels.empty()) return;
   source.further = choose_further(source.file, source.choice, settings.channels);
   if (!keeps_other_channels(paths.output, source.file)) {
-    fail(ErrorKind::usage, "{}: --channels needs a format that holds them: the input's own, {}",
-         paths.output, std::filesystem::path(paths.input).extension().string());
+    fail(ErrorKind::usage, "{}: {} needs a format that holds them: the input's own, {}",
+         paths.output, field("channels"), std::filesystem::path(paths.input).extension().string());
   }
 }
 
@@ -150,10 +150,10 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
   }
   report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
   if (settings.depth.kind == DepthKind::distance && report.lens.pixels_per_metre > 0) {
-    fail(
-        ErrorKind::usage,
-        "--depth-kind distance needs the picture's field of view, which --eye and --pixel-scale do "
-        "not state: convert the depth to planar z first");
+    fail(ErrorKind::usage,
+         "{} distance needs the picture's field of view, which {} and {} do not state: convert the "
+         "depth to planar z first",
+         field("depth.kind"), field("eye"), field("pixels_per_metre"));
   }
   report.depth = convert_depth(source.depth, settings.depth, part.data, part.display,
                                pixel_focal_length(report.lens, part.display.width),

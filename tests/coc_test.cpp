@@ -167,7 +167,7 @@ TEST(Lens, RefusesWhatNoLensHas) {
                with([](Lens& l) { l.aperture_diameter_mm = -1; }));
   expect_error(ErrorKind::usage, {"focus distance"},
                with([](Lens& l) { l.focus_distance_units = 0; }));
-  expect_error(ErrorKind::usage, {"inside the focal length", "--unit"},
+  expect_error(ErrorKind::usage, {"inside the focal length", "metres_per_unit"},
                with([](Lens& l) { l.focus_distance_units = 0.05; }));
 }
 

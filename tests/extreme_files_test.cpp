@@ -65,7 +65,7 @@ TEST(ExtremeFiles, NormalizedDepthNeedsAFiniteFarEnd) {
   DepthSettings s;
   s.kind = DepthKind::normalized;
   s.near_units = 1, s.far_units = double{infinite};
-  expect_error(ErrorKind::usage, {"--near < --far", "inf"}, [&] { validate(s); });
+  expect_error(ErrorKind::usage, {"near_units < far_units", "inf"}, [&] { validate(s); });
 }
 
 RenderSettings settings_of(Method method, GatherKind kind, double aperture_mm) {

@@ -128,7 +128,7 @@ TEST(ExtremeLenses, ValuesOutsideTheirRangeAreRefused) {
     refused(&Lens::sensor_width_mm, bad, "sensor width");
     refused(&Lens::metres_per_unit, bad, "scene unit");
     refused(&Lens::aperture_diameter_mm, bad, "aperture diameter");
-    refused(&Lens::pixels_per_metre, bad, "--pixel-scale");
+    refused(&Lens::pixels_per_metre, bad, "pixels_per_metre");
     if (bad < 1e30 || std::isnan(bad)) refused(&Lens::focus_distance_units, bad, "focus distance");
   }
   for (const Lens& lens : extreme_lenses()) EXPECT_NO_THROW(validate(lens));

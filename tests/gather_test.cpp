@@ -165,11 +165,11 @@ TEST(Gather, MoreSamplesDoNotPileUpBesideNearEdges) {
 
 TEST(Gather, RefusesAbsurdCounts) {
   for (const int samples : {0, -1, 1025}) {
-    expect_error(ErrorKind::usage, {"--samples", std::to_string(samples), "1 to 1024"},
+    expect_error(ErrorKind::usage, {"samples", std::to_string(samples), "1 to 1024"},
                  [&] { validate(settings_of(GatherKind::aware, samples, 1, false)); });
   }
   for (const int passes : {0, 9}) {
-    expect_error(ErrorKind::usage, {"--passes", "1 to 8"},
+    expect_error(ErrorKind::usage, {"passes", "1 to 8"},
                  [&] { validate(settings_of(GatherKind::aware, 1, passes, false)); });
   }
 }

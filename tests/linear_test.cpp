@@ -153,11 +153,11 @@ TEST(Linear, SameBitsForEveryMemoryBudgetAndWorkGroup) {
 
 TEST(Linear, RefusesWhatItCannotReach) {
   const std::vector<std::int32_t> wide(4, 1025 * 256), some(4, 100 * 256);
-  expect_error(ErrorKind::usage, {"1025 px", "1024", "--max-coc", "rdb"}, [&] {
+  expect_error(ErrorKind::usage, {"1025 px", "1024", "max_coc_px", "rdb"}, [&] {
     render({2, 2}, wide, {Plane(4)});
   });
   const InBands in_bands(session(), 1000);
-  expect_error(ErrorKind::usage, {"--memory", "100 px", "MiB"},
+  expect_error(ErrorKind::usage, {"memory", "100 px", "MiB"},
                [&] { render({2, 2}, some, {Plane(4)}); });
 }
 

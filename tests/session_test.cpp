@@ -20,10 +20,10 @@ TEST(Session, AnUnknownKernelIsNamed) {
 
 TEST(Session, BuffersBeyondTheDevicesLimitAreRefused) {
   const std::size_t too_much = session().info().max_buffer_bytes + 1;
-  expect_error(ErrorKind::device, {"allows at most", "--memory"},
+  expect_error(ErrorKind::device, {"allows at most", "memory"},
                [&] { session().buffer(too_much); });
   const char byte = 0;
-  expect_error(ErrorKind::device, {"allows at most", "--max-coc"},
+  expect_error(ErrorKind::device, {"allows at most", "max_coc_px"},
                [&] { session().view(&byte, too_much); });
 }
 
@@ -37,6 +37,32 @@ Session with_substitution(const Substitution& substitution) {
   SessionOptions options;
   options.substitutions = {substitution};
   return Session(device_under_test(), options);
+}
+
+TEST(Session, WorkGroupsAreOfOneKernelOrOfAll) {
+  Session own = with_substitution({"__kernel void coc(",
+                                   "__kernel void coc(__global uint* size) {\n"
+                                   "  size[0] = get_local_size(0);\n"
+                                   "  size[1] = get_local_size(1);\n"
+                                   "}\n"
+                                   "__kernel void former_coc("});
+  const auto size_of_group = [&] {
+    std::array<std::uint32_t, 2> size{};
+    const cl::Buffer buffer = own.buffer(sizeof size);
+    own.launch("coc", {64, 4}, buffer);
+    own.read(buffer, size.data(), sizeof size);
+    return size;
+  };
+  using Size = std::array<std::uint32_t, 2>;
+  own.set_work_group(8, 2);
+  EXPECT_EQ(size_of_group(), (Size{8, 2}));
+  own.set_work_group("coc", 4, 4);
+  own.set_work_group("edges", 2, 1);
+  EXPECT_EQ(size_of_group(), (Size{4, 4}));
+  own.set_work_group(8, 1);
+  EXPECT_EQ(size_of_group(), (Size{8, 1}));
+  expect_error(ErrorKind::usage, {"work-items", "allows at most"},
+               [&] { own.set_work_group("coc", own.info().max_work_group, 2); });
 }
 
 TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {

@@ -58,16 +58,16 @@ TEST(Tiltshift, BandAsHighAsTheFrameBlursNothing) {
 }
 
 TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
-  expect_error(ErrorKind::usage, {"--band-centre", "1.5"}, [] {
+  expect_error(ErrorKind::usage, {"band_centre", "1.5"}, [] {
     validate(TiltshiftSettings{1.5, 0.1, 5});
   });
-  expect_error(ErrorKind::usage, {"--band-width", "-0.1"}, [] {
+  expect_error(ErrorKind::usage, {"band_width", "-0.1"}, [] {
     validate(TiltshiftSettings{0.5, -0.1, 5});
   });
-  expect_error(ErrorKind::usage, {"--max-blur", "-1"}, [] {
+  expect_error(ErrorKind::usage, {"max_blur_px", "-1"}, [] {
     validate(TiltshiftSettings{0.5, 0.1, -1});
   });
-  expect_error(ErrorKind::usage, {"--max-blur", "1024"}, [] {
+  expect_error(ErrorKind::usage, {"max_blur_px", "1024"}, [] {
     validate(TiltshiftSettings{0.5, 0.1, 1e6});
   });
 }
