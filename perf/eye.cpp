@@ -188,6 +188,12 @@ void add_view(const Bench& bench, const std::string& name, Section& section) {
   const auto aware_difference = difference_picture(v.aware, v.truth, 4);
   const auto paper_difference = difference_picture(v.literal, v.tiltshift, 4);
   section.tables.push_back(artefacts(v, name));
+  const auto& rows = section.tables.back().rows;
+  section.findings.push_back(
+      fmt::format("{}: gather literal {} dB, aware {}, RDB {}, vertical blur {}; RMS in blurred "
+                  "pixels beside sharp ones {}, {}, {}, {}.",
+                  name, rows[1][1], rows[2][1], rows[3][1], rows[4][1], rows[1][5], rows[2][5],
+                  rows[3][5], rows[4][5]));
   const TiltshiftSettings g = estimate_gradient(v.subject);
   section.figures.push_back(sheet(
       bench, "eye-" + name,

@@ -1,4 +1,4 @@
-// defray-perf: the published experiments, one command each.
+// defray-perf: the published experiments, and the READMEs' tables of figures.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,6 +13,7 @@
 #include "exit_code.h"
 #include "experiments.h"
 #include "image/safe_output.h"
+#include "report.h"
 
 namespace defray::perf {
 namespace {
@@ -98,6 +99,7 @@ int parse_and_run(int argc, char** argv) {
   command->add_option("--device", o.device, "Index or part of the name of 'defray devices'");
   command->add_flag("--quick", o.is_quick, "A quarter of the size, two repetitions: a rehearsal");
   command->footer(about());
+  const std::function<int()> report = add_report(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -105,7 +107,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& parse_error) {
     fail(ErrorKind::usage, "{}", parse_error.what());
   }
-  return run(o);
+  return command->parsed() ? run(o) : report();
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
     quality.rows.push_back({v.name});
     cost.rows.push_back({v.name});
   }
+  double least_spread = 1e9, largest_spread = 0;
   for (const Setup& setup : setups) {
     check_against_twin(bench.stages, setup.subject, default_chain());
     const Paired p = run(bench, setup, all);
@@ -126,12 +127,17 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
       quality.rows[v + 2].push_back(v <= default_at ? fixed(db) : signed_db(db - default_db));
       const Timing t = ratio(p, v);
       cost.rows[v + 1].push_back(fmt::format("{:.2f} ± {:.0f} %", t.median_s, 100 * t.spread));
+      if (v == default_at) continue;
+      least_spread = std::min(least_spread, t.spread);
+      largest_spread = std::max(largest_spread, t.spread);
     }
     section.findings.push_back(
         fmt::format("{}: literal {:.2f} dB, default {:.2f} dB; truth's own "
                     "noise is at about {:.1f} dB.",
                     setup.name(), setup.psnr_db(p.pictures[0]), default_db, setup.truth_db()));
   }
+  section.findings.push_back(fmt::format("Ratios of times spread by {:.0f} to {:.0f} %.",
+                                         100 * least_spread, 100 * largest_spread));
   section.tables.push_back(quality);
   section.tables.push_back(cost);
 }
