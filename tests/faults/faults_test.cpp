@@ -16,6 +16,10 @@ namespace {
 
 using namespace defray::validation;
 
+// Compiling is most of the time: done quickly, and not again for each size of work-group.
+constexpr const char* quick = "-cl-opt-disable";
+constexpr int group = 64;
+
 /// The file that holds a kernel.
 std::string file_of(const std::string& kernel) {
   for (const KernelFile& file : kernel_files) {
@@ -33,9 +37,12 @@ std::vector<std::string> files_of(const KernelCheck& check) {
   if (const auto found = known.find(check.name); found != known.end()) return found->second;
   SessionOptions options;
   options.measures = true;
+  options.build_options = quick;
   options.use_int64_atomics = !check.needs_two_passes;
   Session session(device_under_test(), options);
-  for (const Case& c : grid(Level::tiny, check, session.info().max_work_group)) {
+  for (Case c : grid(Level::tiny, check, session.info().max_work_group)) {
+    c.group_x = group;
+    c.group_y = 1;
     run_case(session, check, c);
   }
   std::set<std::string> files;
@@ -45,9 +52,10 @@ std::vector<std::string> files_of(const KernelCheck& check) {
   return known[check.name] = {files.begin(), files.end()};
 }
 
-/// The check with the change, or as it is, on a program of the files that it needs.
+/// The check with the change, or as it is, on a program of the files that it needs. `group_x`: of
+/// all cases, 0: each its own.
 KernelResult validate_with(const KernelCheck& check, const std::vector<Substitution>& changes,
-                           const std::string& only_case = "") {
+                           int group_x, const std::string& only_case = "") {
   Settings settings;
   if (changes.empty()) settings.level = Level::tiny;  // all cases pass
   settings.only_case = only_case;
@@ -55,7 +63,8 @@ KernelResult validate_with(const KernelCheck& check, const std::vector<Substitut
   settings.session.substitutions = changes;
   settings.session.files = files_of(check);
   settings.stops_at_first = true;
-  settings.session.build_options = "-cl-opt-disable";  // compiling is most of the time
+  settings.session.build_options = quick;
+  settings.group_x = group_x;
   return validate_device(device_under_test(), settings).kernels.front();
 }
 
@@ -70,7 +79,10 @@ std::string finding(const KernelResult& result) {
 }
 
 void expect_found(const Fault& fault, const std::string& only_case = "") {
-  const KernelResult result = validate_with(find_check(fault.kernel), {fault.change}, only_case);
+  const KernelCheck& check = find_check(fault.kernel);
+  KernelResult result =
+      validate_with(check, {fault.change}, is_slow_device() ? 0 : group, only_case);
+  if (result.passed()) result = validate_with(check, {fault.change}, 0, only_case);
   testing::Test::RecordProperty("finding", finding(result));
   EXPECT_FALSE(result.passed()) << fault.kernel << ": " << fault.what;
   // Not for a reason of its own: a kernel that is not there fails as well.
@@ -103,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Every, Faults, testing::ValuesIn(without_races()),
 
 TEST(NoFault, IsFoundByAnyCheckOnTheFilesThatItNeeds) {
   for (const KernelCheck& check : kernel_checks()) {
-    const KernelResult result = validate_with(check, {});
+    const KernelResult result = validate_with(check, {}, group);
     EXPECT_TRUE(result.passed()) << check.name << ": " << finding(result);
   }
 }
