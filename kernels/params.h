@@ -126,10 +126,10 @@ typedef struct {
 /// Two surfaces as the layers of one frame: `assemble`.
 typedef struct {
   DEFRAY_UINT width;
-  DEFRAY_UINT height;        ///< Rows of the window.
-  DEFRAY_UINT first_row;     ///< Of the window, in the frame.
+  DEFRAY_UINT height;     ///< Rows of the window.
+  DEFRAY_UINT first_row;  ///< Of the window, in the frame.
   DEFRAY_UINT frame_height;
-  DEFRAY_UINT margin;        ///< Columns and rows around the picture, which were not seen.
+  DEFRAY_UINT margin;  ///< Columns and rows around the picture, which were not seen.
 } DefrayAssembleParams;
 
 /// What lies behind: `fill`.

@@ -28,8 +28,8 @@ std::vector<Plane> gather_once(Session& session, DefrayGatherParams p, GatherKin
   for (std::size_t c = 0; c < 4; ++c) {
     in[c] = c < channels.size() ? session.in(channels[c]) : in[c - 1];
   }
-  std::vector<cl_float4> band(size(width) * size(std::min(rows_per_launch, height)));
-  const cl::Buffer out = session.buffer(band.size() * sizeof(cl_float4));
+  const std::size_t most = size(width) * size(std::min(rows_per_launch, height));
+  const cl::Buffer out = session.buffer(most * sizeof(cl_float4));
   std::vector<Plane> result(channels.size(), Plane(channels[0].size()));
   for (int y = 0; y < height; y += rows_per_launch) {
     p.band_y = word(y);
@@ -42,11 +42,12 @@ std::vector<Plane> gather_once(Session& session, DefrayGatherParams p, GatherKin
       session.launch("gather_aware", {p.width, p.band_rows}, p, shared.coc, shared.reach,
                      shared.points, shared.turns, in, out);
     }
-    session.read(out, band.data(), count * sizeof(cl_float4));
     const std::size_t first = size(y) * p.width;
-    for (std::size_t c = 0; c < result.size(); ++c) {
-      for (std::size_t i = 0; i < count; ++i) result[c][first + i] = band[i].s[c];
-    }
+    session.look_at<cl_float4>(out, count, [&](std::span<const cl_float4> band) {
+      for (std::size_t c = 0; c < result.size(); ++c) {
+        for (std::size_t i = 0; i < count; ++i) result[c][first + i] = band[i].s[c];
+      }
+    });
     if (progress) progress(static_cast<double>(p.band_y + p.band_rows) / height);
   }
   return result;

@@ -19,8 +19,7 @@ class PatternBand {
         pixels_(pattern_window(frame, p_, band_y, pixels, 0u)),
         coc_(pattern_window(frame, p_, band_y, frame.coc_quanta, 0)),
         inverse_(pattern_window(frame, p_, band_y, frame.inverse, 0.0f)),
-        units_(pattern_units(p_, pixels_)),
-        zeros_(pixels_.size()) {
+        units_(pattern_units(p_, pixels_)) {
     if (!anything()) return;
     pixel_buffer_ = session.view(pixels_);
     coc_buffer_ = session.view(coc_);
@@ -29,10 +28,10 @@ class PatternBand {
     column_units_ = session.view(units_.columns);
     match_units_ = session.view(units_.match);
     // Where no unit writes, nothing is known.
-    difference_ = session.buffer(zeros_.size() * sizeof(std::uint32_t));
-    sums_ = session.buffer(zeros_.size() * sizeof(std::uint64_t));
-    session.write(difference_, zeros_.data(), zeros_.size() * sizeof(std::uint32_t));
-    session.write(sums_, zeros_.data(), zeros_.size() * sizeof(std::uint64_t));
+    difference_ = session.buffer(pixels_.size() * sizeof(std::uint32_t));
+    sums_ = session.buffer(pixels_.size() * sizeof(std::uint64_t));
+    session.clear(difference_, pixels_.size() * sizeof(std::uint32_t));
+    session.clear(sums_, pixels_.size() * sizeof(std::uint64_t));
   }
 
   bool anything() const { return !units_.match.empty(); }
@@ -68,13 +67,13 @@ class PatternBand {
   /// The band's pixels of a window.
   template <typename T>
   std::vector<T> read(const cl::Buffer& buffer) const {
-    std::vector<T> window(zeros_.size()), band;
-    session_.read(buffer, window.data(), window.size() * sizeof(T));
-    for (std::size_t y = 0; y < p_.rows; ++y) {
-      const auto from =
-          window.begin() + static_cast<std::int64_t>((y + p_.margin_y) * p_.stride + p_.margin_x);
-      band.insert(band.end(), from, from + p_.width);
-    }
+    std::vector<T> band;
+    session_.look_at<T>(buffer, pixels_.size(), [&](std::span<const T> window) {
+      for (std::size_t y = 0; y < p_.rows; ++y) {
+        const auto row = window.subspan((y + p_.margin_y) * p_.stride + p_.margin_x, p_.width);
+        band.insert(band.end(), row.begin(), row.end());
+      }
+    });
     return band;
   }
 
@@ -84,7 +83,6 @@ class PatternBand {
   std::vector<std::int32_t> coc_;
   Plane inverse_;
   PatternUnits units_;
-  std::vector<std::uint64_t> zeros_;
   cl::Buffer pixel_buffer_, coc_buffer_, inverse_buffer_, difference_units_, column_units_,
       match_units_, difference_, sums_;
 };
@@ -121,17 +119,22 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
     band.columns();
     band.match(i == 0, behind_coc, behind_inverse, smooth, source, sum, weight);
   }
-  std::vector<cl_float4> sums(count);
-  std::vector<cl_float2> weights(count);
-  session.read(sum, sums.data(), count * sizeof(cl_float4));
-  session.read(weight, weights.data(), count * sizeof(cl_float2));
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(pixels[first + i] & DEFRAY_PATTERN_BEHIND)) continue;
-    for (std::size_t c = 0; c < out.difference.size(); ++c)
-      out.difference[c][first + i] = sums[i].s[c];
-    out.weight[first + i] = weights[i].s[0];
-    out.weighted_square[first + i] = weights[i].s[1];
-  }
+  const auto words = pixels.host().subspan(first, count);
+  const auto is_behind = [&](std::size_t i) { return (words[i] & DEFRAY_PATTERN_BEHIND) != 0; };
+  session.look_at<cl_float4>(sum, count, [&](std::span<const cl_float4> sums) {
+    for (std::size_t c = 0; c < out.difference.size(); ++c) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (is_behind(i)) out.difference[c][first + i] = sums[i].s[c];
+      }
+    }
+  });
+  session.look_at<cl_float2>(weight, count, [&](std::span<const cl_float2> weights) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!is_behind(i)) continue;
+      out.weight[first + i] = weights[i].s[0];
+      out.weighted_square[first + i] = weights[i].s[1];
+    }
+  });
 }
 
 /// Rows of a band whose planes fit the memory; at least one, whatever it takes.

@@ -120,21 +120,24 @@ void RdbRun::add_light(const RdbPass& pass) {
 }
 
 void RdbRun::read_band(const RdbPass& pass, RayResult& out) {
-  std::vector<cl_float4> means(size(frame_.width) * size(pass.band_rows));
-  session_.read(sum_, means.data(), means.size() * sizeof(cl_float4));
   const std::size_t first = size(frame_.width) * size(pass.band_y);
-  for (std::size_t c = 0; c < out.means.size(); ++c) {
-    for (std::size_t i = 0; i < means.size(); ++i) out.means[c][first + i] = means[i].s[c];
-  }
-  session_.read(seen_, &out.seen[first], means.size() * sizeof(cl_uint));
+  const std::size_t count = size(frame_.width) * size(pass.band_rows);
+  session_.look_at<cl_float4>(sum_, count, [&](std::span<const cl_float4> means) {
+    for (std::size_t c = 0; c < out.means.size(); ++c) {
+      for (std::size_t i = 0; i < count; ++i) out.means[c][first + i] = means[i].s[c];
+    }
+  });
+  session_.look_at<cl_uint>(seen_, count, [&](std::span<const cl_uint> seen) {
+    std::copy(seen.begin(), seen.end(), out.seen.begin() + static_cast<std::ptrdiff_t>(first));
+  });
   if (!plan_.wants_nearest) return;
-  std::vector<RdbWinner> nearest(means.size());
-  session_.read(nearest_, nearest.data(), nearest.size() * sizeof(RdbWinner));
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    const std::uint32_t source = nearest[i].source;
-    out.nearest[first + i] =
-        source == DEFRAY_EMPTY ? DEFRAY_EMPTY : frame_.data_pixel(first_source(pass) + source);
-  }
+  session_.look_at<RdbWinner>(nearest_, count, [&](std::span<const RdbWinner> nearest) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t source = nearest[i].source;
+      out.nearest[first + i] =
+          source == DEFRAY_EMPTY ? DEFRAY_EMPTY : frame_.data_pixel(first_source(pass) + source);
+    }
+  });
 }
 
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {

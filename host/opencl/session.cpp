@@ -174,6 +174,25 @@ std::unique_ptr<DeviceBuffer> Session::room(void* host, std::size_t bytes) {
   return device_buffer(view(host, bytes), bytes);
 }
 
+const void* Session::map(const cl::Buffer& buffer, std::size_t bytes) {
+  if (!works_in_host_memory()) {
+    ++traffic_->downloads;
+    traffic_->bytes += bytes;
+  }
+  return checked(info_, "clEnqueueMapBuffer",
+                 [&] { return queue_.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_READ, 0, bytes); });
+}
+
+void Session::unmap(const cl::Buffer& buffer, const void* mapped) {
+  checked(info_, "clEnqueueUnmapMemObject",
+          [&] { queue_.enqueueUnmapMemObject(buffer, const_cast<void*>(mapped)); });
+}
+
+void Session::clear(const cl::Buffer& buffer, std::size_t bytes) {
+  checked(info_, "clEnqueueFillBuffer",
+          [&] { queue_.enqueueFillBuffer(buffer, cl_uchar{0}, 0, bytes); });
+}
+
 void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
   checked(info_, "clEnqueueReadBuffer",
           [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, offset, bytes, data); });

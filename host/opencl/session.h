@@ -115,6 +115,18 @@ class Session {
     return buffer;
   }
 
+  /// What kernels have written to a buffer, while `look` runs: no copy where the device works in
+  /// host memory.
+  template <typename T, typename Look>
+  void look_at(const cl::Buffer& buffer, std::size_t count, const Look& look) {
+    const auto* values = static_cast<const T*>(map(buffer, count * sizeof(T)));
+    look(std::span<const T>(values, count));
+    unmap(buffer, values);
+  }
+
+  /// Every byte of a buffer.
+  void clear(const cl::Buffer& buffer, std::size_t bytes);
+
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);
 
@@ -152,6 +164,8 @@ class Session {
                      const std::array<cl::Buffer, 4>& channels) {
     for (const cl::Buffer& channel : channels) set_arguments(kernel, name, index, channel);
   }
+  const void* map(const cl::Buffer& buffer, std::size_t bytes);
+  void unmap(const cl::Buffer& buffer, const void* mapped);
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
   void enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
                const std::vector<std::size_t>& first);

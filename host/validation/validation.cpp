@@ -156,7 +156,10 @@ Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, co
   session.set_copies(has_bands);
   session.set_memory(!has_bands ? default_memory_bytes : check.memory ? check.memory(c, input) : 1);
   DeviceStages device(session);
-  return check.run(device, c, input);
+  Outcome outcome = check.run(device, c, input);
+  session.set_copies(false);
+  session.set_memory(default_memory_bytes);
+  return outcome;
 }
 
 Run run_case(Session& session, const KernelCheck& check, const Case& c) {

@@ -62,8 +62,7 @@ TEST(ExtremeFrames, CocFromAMillionthOfAPixelToAMillion) {
       SCOPED_TRACE(method.first + ", background CoC " + std::to_string(radius_px) + " px");
       const Frame frame{size.width, size.height, coc, depth, colour};
       if (settings.method == Method::linear && radius_px > linear_max_radius_px) {
-        expect_error(ErrorKind::usage, {"1024"},
-                     [&] { apply_method(frame, settings, device()); });
+        expect_error(ErrorKind::usage, {"1024"}, [&] { apply_method(frame, settings, device()); });
       } else if (settings.method != Method::linear || radius_px <= (is_slow_device() ? 1 : 10)) {
         const auto out = render_both(frame, settings);
         // Depth 1.2 has twice the background's: all below half a quantum is a bit-exact copy.

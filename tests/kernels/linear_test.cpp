@@ -157,8 +157,9 @@ TEST(Linear, RefusesWhatItCannotReach) {
     render({2, 2}, wide, {Plane(4)});
   });
   const InBands in_bands(session(), 1000);
-  expect_error(ErrorKind::usage, {"memory", "100 px", "MiB"},
-               [&] { render({2, 2}, some, {Plane(4)}); });
+  expect_error(ErrorKind::usage, {"memory", "100 px", "MiB"}, [&] {
+    render({2, 2}, some, {Plane(4)});
+  });
 }
 
 }  // namespace

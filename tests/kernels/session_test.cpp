@@ -5,8 +5,10 @@
 #include <fstream>
 #include <set>
 
+#include "chain/chain.h"
 #include "lens/coc.h"
 #include "lens/lens.h"
+#include "opencl/launch_table.h"
 #include "support.h"
 
 namespace defray::test {
@@ -118,6 +120,46 @@ TEST(Session, EveryFileBuildsAlone) {
     }
   }
   EXPECT_EQ(std::vector<std::string>(names.begin(), names.end()), session().kernel_names());
+}
+
+/// A default render of a frame with everything in it.
+void render_default(Session& session) {
+  const Size size{64, 48};
+  Plane depth(size.width * size.height, 4.0f);
+  std::vector<std::int32_t> coc(depth.size(), 5 * 256);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (i % 64 > 20 && i % 64 < 30) depth[i] = 1, coc[i] = -3 * 256;
+  }
+  DeviceStages stages(session);
+  run_chain({size.width, size.height, coc, depth, {{random_plane(size, 1)}}}, {}, stages);
+}
+
+TEST(Session, PlanesStayWhereTheyAre) {
+  Session own(device_under_test());
+  if (!own.works_in_host_memory()) GTEST_SKIP() << "the device has memory of its own";
+  render_default(own);
+  EXPECT_EQ(own.traffic().uploads + own.traffic().downloads, 0u);
+  own.set_copies(true);
+  render_default(own);
+  EXPECT_GT(own.traffic().uploads, 0u);
+  EXPECT_GT(own.traffic().downloads, 0u);
+}
+
+TEST(Session, WorkGroupsOfSingleKernels) {
+  Session own(device_under_test());
+  own.set_work_group("edges", 7, 3);
+  expect_error(ErrorKind::usage, {"work-items"},
+               [&] { own.set_work_group("fill", own.info().max_work_group, 2); });
+  DeviceStages stages(own);
+  const Frame frame{37, 23, random_coc({37, 23}, 9, 1)};
+  EXPECT_EQ(stages.edges(frame), twins().edges(frame));
+}
+
+TEST(LaunchTable, HasEveryKernelOnce) {
+  std::vector<std::string> names;
+  for (const Launch& launch : launch_table()) names.push_back(launch.kernel);
+  EXPECT_EQ(names, session().kernel_names());
+  expect_error(ErrorKind::internal, {"nonesuch"}, [] { launch_of("nonesuch"); });
 }
 
 TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
