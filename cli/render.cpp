@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "device/device_stages.h"
+#include "defray/defray.h"
 #include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
@@ -11,7 +11,6 @@
 #include "options.h"
 #include "parse.h"
 #include "progress.h"
-#include "reference/twin_stages.h"
 
 namespace defray::cli {
 namespace {
@@ -50,31 +49,23 @@ FramePaths paths_of(const RenderOptions& o, std::optional<int> frame) {
   return paths;
 }
 
+Device open_device(const RenderOptions& o) {
+  check_output_format(o.output);
+  const auto group = parse_work_group(o.work_group);
+  Device device = Device::open(o.device, {choice<Math>("--math", o.math, math_words)});
+  if (!o.work_group.empty()) device.set_work_group(group[0], group[1]);
+  if (o.memory_mib) device.set_memory(memory_bytes(o));
+  return device;
+}
+
 /// Renders frame after frame and tells about each.
 class SequenceRun {
  public:
   SequenceRun(const RenderOptions& options, std::size_t frame_count)
       : options_(options),
         settings_(to_settings(options)),
-        bar_(frame_count, frame_count == 1 ? "frame" : "frames", !options.quiet) {
-    check_output_format(options.output);
-    const auto group = parse_work_group(options.work_group);
-    SessionOptions session;
-    session.math = choice<Math>("--math", options.math, math_words);
-    if (options.device == "reference") {
-      stages_ = std::make_unique<reference::TwinStages>();
-      device_ = "the scalar reference";
-      return;
-    }
-    session_ = std::make_unique<Session>(
-        select_device(options.device, "; or use --device reference, the slow scalar twin"),
-        session);
-    session_->set_work_group(group[0], group[1]);
-    session_->set_memory(memory_bytes(options));
-    stages_ = std::make_unique<DeviceStages>(*session_);
-    device_ = session_->info().name;
-    if (session.math == Math::fast) device_ += " (fast arithmetic)";
-  }
+        bar_(frame_count, frame_count == 1 ? "frame" : "frames", !options.quiet),
+        device_(open_device(options)) {}
 
   /// False when the frame failed and --skip-bad-frames lets the run go on.
   bool render(std::optional<int> frame, std::size_t done) {
@@ -86,8 +77,8 @@ class SequenceRun {
     }
     try {
       bar_.update(done, 0);
-      FrameResult result = render_frame(outcome.paths, settings_, *stages_,
-                                        [&](double share) { bar_.update(done, share); });
+      FrameResult result = render_file(device_, outcome.paths, settings_,
+                                       [&](double share) { bar_.update(done, share); });
       outcome.report = std::move(result.report);
       last_ = std::move(result.colour);
     } catch (const Error& error) {
@@ -121,18 +112,16 @@ class SequenceRun {
   void report(const FrameOutcome& outcome) {
     bar_.clear();
     if (options_.json) {
-      print_json_line(outcome, device_);
+      print_json_line(outcome, device_.name());
     } else if (!options_.quiet) {
-      print_text(outcome, device_);
+      print_text(outcome, device_.name());
     }
   }
 
   const RenderOptions& options_;
   RenderSettings settings_;
   ProgressBar bar_;
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<Stages> stages_;
-  std::string device_;
+  Device device_;
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };

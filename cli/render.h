@@ -7,7 +7,7 @@
 
 #include "aperture_options.h"
 #include "commands.h"
-#include "pipeline.h"
+#include "defray/io.h"
 
 namespace defray::cli {
 

@@ -1,30 +1,18 @@
 #pragma once
-// What every part of defray throws.
+// Throwing errors with formatted messages.
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "defray/error.h"
+
 namespace defray {
 
-/// What went wrong. What follows from it (the program's exit code) is for who catches it to say.
-enum class ErrorKind {
-  usage,   ///< A setting, or a combination of settings, that makes no sense.
-  input,   ///< An input that is missing, unreadable, or not what was asked for.
-  output,  ///< An output that cannot be written.
-  device,  ///< No OpenCL device, or an OpenCL call that failed.
-  internal,
-};
-
-class Error : public std::runtime_error {
- public:
-  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
-  ErrorKind kind() const { return kind_; }
-
- private:
-  ErrorKind kind_;
-};
+/// The name of a setting's field in a message, marked as such: what shows the message may call it
+/// what its users do. The name is the member's ("squeeze"), with its structure's where it alone
+/// would not tell ("aperture.image").
+inline std::string field(const std::string& name) { return '\x1f' + name + '\x1f'; }
 
 /// Throws Error(kind) with a formatted message.
 template <typename... Args>

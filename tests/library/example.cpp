@@ -1,0 +1,23 @@
+#include <defray/defray.h>
+
+#include <cstdio>
+
+int main(int, char** names) try {
+  auto file = defray::PictureFile::read(names[1]);
+  const auto& in = file.picture();
+  defray::Picture picture;  // spans of floats: any renderer's planes, row by row
+  picture.data = {0, 0, in.data.width, in.data.height};
+  picture.colour = {in.colour[0], in.colour[1], in.colour[2]};
+  picture.depth = in.depth;
+  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 50 / 2.8};
+  lens.focus_distance_units = 3;
+  defray::Options options;
+  options.chain->aperture.blades = 6;
+  auto device = defray::Device::open();
+  const auto result = defray::render(device, picture, lens, options);
+  std::printf("CoC up to %.1f px on %s\n", result.report.farthest_coc_px, device.name().c_str());
+  file.write(names[2], result.colour);
+} catch (const defray::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
