@@ -6,6 +6,7 @@
 #include <string>
 
 #include "aperture_options.h"
+#include "base/window.h"
 #include "commands.h"
 #include "defray/io.h"
 

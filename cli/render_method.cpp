@@ -1,4 +1,7 @@
 // The options of defray render that choose a method, a device and their settings.
+#include "lens/lens_cells.h"
+#include "methods/gather.h"
+#include "methods/tiltshift.h"
 #include "options.h"
 #include "render.h"
 

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "image/further_channels.h"
+#include "lens/camera.h"
+#include "lens/depth.h"
 #include "options.h"
 #include "parse.h"
 #include "render.h"
