@@ -64,6 +64,7 @@ struct Scene {
 defray::Lens wide_open() {
   defray::Lens lens;
   lens.focal_length_mm = 50;
+  lens.sensor_width_mm = 5;
   lens.aperture_diameter_mm = 35;
   lens.focus_distance_units = 5;
   return lens;
@@ -208,6 +209,7 @@ void check_files(Device& device, const std::string& input, const std::string& fo
 
   defray::RenderSettings settings;
   settings.camera.focal_length_mm = lens.focal_length_mm;
+  settings.camera.sensor_width_mm = lens.sensor_width_mm;
   settings.camera.aperture_diameter_mm = lens.aperture_diameter_mm;
   settings.camera.focus_distance_units = lens.focus_distance_units;
   const auto frame =

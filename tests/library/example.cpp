@@ -9,8 +9,8 @@ int main(int, char** names) try {
   picture.data = {0, 0, in.data.width, in.data.height};
   picture.colour = {in.colour[0], in.colour[1], in.colour[2]};
   picture.depth = in.depth;
-  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 50 / 2.8};
-  lens.focus_distance_units = 3;
+  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 50 / 1.4};
+  lens.focus_distance_units = 1.2;
   defray::Options options;
   options.chain->aperture.blades = 6;
   auto device = defray::Device::open();

@@ -48,7 +48,7 @@ cmake --build user/build --parallel 2 >build.log || { cat build.log; complain "f
 [ "$(pkg-config --modversion defray)" = 0.1.0 ] || complain "pkg-config has another version"
 
 defray scene fence -o scene --width 96 --height 64 --truth-samples 1 >scene.log
-defray render scene/pinhole.exr -o cli.exr --focus 3 --fstop 2.8 --focal-length 50 --blades 6 -q
+defray render scene/pinhole.exr -o cli.exr --focus 1.2 --fstop 1.4 --focal-length 50 --blades 6 -q
 user/build/example scene/pinhole.exr cmake.exr
 ./with_pkg_config scene/pinhole.exr pkg_config.exr
 cmp cmake.exr cli.exr
@@ -58,7 +58,7 @@ grep -q 'missing.exr' error || complain "a missing file is not named: $(cat erro
 
 mkdir out
 user/build/api scene/pinhole.exr out
-defray render scene/pinhole.exr -o out/cli.exr --focus 5 --aperture-diameter 35 --focal-length 50 -q \
+defray render scene/pinhole.exr -o out/cli.exr --focus 5 --aperture-diameter 35 --focal-length 50 --sensor-width 5 -q \
   --coc-out out/cli_coc.exr --confidence-out out/cli_confidence.exr
 cmp out/api.exr out/cli.exr
 cmp out/file.exr out/cli.exr
