@@ -14,7 +14,6 @@
 #include "lens/depth.h"
 #include "measure/edge_band.h"
 #include "measure/metrics.h"
-#include "options.h"
 #include "picture.h"
 #include "reference/twin_stages.h"
 

@@ -9,8 +9,10 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "commands.h"
+#include "defray/defray.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
+#include "option_table.h"
 
 namespace defray::cli {
 namespace {
@@ -102,7 +104,7 @@ void refuse_empty_values(const CLI::App& command) {
 int run(int argc, char** argv) {
   CLI::App app{about, "defray"};
   app.footer(footer);
-  app.set_version_flag("--version", "defray " DEFRAY_VERSION);
+  app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
   for (const auto add :
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
   try {
     return defray::cli::run(argc, argv);
   } catch (const defray::Error& error) {
-    return defray::cli::fail_with(error.kind(), error.what());
+    return defray::cli::fail_with(error.kind(), defray::cli::message_of(error));
   } catch (const std::bad_alloc&) {
     return defray::cli::fail_with(defray::ErrorKind::input, "not enough memory for this picture");
   } catch (const std::system_error& error) {  // fmt's, from a broken standard output

@@ -41,12 +41,12 @@ void check_paths(const FramePaths& paths) {
     }
   }
   const std::pair<const char*, const std::string&> outputs[] = {
-      {"-o", paths.output}, {"--coc-out", paths.coc}, {"--confidence-out", paths.confidence}};
+      {"output", paths.output}, {"coc", paths.coc}, {"confidence", paths.confidence}};
   for (const auto& [name, path] : outputs) {
     for (const auto& [other, other_path] : outputs) {
       if (&path == &other_path) break;
       if (!path.empty() && is_same_file(path, other_path)) {
-        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, other, name);
+        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, field(other), field(name));
       }
     }
   }
@@ -71,8 +71,8 @@ void choose_further_channels(const FramePaths& paths, const RenderSettings& sett
   if (settings.channels.empty()) return;
   source.further = choose_further(source.file, source.choice, settings.channels);
   if (!keeps_other_channels(paths.output, source.file)) {
-    fail(ErrorKind::usage, "{}: --channels needs a format that holds them: the input's own, {}",
-         paths.output, std::filesystem::path(paths.input).extension().string());
+    fail(ErrorKind::usage, "{}: {} needs a format that holds them: the input's own, {}",
+         paths.output, field("channels"), std::filesystem::path(paths.input).extension().string());
   }
 }
 

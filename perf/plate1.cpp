@@ -51,8 +51,8 @@ std::vector<std::uint8_t> background_mask(const Subject& s) {
 
 Section plate1(const Bench& bench) {
   bench.step("scene");
-  const Subject s = make_subject(bench.stages,
-                                 make_scene("plate1", bench.size(640), bench.size(480)), "default");
+  const Subject s =
+      make_subject(bench.stages, make_scene("plate1", bench.size(640), bench.size(480)), "default");
   bench.step("truth");
   const auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 64 : 1024, 1).colour;
   bench.step("accumulation buffer");

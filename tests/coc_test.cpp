@@ -53,7 +53,7 @@ TEST(Coc, KernelEqualsTwinWithinHalfAQuantumAndFourUlp) {
   for (const Lens& lens : lenses()) {
     const Plane depth = depths_for(lens);
     const auto kernel = device().coc(lens, 1920, depth);
-    const auto twin = reference::coc(lens, 1920, depth);
+    const auto twin = twins().coc(lens, 1920, depth);
     ASSERT_EQ(kernel.size(), twin.size());
     for (std::size_t i = 0; i < depth.size(); ++i) {
       // Three float operations and a rounded constant: under 4 ulp (2^-22) of the radius; where
@@ -69,7 +69,7 @@ TEST(Coc, KernelEqualsTwinWithinHalfAQuantumAndFourUlp) {
 TEST(Coc, QuantisationErrorIsHalfAQuantum) {
   const Lens lens = lens_of(3);
   const Plane depth = depths_for(lens);
-  const auto quanta = reference::coc(lens, 1920, depth);
+  const auto quanta = twins().coc(lens, 1920, depth);
   double worst = 0;
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double exact = reference::coc_px(lens, 1920, depth[i]);
@@ -122,7 +122,7 @@ TEST(Coc, EqualsPotmesilsFormula) {
 TEST(Coc, DepthInsideTheFocalLengthFollowsTheSameFormula) {
   const Lens lens = lens_of(3);
   const auto coc = device().coc(lens, 1920, {0.04f, 0.05f, 0.06f});
-  const auto twin = reference::coc(lens, 1920, {0.04f, 0.05f, 0.06f});
+  const auto twin = twins().coc(lens, 1920, {0.04f, 0.05f, 0.06f});
   EXPECT_LT(coc[0], coc[1]);
   EXPECT_LT(coc[1], coc[2]);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(coc[i], twin[i], 1);
@@ -167,7 +167,7 @@ TEST(Lens, RefusesWhatNoLensHas) {
                with([](Lens& l) { l.aperture_diameter_mm = -1; }));
   expect_error(ErrorKind::usage, {"focus distance"},
                with([](Lens& l) { l.focus_distance_units = 0; }));
-  expect_error(ErrorKind::usage, {"inside the focal length", "--unit"},
+  expect_error(ErrorKind::usage, {"inside the focal length", "metres_per_unit"},
                with([](Lens& l) { l.focus_distance_units = 0.05; }));
 }
 

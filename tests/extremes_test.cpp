@@ -55,7 +55,7 @@ TEST(ExtremeDepths, WhatIsNoDepthIsBackground) {
   const Plane none{infinite, nan, -nan, 0.0f, -0.0f, -denormal, -1.0f, -largest, -infinite};
   for (const Lens& lens : extreme_lenses()) {
     const auto kernel = device().coc(lens, width, none);
-    const auto twin = reference::coc(lens, width, none);
+    const auto twin = twins().coc(lens, width, none);
     for (std::size_t i = 0; i < none.size(); ++i) {
       EXPECT_EQ(kernel[i], kernel[0]) << none[i] << ", focus " << lens.focus_distance_units;
       EXPECT_EQ(twin[i], twin[0]) << none[i] << ", focus " << lens.focus_distance_units;
@@ -81,7 +81,7 @@ TEST(ExtremeDepths, NearAndFarOnesKeepTheirSide) {
     if (focus < 65504) {
       EXPECT_GE(behind[0], 0) << focus;
     }
-    const auto twin = reference::coc(lens, width, near);
+    const auto twin = twins().coc(lens, width, near);
     for (std::size_t i = 0; i < near.size(); ++i) {
       EXPECT_LE(std::fabs(double(in_front[i]) - twin[i]), 1 + std::fabs(twin[i]) * 0x1p-21);
     }
@@ -110,8 +110,7 @@ TEST(ExtremeLenses, FocusedAtTheHyperfocalDistanceInfinityIsJustSharp) {
       const double focus = hyperfocal_units(fstop, sharp_mm);
       const Lens lens = lens_of(focus, fstop, LensModel::breathing);
       const double radius_px = 0.5 * sharp_mm / lens.sensor_width_mm * width;
-      const auto coc =
-          device().coc(lens, width, {infinite, static_cast<float>(focus / 2)});
+      const auto coc = device().coc(lens, width, {infinite, static_cast<float>(focus / 2)});
       EXPECT_NEAR(coc[0], 256 * radius_px, 0.5 + 256 * radius_px * 0x1p-21);
       EXPECT_NEAR(coc[1], -256 * radius_px, 0.5 + 256 * radius_px * 0x1p-20);  // as sharp there
     }
@@ -129,7 +128,7 @@ TEST(ExtremeLenses, ValuesOutsideTheirRangeAreRefused) {
     refused(&Lens::sensor_width_mm, bad, "sensor width");
     refused(&Lens::metres_per_unit, bad, "scene unit");
     refused(&Lens::aperture_diameter_mm, bad, "aperture diameter");
-    refused(&Lens::pixels_per_metre, bad, "--pixel-scale");
+    refused(&Lens::pixels_per_metre, bad, "pixels_per_metre");
     if (bad < 1e30 || std::isnan(bad)) refused(&Lens::focus_distance_units, bad, "focus distance");
   }
   for (const Lens& lens : extreme_lenses()) EXPECT_NO_THROW(validate(lens));

@@ -1,9 +1,8 @@
 // The whole ray distribution buffer: means against the twin, and the bits that must never change.
-#include "rdb/rdb.h"
-
 #include <cmath>
 #include <limits>
 
+#include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -25,7 +24,9 @@ Input make_input(Size size, double radius, std::uint32_t seed) {
 }
 
 std::vector<Plane> render(Session& s, const Input& in, const RdbSettings& settings) {
-  return render_rdb(s, in.size.width, in.size.height, in.coc, in.depth, in.channels, settings);
+  return DeviceStages(s)
+      .rays({in.size.width, in.size.height, in.coc, in.depth, in.channels}, plan_rays(settings))
+      .means;
 }
 
 RdbSettings small_settings(bool jitter = false) {
@@ -43,10 +44,12 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
   for (const bool jitter : {false, true}) {
     const Input in = make_input({67, 41}, 6, 21);
     const RdbSettings settings = small_settings(jitter);
-    const auto kernel = render(device(), in, settings);
-    const auto twin = reference::render_rdb(67, 41, in.coc, in.depth, in.channels, settings);
+    const auto kernel = render(session(), in, settings);
+    const auto twin =
+        twins().rays({67, 41, in.coc, in.depth, in.channels}, plan_rays(settings)).means;
     EXPECT_EQ(hash_of(kernel), hash_of(twin));
-    const auto exact = reference::exact_rdb({67, 41, in.coc, in.depth, in.channels}, settings);
+    const auto exact =
+        reference::exact_rays({67, 41, in.coc, in.depth, in.channels}, plan_rays(settings));
     const double cells =
         static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
     for (std::size_t c = 0; c < 4; ++c) {
@@ -68,12 +71,12 @@ TEST(Rdb, SameBitsForEveryMemoryBudget) {
   for (const bool jitter : {false, true}) {
     RdbSettings settings = small_settings(jitter);
     settings.cells_per_side = 3;
-    const std::uint64_t whole = hash_of(render(device(), in, settings));
+    const std::uint64_t whole = hash_of(render(session(), in, settings));
     const std::size_t row =
         size.width * (rdb_bytes_a_cell + rdb_bytes_a_sum);  // one row of one cell with its sums
     for (const std::size_t bytes : {row, 2 * row, 3 * row + 100, 17 * row, 36 * row}) {
-      settings.memory_bytes = bytes;
-      EXPECT_EQ(hash_of(render(device(), in, settings)), whole) << bytes << " bytes";
+      const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
+      EXPECT_EQ(hash_of(render(session(), in, settings)), whole) << bytes << " bytes";
       EXPECT_EQ(hash_of(render(session_without_int64(), in, settings)), whole) << bytes << " bytes";
     }
   }
@@ -93,33 +96,33 @@ TEST(Rdb, SameBitsForEveryWorkGroup) {
 TEST(Rdb, SameBitsInTwentyRuns) {
   const Input in = make_input(frame_size(), 9, 51);
   const RdbSettings settings = small_settings(true);
-  const std::uint64_t first = hash_of(render(device(), in, settings));
+  const std::uint64_t first = hash_of(render(session(), in, settings));
   for (int run = 1; run < (is_slow_device() ? 3 : 20); ++run) {
-    EXPECT_EQ(hash_of(render(device(), in, settings)), first) << "run " << run;
+    EXPECT_EQ(hash_of(render(session(), in, settings)), first) << "run " << run;
   }
 }
 
 TEST(Rdb, JitterAndSeedChangeThePicture) {
   const Input in = make_input({41, 29}, 6, 61);
   RdbSettings settings = small_settings();
-  const std::uint64_t plain = hash_of(render(device(), in, settings));
+  const std::uint64_t plain = hash_of(render(session(), in, settings));
   settings.jitter = true;
-  const std::uint64_t jittered = hash_of(render(device(), in, settings));
+  const std::uint64_t jittered = hash_of(render(session(), in, settings));
   settings.seed = 12;
   EXPECT_NE(plain, jittered);
-  EXPECT_NE(jittered, hash_of(render(device(), in, settings)));
+  EXPECT_NE(jittered, hash_of(render(session(), in, settings)));
 }
 
 TEST(Rdb, OneColourStaysThatColourBitForBit) {
   Input in = make_input({61, 33}, 9, 72);
   for (Plane& plane : in.channels) plane.assign(plane.size(), 0.1f);
-  EXPECT_EQ(hash_of(render(device(), in, small_settings())), hash_of(in.channels));
+  EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
 }
 
 TEST(Rdb, ClosedApertureReturnsTheInputBitForBit) {
   Input in = make_input({61, 33}, 0, 71);
   std::fill(in.coc.begin(), in.coc.end(), 0);
-  EXPECT_EQ(hash_of(render(device(), in, small_settings())), hash_of(in.channels));
+  EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
 }
 
 TEST(Rdb, ClosedApertureKeepsInfinityAndMinusZero) {
@@ -127,16 +130,18 @@ TEST(Rdb, ClosedApertureKeepsInfinityAndMinusZero) {
   std::fill(in.coc.begin(), in.coc.end(), 0);
   in.channels[0][5] = std::numeric_limits<float>::infinity();
   in.channels[1][6] = -0.0f;
-  EXPECT_EQ(hash_of(render(device(), in, small_settings())), hash_of(in.channels));
-  EXPECT_EQ(hash_of(reference::render_rdb(9, 7, in.coc, in.depth, in.channels, small_settings())),
-            hash_of(in.channels));
+  EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
+  EXPECT_EQ(
+      hash_of(
+          twins().rays({9, 7, in.coc, in.depth, in.channels}, plan_rays(small_settings())).means),
+      hash_of(in.channels));
 }
 
 TEST(Rdb, FewerChannelsGiveTheSamePlanes) {
   Input in = make_input({31, 19}, 4, 81);
-  const auto four = render(device(), in, small_settings());
+  const auto four = render(session(), in, small_settings());
   in.channels.resize(1);
-  const auto one = render(device(), in, small_settings());
+  const auto one = render(session(), in, small_settings());
   EXPECT_EQ(one.size(), 1u);
   EXPECT_EQ(hash_of(one), hash_of({four[0]}));
 }
@@ -160,10 +165,10 @@ TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
   constexpr int width = 16384, height = 8192, reach = 11, rows = 40;
   RdbSettings settings;
   settings.cells_per_side = 2;
-  const Plane whole = render(device(), formula_rows(width, 0, height), settings)[0];
+  const Plane whole = render(session(), formula_rows(width, 0, height), settings)[0];
   for (const int first : {1000, 4096, 8100}) {
     const Input part = formula_rows(width, first - reach, rows + 2 * reach);
-    const Plane expected = render(device(), part, settings)[0];
+    const Plane expected = render(session(), part, settings)[0];
     const auto begin = [](const Plane& plane, int row) {
       return plane.begin() + std::int64_t{row} * width;
     };

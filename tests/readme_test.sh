@@ -1,21 +1,31 @@
 #!/usr/bin/env bash
-# Runs every command of README.md's "sh" blocks, in order, in an empty folder.
-# readme_test.sh README DEFRAY. The two set-up commands are left out: one of them runs this test.
+# Runs every command of a README's "sh" blocks, in order, in a folder that holds nothing but this
+# README at its place. readme_test.sh README DEFRAY [--full]
+#
+# "```sh project": in the project's folder instead. "```sh slow": minutes, with --full only. The two
+# commands that build and test the whole project are left out: one of them runs this test.
 set -euo pipefail
-readme=$1
-export PATH=$(dirname "$2"):$PATH
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+readme=$(realpath "$1")
+place=$(realpath --relative-to="$project" "$readme")
+export PATH=$(realpath "$(dirname "$2")"):$PATH
+full=${3:-}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-cd "$folder"
+mkdir -p "$folder/$(dirname "$place")"
+cp "$readme" "$folder/$place"
 
-commands=$(awk '/^```sh/ {on = 1; next} /^```/ {on = 0} on' "$readme" |
-  grep -v -e '^bash cli/demo.sh' -e '^bash tests/run.sh' -e '^#')
+# Lines "KIND<TAB>COMMAND"; the kind is what follows "sh", or "plain".
+commands=$(awk '/^```sh( |$)/ {on = 1; kind = NF > 1 ? $2 : "plain"; next} /^```/ {on = 0}
+                on && !/^#/ && NF {printf "%s\t%s\n", kind, $0}' "$readme" |
+  grep -v -P -e '\tbash (cli/demo|tests/run)\.sh' || true)
 count=0
-while IFS= read -r command; do
+while IFS=$'\t' read -r kind command; do
   [ -z "$command" ] && continue
+  [ "$kind" = slow ] && [ "$full" != --full ] && continue
   echo "\$ $command"
-  bash -c "$command" </dev/null
+  [ "$kind" = project ] && where=$project || where=$folder
+  (cd "$where" && bash -c "$command" </dev/null)
   count=$((count + 1))
 done <<<"$commands"
-[ "$count" -gt 0 ] || { echo "README.md has no commands"; exit 1; }
-echo "$count commands of the README work."
+echo "$count commands of $place work."

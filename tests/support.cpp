@@ -121,7 +121,7 @@ std::uint64_t hash_of(const std::vector<Plane>& planes) {
   return hash;
 }
 
-std::uint64_t hash_of(const Planes& planes) {
+std::uint64_t hash_of_planes(const Planes& planes) {
   std::vector<Plane> copies;
   for (const Values<float>& plane : planes) copies.emplace_back(plane.begin(), plane.end());
   return hash_of(copies);

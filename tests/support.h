@@ -65,7 +65,7 @@ Plane random_plane(Size size, std::uint32_t seed);
 
 /// FNV-1a over the bytes of planes.
 std::uint64_t hash_of(const std::vector<Plane>& planes);
-std::uint64_t hash_of(const Planes& planes);
+std::uint64_t hash_of_planes(const Planes& planes);
 
 /// A folder of this test's own, removed with it.
 class Folder {

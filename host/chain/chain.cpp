@@ -125,8 +125,7 @@ class Chain {
     std::vector<bool> is_behind(f.pixels());
     const auto inverse = behind.inverse.host();
     for (std::size_t i = 0; i < inverse.size(); ++i) is_behind[i] = inverse[i] >= 0;
-    const Words pixels =
-        pattern_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
+    const Words pixels = pattern_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
     PatternSettings patterns;
     patterns.shifts = settings_.pattern_shifts;
     improve_by_patterns(stages_, f, pixels, patterns, behind);

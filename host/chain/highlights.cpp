@@ -93,7 +93,8 @@ LightSources take_light(Frame& f, const Values<float>& kept_share, int light_cha
   const auto kept = kept_share.host();
   if (std::all_of(kept.begin(), kept.end(), [](float k) { return k == 1.0f; })) return lights;
   const bool has_alpha = f.channels.size() > size(light_channels);
-  const Plane alpha = has_alpha ? Plane(f.channels.back().begin(), f.channels.back().end()) : Plane{};
+  const Plane alpha =
+      has_alpha ? Plane(f.channels.back().begin(), f.channels.back().end()) : Plane{};
   std::vector<std::span<float>> channels;
   for (Values<float>& channel : f.channels) channels.push_back(channel.edit());
   const auto coc_quanta = f.coc_quanta.host();

@@ -30,17 +30,15 @@ void sum_windows(int width, int height, int n, Sums& plane) {
     const std::size_t first = size(y) * size(width);
     sum_line(&plane[first], &rows[first], width, 1, n);
   });
-  parallel_for(width, [&](int x) {
-    sum_line(&rows[size(x)], &plane[size(x)], height, size(width), n);
-  });
+  parallel_for(width,
+               [&](int x) { sum_line(&rows[size(x)], &plane[size(x)], height, size(width), n); });
 }
 
 std::uint64_t squared(std::uint64_t v) { return v * v; }
 
 /// One plane of sums over the known pixels' words.
 template <typename Word>
-Sums sums_of(const Frame& frame, const Words& pixels, int n,
-              const Word& word) {
+Sums sums_of(const Frame& frame, const Words& pixels, int n, const Word& word) {
   Sums plane(pixels.size());
   const auto words = pixels.host();
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -53,8 +51,7 @@ Sums sums_of(const Frame& frame, const Words& pixels, int n,
 
 }  // namespace
 
-Plane pattern_variance(const Frame& frame, const Words& pixels,
-                       const PatternSettings& settings) {
+Plane pattern_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings) {
   // Two sums in a word, as in params.h; those of colours are below 255 x 2^22.4 < 2^32.
   constexpr std::uint64_t one = std::uint64_t{1} << DEFRAY_PATTERN_COUNT_BIT;
   const int n = settings.window_px;

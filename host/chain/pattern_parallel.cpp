@@ -29,8 +29,8 @@ struct Length {
 /// Along one axis of the picture.
 class ParallelSearch {
  public:
-  ParallelSearch(const Frame& frame, const Words& pixels,
-                 const PatternSettings& settings, PatternShift longest)
+  ParallelSearch(const Frame& frame, const Words& pixels, const PatternSettings& settings,
+                 PatternShift longest)
       : width_(frame.width),
         height_(frame.height),
         coc_(frame.coc_quanta.host()),
@@ -107,8 +107,7 @@ class ParallelSearch {
       if ((s.x == 0 && s.y == 0) || x >= width_ || y >= height_) continue;
       const std::size_t there = at(x, y);
       if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (std::abs(std::int64_t{coc_[here]} - coc_[there]) >
-          settings_.tolerance_quanta) {
+      if (std::abs(std::int64_t{coc_[here]} - coc_[there]) > settings_.tolerance_quanta) {
         continue;
       }
       for (const int bit : {0, 8, 16}) {

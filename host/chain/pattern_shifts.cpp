@@ -110,8 +110,8 @@ Agreement agreement(const Picture& p, PatternShift s, int row_step, std::int32_t
   const int x = std::max(0, -s.x), count = p.width - std::abs(s.x);
   if (count <= 0) return sum;
   for (int y = std::max(0, -s.y); y < p.height - std::max(0, s.y); y += row_step) {
-    add_pairs(p, size(y) * size(p.width) + size(x),
-              size(y + s.y) * size(p.width) + size(x + s.x), count, tolerance, sum);
+    add_pairs(p, size(y) * size(p.width) + size(x), size(y + s.y) * size(p.width) + size(x + s.x),
+              count, tolerance, sum);
   }
   return sum;
 }

@@ -11,7 +11,8 @@ namespace {
 /// A band on the device, and its launches for one shift after the other.
 class PatternBand {
  public:
-  PatternBand(Session& session, const Frame& frame, const Words& pixels, const PatternMargins& margins, const PatternSettings& settings, int band_y,
+  PatternBand(Session& session, const Frame& frame, const Words& pixels,
+              const PatternMargins& margins, const PatternSettings& settings, int band_y,
               int band_rows)
       : session_(session),
         p_(pattern_band(frame, margins, settings, band_y, band_rows)),
@@ -126,7 +127,8 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
   session.read(weight, weights.data(), count * sizeof(cl_float2));
   for (std::size_t i = 0; i < count; ++i) {
     if (!(pixels[first + i] & DEFRAY_PATTERN_BEHIND)) continue;
-    for (std::size_t c = 0; c < out.difference.size(); ++c) out.difference[c][first + i] = sums[i].s[c];
+    for (std::size_t c = 0; c < out.difference.size(); ++c)
+      out.difference[c][first + i] = sums[i].s[c];
     out.weight[first + i] = weights[i].s[0];
     out.weighted_square[first + i] = weights[i].s[1];
   }

@@ -10,8 +10,8 @@ Planes DeviceStages::soften(const Frame& f, int lens_points) {
   const Words whole(f.coverage.empty() ? f.surfaces() : 0, DEFRAY_WHOLE);
   const Words& coverage = f.coverage.empty() ? whole : f.coverage;
   const float cells = cells_a_side(lens_points);
-  const auto reach = static_cast<std::int64_t>(static_cast<float>(largest_coc(f.coc_quanta.host())) *
-                                               px_per_quantum / cells);
+  const auto reach = static_cast<std::int64_t>(
+      static_cast<float>(largest_coc(f.coc_quanta.host())) * px_per_quantum / cells);
   Planes out;
   for_each_band(session_, "soften", f, reach, [&](Band& band) {
     const DefraySoftenParams p{word(f.width), word(band.rows().window_rows), word(f.layers), cells};

@@ -34,11 +34,10 @@ Frame DeviceStages::assemble(const Surfaces& s) {
     Band front(session_, "assemble", s.front, rows), behind(session_, "assemble", s.behind, rows);
     const DefrayAssembleParams p{word(f.width), word(rows.window_rows), word(rows.window_y),
                                  word(f.height), word(f.margin)};
-    band.launch(p, front.in(s.front.coc_quanta), front.in(s.front.inverse),
-                front.in(s.front.coverage), front.in(s.front.channels),
-                behind.in(s.behind.coc_quanta), behind.in(s.behind.inverse),
-                behind.in(s.behind.coverage), behind.in(s.behind.channels), coc, depth, coverage,
-                colour);
+    band.launch(
+        p, front.in(s.front.coc_quanta), front.in(s.front.inverse), front.in(s.front.coverage),
+        front.in(s.front.channels), behind.in(s.behind.coc_quanta), behind.in(s.behind.inverse),
+        behind.in(s.behind.coverage), behind.in(s.behind.channels), coc, depth, coverage, colour);
   });
   return f;
 }

@@ -24,10 +24,10 @@ class Planes : public std::vector<Values<float>> {
 /// not need may be empty.
 struct Frame {
   int width = 0, height = 0;
-  Quanta coc_quanta;
-  Values<float> depth;    ///< Planar, > 0, inf: background; `no_fragment()`: nothing there.
-  Planes channels;        ///< Linear colour, premultiplied.
-  bool has_alpha = false;  ///< The last channel is alpha.
+  Quanta coc_quanta = {};
+  Values<float> depth = {};  ///< Planar, > 0, inf: background; `no_fragment()`: nothing there.
+  Planes channels = {};      ///< Linear colour, premultiplied.
+  bool has_alpha = false;    ///< The last channel is alpha.
   /// Where the frame lies in the display window, and that window's size; 0: the frame itself.
   int origin_x = 0, origin_y = 0, display_width = 0, display_height = 0;
   /// Columns and rows on each side that were added around the picture.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <utility>
@@ -29,6 +30,7 @@ class Values {
     store_->host = store_->taken.data();
     store_->count = store_->taken.size();
   }
+  Values(std::initializer_list<T> values) : Values(std::vector<T>(values)) {}
   explicit Values(std::size_t count, T value = {}) : Values(std::vector<T>(count, value)) {}
 
   /// Somebody else's memory, which must stay alive and unchanged.

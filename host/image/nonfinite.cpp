@@ -17,10 +17,10 @@ std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const
       if (policy == Nonfinite::error) {
         const auto width = static_cast<std::size_t>(data.width);
         fail(ErrorKind::input,
-             "{}: colour {} at pixel ({}, {}); --nonfinite zero replaces such values, keep lets "
-             "them through",
+             "{}: colour {} at pixel ({}, {}); {} zero replaces such values, keep lets them "
+             "through",
              path, plane[i], data.x + static_cast<int>(i % width),
-             data.y + static_cast<int>(i / width));
+             data.y + static_cast<int>(i / width), field("nonfinite"));
       }
     }
   }

@@ -76,7 +76,8 @@ class Discs {
 std::vector<std::uint8_t> edge_band(const Plane& depth, int width,
                                     std::span<const std::int32_t> coc_quanta, double step) {
   if (!(step >= 0) || !std::isfinite(step)) {
-    fail(ErrorKind::usage, "--edge-step is {}: it must be a finite number, 0 or more", step);
+    fail(ErrorKind::usage, "{} is {}: it must be a finite number, 0 or more", field("edge_step"),
+         step);
   }
   const std::vector<double> reach = reaches(depth, width, coc_quanta, step);
   const auto row = static_cast<std::size_t>(width);

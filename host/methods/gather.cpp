@@ -30,11 +30,12 @@ double pass_radius(const GatherSettings& s, int pass) {
 
 void validate(const GatherSettings& s) {
   if (s.samples < 1 || s.samples > poisson_disk_max_count) {
-    fail(ErrorKind::usage, "--samples is {}: allowed are 1 to {}", s.samples,
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to {}", field("samples"), s.samples,
          poisson_disk_max_count);
   }
   if (s.passes < 1 || s.passes > gather_max_passes) {
-    fail(ErrorKind::usage, "--passes is {}: allowed are 1 to {}", s.passes, gather_max_passes);
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to {}", field("passes"), s.passes,
+         gather_max_passes);
   }
 }
 

@@ -25,8 +25,9 @@ int linear_reach(std::span<const std::int32_t> coc_quanta) {
   if (largest > linear_max_radius_px << DEFRAY_COC_FRACTION_BITS) {
     fail(ErrorKind::usage,
          "CoC radii go up to {:.6g} px: linear filtering takes {} px at most; limit them with "
-         "--max-coc, or use --method rdb",
-         static_cast<double>(radius_px(largest)), linear_max_radius_px);
+         "{}, or use {} rdb",
+         static_cast<double>(radius_px(largest)), linear_max_radius_px, field("max_coc_px"),
+         field("method"));
   }
   return reach_of(largest);
 }

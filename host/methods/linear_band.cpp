@@ -18,8 +18,7 @@ std::size_t within(double distance) {
 
 }  // namespace
 
-DiscNorms::DiscNorms(int reach)
-    : count_(size(squared(reach + 1)) + 1), distance_(count_.size()) {
+DiscNorms::DiscNorms(int reach) : count_(size(squared(reach + 1)) + 1), distance_(count_.size()) {
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
       const std::size_t d2 = size(x * x + y * y);
@@ -44,8 +43,9 @@ int linear_band_rows(int width, int height, int reach, std::size_t memory_bytes)
   const std::size_t least = linear_band_bytes(width, reach, 1);
   if (memory_bytes < least) {
     fail(ErrorKind::usage,
-         "--memory is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
-         std::ldexp(static_cast<double>(memory_bytes), -20), width, reach, (least >> 20) + 1);
+         "{} is {:.3g} MiB: one row of {} pixels with CoC radii up to {} px needs {} MiB",
+         field("memory"), std::ldexp(static_cast<double>(memory_bytes), -20), width, reach,
+         (least >> 20) + 1);
   }
   const std::size_t row = linear_band_bytes(width, reach, 2) - least;
   return static_cast<int>(std::min(size(height), 1 + (memory_bytes - least) / row));

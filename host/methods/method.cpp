@@ -49,10 +49,9 @@ MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Stages& stages
   return out;
 }
 
-constexpr std::array rows{Row{Method::rdb, "rdb", run_rdb},
-                          Row{Method::linear, "linear", run_linear},
-                          Row{Method::gather, "gather", run_gather},
-                          Row{Method::tiltshift, "tiltshift", run_tiltshift}};
+constexpr std::array rows{
+    Row{Method::rdb, "rdb", run_rdb}, Row{Method::linear, "linear", run_linear},
+    Row{Method::gather, "gather", run_gather}, Row{Method::tiltshift, "tiltshift", run_tiltshift}};
 
 const Row& row_of(Method method) {
   for (const Row& row : rows) {

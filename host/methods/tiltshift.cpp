@@ -9,14 +9,15 @@ namespace defray {
 
 void validate(const TiltshiftSettings& s) {
   if (!(s.band_centre >= 0 && s.band_centre <= 1)) {
-    fail(ErrorKind::usage, "--band-centre is {}: allowed are 0 (top) to 1 (bottom of the frame)",
-         s.band_centre);
+    fail(ErrorKind::usage, "{} is {}: allowed are 0 (top) to 1 (bottom of the frame)",
+         field("band_centre"), s.band_centre);
   }
   if (!(s.band_width >= 0 && s.band_width <= 1)) {
-    fail(ErrorKind::usage, "--band-width is {}: allowed are 0 to 1 frame heights", s.band_width);
+    fail(ErrorKind::usage, "{} is {}: allowed are 0 to 1 frame heights", field("band_width"),
+         s.band_width);
   }
   if (!(s.max_blur_px >= 0 && s.max_blur_px <= linear_max_radius_px)) {
-    fail(ErrorKind::usage, "--max-blur is {} px: allowed are 0 to {}", s.max_blur_px,
+    fail(ErrorKind::usage, "{} is {} px: allowed are 0 to {}", field("max_blur_px"), s.max_blur_px,
          linear_max_radius_px);
   }
 }

@@ -73,8 +73,8 @@ class Band {
   void launch(const Args&... args) {
     const std::size_t layers = size(frame_.layers);
     const std::size_t first = size(rows_.y - rows_.window_y) * layers;
-    session_.launch_from({0, first}, kernel_.c_str(), {size(frame_.width), size(rows_.rows) * layers},
-                         args...);
+    session_.launch_from({0, first}, kernel_.c_str(),
+                         {size(frame_.width), size(rows_.rows) * layers}, args...);
     for (const auto& read : reads_) read();
   }
 

@@ -49,9 +49,10 @@ const std::vector<Launch>& launch_table() {
 
 const Launch& launch_of(const std::string& kernel) {
   const auto& table = launch_table();
-  const auto found = std::find_if(table.begin(), table.end(),
-                                  [&](const Launch& l) { return kernel == l.kernel; });
-  if (found == table.end()) fail(ErrorKind::internal, "kernel '{}' is not in the launch table", kernel);
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Launch& l) { return kernel == l.kernel; });
+  if (found == table.end())
+    fail(ErrorKind::internal, "kernel '{}' is not in the launch table", kernel);
   return *found;
 }
 

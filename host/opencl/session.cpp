@@ -125,9 +125,8 @@ void Session::set_work_group(const std::string& kernel, std::size_t x, std::size
 
 cl::Buffer Session::buffer(std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
-    fail(ErrorKind::device,
-         "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory", bytes >> 20,
-         info_.name, info_.max_buffer_bytes >> 20);
+    fail(ErrorKind::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower {}",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20, field("memory"));
   }
   return checked(info_, "clCreateBuffer", [&] {
     cl::Buffer made(context_, CL_MEM_READ_WRITE, bytes);
@@ -140,8 +139,8 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
     fail(ErrorKind::device,
          "{} MiB of one image plane are within reach of a band: {} allows at most {} MiB a buffer; "
-         "lower --max-coc",
-         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
+         "lower {}",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20, field("max_coc_px"));
   }
   // A CPU works in host memory itself; anything else gets its copy once, here.
   const cl_mem_flags how = works_in_host_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;

@@ -16,9 +16,6 @@
 
 namespace defray {
 
-/// What passes take of a device where nobody says otherwise.
-inline constexpr std::size_t default_memory_bytes = std::size_t{512} << 20;
-
 struct SessionOptions {
   bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
   Math math = Math::strict;
@@ -124,7 +121,7 @@ class Session {
   void launch_from(const std::vector<std::size_t>& first, const char* name,
                    const std::vector<std::size_t>& global, const Args&... args) {
     cl::Kernel& kernel = kernel_of(name);
-    cl_uint index = 0;
+    [[maybe_unused]] cl_uint index = 0;
     (set_arguments(kernel, name, index, args), ...);
     enqueue(kernel, name, global, first);
   }

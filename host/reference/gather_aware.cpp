@@ -85,8 +85,8 @@ float covers(float coc, float distance) {
   return std::clamp(std::fabs(coc) + 0.5f - distance, 0.0f, 1.0f);
 }
 
-void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, float quantum,
-                 int x, int y, float search, const std::vector<std::array<float, 2>>& samples,
+void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, float quantum, int x,
+                 int y, float search, const std::vector<std::array<float, 2>>& samples,
                  std::vector<Plane>& out) {
   const std::size_t at = frame.index(x, y);
   const float own_radius = std::fabs(static_cast<float>(coc[at]) * quantum);

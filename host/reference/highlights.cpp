@@ -22,8 +22,7 @@ float light_of(const Frame& f, std::size_t at, int light_channels) {
 }
 
 /// Light of the front fragments at 32 points around a disc, those within the frame and seen.
-std::vector<float> light_around(const Frame& f, int x, int y, float radius,
-                                int light_channels) {
+std::vector<float> light_around(const Frame& f, int x, int y, float radius, int light_channels) {
   std::vector<float> light;
   for (int i = 0; i < 32; ++i) {
     const double angle = i % 16 * std::numbers::pi / 8;
@@ -186,8 +185,7 @@ void add_light(const LightSources& lights, const Frame& f, const RayPlan& plan,
   Plane open(has_rim ? means[0].size() : 0);  // what the rim leaves counts as all light
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto width = static_cast<std::size_t>(f.width);
-    const RimCentre rim =
-        rim_at(plan, static_cast<int>(i % width), static_cast<int>(i / width));
+    const RimCentre rim = rim_at(plan, static_cast<int>(i % width), static_cast<int>(i / width));
     const std::uint64_t passes = light_through(table, {}, rim);
     open[i] = std::fmax(static_cast<float>(passes) * lights.share_of_light, 1e-6f);
   }

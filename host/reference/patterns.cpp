@@ -75,8 +75,7 @@ void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, Pat
       if (sum >> DEFRAY_PATTERN_COUNT_BIT < least_pairs(settings.window_px)) continue;
       const Weight weight(sum);
       for (std::size_t c = 0; c < out.difference.size(); ++c) {
-        out.difference[c][here] +=
-            weight.w * (frame.channels[c][there] - behind.channels[c][here]);
+        out.difference[c][here] += weight.w * (frame.channels[c][there] - behind.channels[c][here]);
       }
       out.weight[here] += weight.w;
       out.weighted_square[here] += weight.square_w;

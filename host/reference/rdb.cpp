@@ -107,12 +107,10 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
     if (!is_fragment(depth[source])) continue;
     const int x = static_cast<int>(source % size(f.width));
     const int y = static_cast<int>(source / size(f.width) / size(f.layers));
-    if (!coverage.empty() &&
-        !scatter.sends(x, y, (coverage[source] & 0x7fffffffu) / 65536.0)) {
+    if (!coverage.empty() && !scatter.sends(x, y, (coverage[source] & 0x7fffffffu) / 65536.0)) {
       continue;
     }
-    const double r =
-        std::ldexp(static_cast<double>(coc[source]), -DEFRAY_COC_FRACTION_BITS);
+    const double r = std::ldexp(static_cast<double>(coc[source]), -DEFRAY_COC_FRACTION_BITS);
     scatter.for_each_target(x, y, r, [&](std::size_t target) {
       // Sources come in index order: an equal depth never replaces an earlier one.
       const std::int64_t held = winner[target];
@@ -149,8 +147,8 @@ std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
 /// Calls visit(target, source, arrived) for every cell that shows a source, cell by cell in lens
 /// order, and begin() before each cell.
 template <typename Begin, typename Visit>
-void for_each_winner(const Frame& f, const RayPlan& plan, const Begin& begin,
-                     const Visit& visit, const Progress& progress) {
+void for_each_winner(const Frame& f, const RayPlan& plan, const Begin& begin, const Visit& visit,
+                     const Progress& progress) {
   const std::size_t count = plan.cells.centres.size();
   for (std::size_t cell = 0; cell < count; ++cell) {
     const auto winner = rdb_scatter(f, plan, cell);
@@ -168,8 +166,7 @@ bool is_cut_off(const RayPlan& plan, int width, std::size_t pixel,
                 const std::array<std::int32_t, 2>& u) {
   if (plan.rim_x.empty()) return false;
   const auto columns = static_cast<std::size_t>(width);
-  return !passes_rim({plan.rim_x[pixel % columns], plan.rim_y[pixel / columns]}, u[0],
-                     u[1]);
+  return !passes_rim({plan.rim_x[pixel % columns], plan.rim_y[pixel / columns]}, u[0], u[1]);
 }
 
 /// The nearer of two fragments, of equal depths the first; -1: none yet.
@@ -241,8 +238,8 @@ std::vector<std::vector<double>> exact_rays(const Frame& f, const RayPlan& plan)
   for_each_winner(f, plan, [&] { ++cell; }, add, {});
   for (std::size_t c = 0; c < mean.size(); ++c) {
     for (std::size_t i = 0; i < filled.size(); ++i) {
-      mean[c][i] =
-          filled[i] == 0 ? static_cast<double>(f.channels[c][f.front_of(i)]) : mean[c][i] / filled[i];
+      mean[c][i] = filled[i] == 0 ? static_cast<double>(f.channels[c][f.front_of(i)])
+                                  : mean[c][i] / filled[i];
     }
   }
   return mean;

@@ -1,6 +1,6 @@
 #pragma once
-// Parts of the scalar twins (reference/twin_stages.h) by themselves, and exact arithmetic to measure
-// rounding against.
+// Parts of the scalar twins (reference/twin_stages.h) by themselves, and exact arithmetic to
+// measure rounding against.
 #include <cstdint>
 #include <vector>
 

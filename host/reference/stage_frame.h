@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "reference/twin_stages.h"
 #include "lens/coc.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 
@@ -19,7 +19,8 @@ inline Place operator*(int n, Place a) { return {n * a.x, n * a.y}; }
 
 /// The CoC of a frame of one layer, which goes on beyond its edges.
 struct CocFrame {
-  explicit CocFrame(const Frame& f) : width(f.width), height(f.height), coc_quanta(f.coc_quanta.host()) {}
+  explicit CocFrame(const Frame& f)
+      : width(f.width), height(f.height), coc_quanta(f.coc_quanta.host()) {}
   int width, height;
   std::span<const std::int32_t> coc_quanta;
 

@@ -1,7 +1,7 @@
 #pragma once
 // The scalar twins: every kernel once more, written from the papers' formulas and not from the
-// kernels. They define what a kernel must compute; --device reference runs them. Floats are added
-// in the kernels' order: equal bits.
+// kernels. They define what a kernel must compute; they run where there is no device. Floats are
+// added in the kernels' order: equal bits.
 #include <cstdint>
 #include <vector>
 

@@ -16,7 +16,11 @@ Subject make_subject(Stages& stages, Scene scene, const std::string& setting) {
 }
 
 std::vector<Plane> render(Stages& stages, const Subject& s, const MethodSettings& settings) {
-  Frame frame = s.frame();
+  Frame frame{s.scene.width,
+              s.scene.height,
+              {},
+              Values<float>::view(s.pinhole.depth.data(), s.pinhole.depth.size()),
+              Planes::view(s.pinhole.colour)};  // not copied: that would be timed too
   frame.coc_quanta = stages.coc(s.lens, s.scene.width, frame.depth);
   return apply_method(frame, settings, stages).colour;
 }

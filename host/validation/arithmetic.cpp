@@ -152,7 +152,7 @@ const std::vector<Variant>& variants() {
       {"strict", "as written: contraction off, divisions and roots correctly rounded", with("")},
       {"mad", "-cl-mad-enable: a * b + c in one, contraction on",
        with(std::string("-cl-mad-enable ") + no_pragma)},
-      {"fast", "-cl-fast-relaxed-math, contraction on (--math fast)", fast()},
+      {"fast", "-cl-fast-relaxed-math, contraction on (math fast)", fast()},
       {"denormals flushed", "-cl-denorms-are-zero", with("-cl-denorms-are-zero")}};
   return all;
 }

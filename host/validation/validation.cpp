@@ -141,7 +141,7 @@ const KernelCheck& find_check(const std::string& kernel) {
     if (kernel == check.name) return check;
     names.push_back(check.name);
   }
-  fail(ErrorKind::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
+  fail(ErrorKind::usage, "{} '{}' is not known.{} Known: {}", field("kernel"), kernel,
        did_you_mean(kernel, names), join(names, " "));
 }
 

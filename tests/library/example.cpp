@@ -5,12 +5,10 @@
 int main(int, char** names) try {
   auto file = defray::PictureFile::read(names[1]);
   const auto& in = file.picture();
-  defray::Picture picture;  // spans of floats: any renderer's planes, row by row
-  picture.data = {0, 0, in.data.width, in.data.height};
+  defray::Picture picture{.data = in.data};  // and spans of floats: any renderer's planes will do
   picture.colour = {in.colour[0], in.colour[1], in.colour[2]};
   picture.depth = in.depth;
-  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 50 / 1.4};
-  lens.focus_distance_units = 1.2;
+  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 35, .focus_distance_units = 1.2};
   defray::Options options;
   options.chain->aperture.blades = 6;
   auto device = defray::Device::open();

@@ -35,6 +35,9 @@ enum class Math {
   fast,    ///< The compiler may fuse and approximate: results differ from device to device.
 };
 
+/// What the stages take of a device where nobody says otherwise.
+inline constexpr std::size_t default_memory_bytes = std::size_t{512} << 20;
+
 struct DeviceOptions {
   Math math = Math::strict;
 };
@@ -61,8 +64,9 @@ class DEFRAY_API Device {
 
   const std::string& name() const;
 
-  /// What is made on the device at a time for one stage, 512 MiB unless set. The same bits come
-  /// from more or less. Throws Error(usage) for the reference, which has no device memory.
+  /// What is made on the device at a time for one stage; default_memory_bytes unless set. The same
+  /// bits come from more or less. Throws Error(usage) for the reference, which has no device
+  /// memory.
   void set_memory(std::size_t bytes);
 
   /// Work-group of every kernel, or of one; {0, 0}: each kernel's own, the default. The same bits
