@@ -4,6 +4,7 @@
 
 #include <ctime>
 
+#include "defray/defray.h"
 #include "image/safe_output.h"
 #include "progress.h"
 #include "validate.h"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/device_stages.h"
 #include "measure/html_report.h"
 #include "methods/method.h"
 #include "scenes/subject.h"
@@ -15,7 +16,7 @@ namespace defray::perf {
 /// How an experiment runs.
 struct Bench {
   std::string folder;     ///< Pictures and plots go here.
-  Stages& stages;         ///< Of the device that is measured.
+  DeviceStages& stages;   ///< Of the device that is measured.
   bool is_quick = false;  ///< Small pictures and few repetitions: to see that it works.
   std::function<void(const std::string& step)> step;  ///< Told before each long step.
 

@@ -15,7 +15,7 @@ build "$folder" -C "$tests/presets/$name.cmake"
 
 if [ "$name" = coverage ]; then find "$folder" -name '*.gcda' -delete; fi
 failed=0
-for program in kernel_tests host_tests program_tests; do
+for program in kernels_tests host_tests command_tests; do
   bash "$tests/preset_run.sh" "$name" "$folder/bin/$program" "$@" || failed=1
 done
 if [ "$name" = coverage ]; then

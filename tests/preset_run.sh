@@ -6,20 +6,24 @@ shift 2
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # Other runtimes that the loader opens leak as they are closed again, and then have no name.
 export OCL_ICD_VENDORS=/etc/OpenCL/vendors/pocl.icd
-export LSAN_OPTIONS=suppressions=$tests/lsan.supp:print_suppressions=0
+export LSAN_OPTIONS=suppressions=$tests/presets/lsan.supp:print_suppressions=0
 # Leaks are sought in the library: asking each of 600 processes takes minutes.
-case $program in *program_tests) export ASAN_OPTIONS=detect_leaks=0 ;; esac
+case $program in *command_tests) export ASAN_OPTIONS=detect_leaks=0 ;; esac
 export UBSAN_OPTIONS=print_stacktrace=1
-export TSAN_OPTIONS=suppressions=$tests/tsan.supp:print_suppressions=0
-# Left out what only costs time or memory there, and runs without instruments: huge frames, whole
-# pictures against truths, long sums over lens points, cold kernel caches, damaged files once more
-# (host_tests reads them too), twins with jitter beside those without; and the real window, whose
-# toolkit leaks.
-left_out=*Huge*:*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
+export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
+# Left out what only costs time there, and runs without instruments: cold kernel caches, damaged
+# files once more (host_tests reads them too), twins with jitter beside those without; and the real
+# window, whose toolkit leaks. Long tests run where DEFRAY_TEST_LONG is set: for coverage.
+unset DEFRAY_TEST_LONG
+left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*
 case $name in
-  tsan) left_out+=:*EveryDamagedFile* ;;  # minutes, in OpenEXR's threads and not ours
-  coverage) left_out=*Huge* ;;
+  tsan)
+    left_out+=:*EveryDamagedFile*  # minutes, in OpenEXR's threads and not ours
+    export DEFRAY_TEST_EXEC=1 ;;   # it takes no forks of a process with threads
+  coverage)
+    left_out=*Huge*
+    export DEFRAY_TEST_LONG=1 ;;
 esac
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
@@ -27,7 +31,7 @@ trap 'rm -f "$log"' EXIT
 # issue 1353): then once more, from the start.
 for _ in 1 2 3; do
   code=0
-  "$program" --gtest_filter="-$left_out" "$@" 2>&1 | tee "$log" || code=$?
+  "$program" --gtest_filter="${GTEST_FILTER:-*}-$left_out" "$@" 2>&1 | tee "$log" || code=$?
   [ $code -ne 0 ] && grep -q 'LeakSanitizer has encountered a fatal error' "$log" || exit $code
 done
 exit $code

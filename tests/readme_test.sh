@@ -9,7 +9,7 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readme=$(realpath "$1")
 place=$(realpath --relative-to="$project" "$readme")
 export PATH=$(realpath "$(dirname "$2")"):$PATH
-full=${3:-}
+full=${3:-${DEFRAY_TEST_LONG:+--full}}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir -p "$folder/$(dirname "$place")"

@@ -1,9 +1,50 @@
 #!/usr/bin/env bash
-# All tests: installs what is missing, builds, runs CTest. Arguments go to ctest (-R Render, -V …).
-export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev clang-format clang-tidy
-  libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium"
-source "$(dirname "${BASH_SOURCE[0]}")/../cli/setup.sh"
-build "$project/build" -DCMAKE_BUILD_TYPE=Release -DDEFRAY_TESTS=ON -DDEFRAY_BENCHMARKS=ON
-build "$project/build/asan" -C "$project/tests/presets/asan.cmake"
-build "$project/build/fuzz" -C "$project/tests/presets/fuzz.cmake"
-exec ctest --test-dir "$project/build" --output-on-failure --parallel "$(nproc)" "$@"
+# All tests: run.sh [--full] [-R NAME] [arguments for ctest]. What that means: tests/README.md.
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+full= name= rest=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --full) full=1 ;;
+    -R) name=$2 && shift ;;
+    *) rest+=("$1") ;;
+  esac
+  shift
+done
+begin=$SECONDS
+export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev clang-format lld"
+if [ -n "$full" ]; then
+  EXTRA_PACKAGES+=" libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium"
+fi
+source "$project/cli/setup.sh"
+
+folder=$project/build/tests
+if [ -n "$full" ]; then
+  echo "All tests, sanitizers, simulator, second OpenCL implementation, faults and fuzzers included."
+  export DEFRAY_TEST_LONG=1
+  which=(-L 'default|full')
+else
+  echo "Every kernel, option, message and documented command (--full: all there is)."
+  which=(-L default)
+fi
+step() { echo "[$((SECONDS - begin)) s] $1"; }
+step "Building"
+build "$folder" -C "$project/tests/presets/tests.cmake"
+[ -z "$full" ] || build "$folder/asan" -C "$project/tests/presets/asan.cmake"
+
+# Kernels are compiled anew for each build, and leave the user's cache alone.
+export POCL_CACHE_DIR=$folder/kernel-cache
+rm -rf "$folder/results" "$POCL_CACHE_DIR"
+mkdir -p "$POCL_CACHE_DIR"
+if [ -n "$name" ]; then
+  export GTEST_FILTER="*$name*"
+  which+=(-L gtest)
+fi
+step "Testing"
+code=0
+ctest --test-dir "$folder" --progress --output-on-failure --parallel "$(nproc)" "${which[@]}" \
+  "${rest[@]}" || code=$?
+count() { cat "$folder"/results/*.json 2>/dev/null | grep -c "$1" || true; }
+echo "Of $(count '"status": "RUN"') tests $(count '"failures": \[') failed and" \
+  "$(count '"result": "SKIPPED"') were skipped${full:+ for what is not installed here}."
+step "$([ $code -eq 0 ] && echo "All passed." || echo "FAILED: see above.")"
+exit $code

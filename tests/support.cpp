@@ -67,8 +67,12 @@ std::vector<Stages*> device_and_twins() { return {&device(), &twins()}; }
 
 bool is_slow_device() { return validation::is_simulator(device_under_test()); }
 
+bool takes_long_tests() { return std::getenv("DEFRAY_TEST_LONG") != nullptr; }
+
 std::vector<Size> awkward_sizes() {
-  return {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {640, 480}};
+  std::vector<Size> sizes{{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}};
+  if (takes_long_tests()) sizes.push_back({640, 480});
+  return sizes;
 }
 
 namespace {

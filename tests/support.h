@@ -51,7 +51,7 @@ struct Size {
   int width, height;
 };
 
-/// 1x1, a column, a row, odd, prime, and a picture.
+/// 1x1, a column, a row, odd, prime, and in a full run a picture.
 std::vector<Size> awkward_sizes();
 
 /// Depths 1...9 with many ties, some background.
@@ -83,6 +83,12 @@ class Folder {
 
 /// The data folder beside the project, or an empty string: tests that need it skip themselves.
 std::string shared_folder();
+
+/// Whether tests may take their time: `run.sh --full`.
+bool takes_long_tests();
+
+#define SKIP_UNLESS_FULL() \
+  if (!defray::test::takes_long_tests()) GTEST_SKIP() << "long: run.sh --full runs it"
 
 #define SKIP_WITHOUT_SHARED() \
   if (defray::test::shared_folder().empty()) GTEST_SKIP() << "no ../shared beside the project"

@@ -108,9 +108,14 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
                        Level level, OclgrindLog& log, DeviceResult& device,
                        const std::function<void(double)>& progress) {
   const Stopwatch watch;
-  const std::vector<Case> cases = settings.only_case.empty()
-                                      ? grid(level, check, session.info().max_work_group)
-                                      : std::vector<Case>{parse_case(settings.only_case)};
+  std::vector<Case> cases = settings.only_case.empty()
+                                ? grid(level, check, session.info().max_work_group)
+                                : std::vector<Case>{parse_case(settings.only_case)};
+  for (Case& c : cases) {
+    if (settings.group_x == 0) break;
+    c.group_x = settings.group_x;
+    c.group_y = 1;
+  }
   CheckRun run(session, check, device);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     try {

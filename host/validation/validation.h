@@ -56,6 +56,7 @@ struct Settings {
   std::string only_case;             ///< This case instead of the grid.
   SessionOptions session;
   bool stops_at_first = false;  ///< Of a kernel's cases, none after the first that fails.
+  int group_x = 0;              ///< Work-group {group_x, 1} for all cases; 0: each case its own.
 };
 
 /// Runs the checks; on a simulator the smallest frames whatever the level. `progress` gets the

@@ -2,7 +2,7 @@
 # The library as a user has it: installed, found by CMake and by pkg-config, used without any other
 # header of ours, with the bits of the command line. library_test.sh BUILD README CXX
 set -euo pipefail
-build=$1 readme=$2 cxx=$3
+build=$(realpath "$1") readme=$(realpath "$2") cxx=$3
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -148,6 +148,7 @@ double bound_px(double radius_px) {
 
 std::vector<double> radii() {
   if (is_slow_device()) return {0.3, 1.5, 5};
+  if (!takes_long_tests()) return {0.3, 0.77, 2, 8, 34.7};
   return {0.3, 0.5, 0.77, 1, 1.5, 2, 3.3, 5, 8, 13, 21, 34.7, 55, 90, 128};
 }
 

@@ -161,6 +161,7 @@ Input formula_rows(int width, int first, int rows) {
 }
 
 TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
+  SKIP_UNLESS_FULL();
   if (is_slow_device()) GTEST_SKIP() << "134 million pixels";
   constexpr int width = 16384, height = 8192, reach = 11, rows = 40;
   RdbSettings settings;

@@ -7,12 +7,18 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "forks.h"
+
 namespace defray::test {
 namespace {
 
 std::string text_of(const std::string& path) {
   std::ifstream stream(path);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int code_of(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 }  // namespace
@@ -23,15 +29,16 @@ Result shell(const Folder& folder, const std::string& command) {
   const Folder logs;
   const std::string line = "cd '" + folder.path() + "' && { " + command + "; } >'" +
                            (logs / "out") + "' 2>'" + (logs / "err") + "' </dev/null";
-  const int status = std::system(line.c_str());
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  const int code = code_of(std::system(line.c_str()));
   return {code, text_of(logs / "out"), text_of(logs / "err")};
 }
 
 Result defray(const Folder& folder, const std::string& arguments, const std::string& prefix) {
-  return shell(folder, prefix + " " + program() + " " + arguments);
+  if (!prefix.empty()) return shell(folder, prefix + " " + program() + " " + arguments);
+  const Folder logs;
+  const int code = code_of(run_in_fork({folder.path(), logs / "out", logs / "err", arguments}));
+  return {code, text_of(logs / "out"), text_of(logs / "err")};
 }
-
 void write_picture_file(const Folder& folder, const std::string& name,
                         const std::vector<std::string>& channels, Size size) {
   std::vector<Plane> planes;

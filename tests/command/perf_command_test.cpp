@@ -32,6 +32,7 @@ class PerfCommand : public testing::Test {
 };
 
 TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
+  SKIP_UNLESS_FULL();
   const Result result = perf("experiment all -o report --quick");
   expect_ok(result);
   EXPECT_EQ(result.err, "");  // no progress without a terminal
@@ -54,6 +55,7 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
 }
 
 TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
+  SKIP_UNLESS_FULL();
   expect_ok(perf("experiment truth -o report --quick"));
   const std::string mechanisms = text_of("report/truth-mechanisms.csv");
   for (const std::string row : {"pinhole,", "literal RDB 9x9,", "default,", "--hidden off,",

@@ -1,0 +1,93 @@
+# What `ctest` runs: few processes, each with many tests, as many of a program as keep all cores at
+# work. Label "full": only `run.sh --full` runs it.
+set(here ${CMAKE_CURRENT_SOURCE_DIR})
+
+# add_shards(NAME COUNT COST LABEL COMMAND...): COUNT processes that share a program's tests.
+function(add_shards name count cost label)
+  foreach(shard RANGE 1 ${count})
+    math(EXPR index "${shard} - 1")
+    set(test ${name})
+    if(count GREATER 1)
+      set(test ${name}_${shard})
+    endif()
+    add_test(NAME ${test} COMMAND ${ARGN})
+    set_tests_properties(
+      ${test}
+      PROPERTIES LABELS "gtest;${label}" COST ${cost} TIMEOUT 1200
+                 ENVIRONMENT
+                 "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${test}.json"
+    )
+  endforeach()
+endfunction()
+
+# add_check(NAME COST LABEL COMMAND...)
+function(add_check name cost label)
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set_tests_properties(${name} PROPERTIES LABELS "check;${label}" COST ${cost} TIMEOUT 1200)
+endfunction()
+
+add_shards(command 3 50 default command_tests)
+add_shards(kernels 2 40 default kernels_tests)
+add_shards(host 1 30 default host_tests)
+# One seed: `RC_PARAMS=seed=N` repeats what a failure prints; without it every run is new.
+add_shards(properties 1 1 default properties_tests)
+set_property(TEST properties APPEND PROPERTY ENVIRONMENT "RC_PARAMS=seed=1994")
+
+# The commands of every README, and with label "full" those too that take minutes.
+file(GLOB readmes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/*/README.md)
+foreach(readme ${readmes})
+  cmake_path(GET readme PARENT_PATH folder)
+  cmake_path(GET folder FILENAME folder)
+  if(readme STREQUAL ${PROJECT_SOURCE_DIR}/README.md)
+    set(folder project)
+  endif()
+  add_check(readme_${folder} 20 default bash ${here}/readme_test.sh ${readme}
+            $<TARGET_FILE:defray>)
+endforeach()
+# The installed library, as a user's project finds and uses it.
+add_check(library 20 default bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
+          ${PROJECT_SOURCE_DIR}/README.md ${CMAKE_CXX_COMPILER})
+add_check(format 1 default bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
+
+# All faults, on PoCL alone: every fault is a program to compile.
+add_shards(faults 2 90 full faults_tests)
+
+# The same kernel tests on another OpenCL implementation, and under Oclgrind; not those of whole
+# pictures, which many kernels make, nor long comparisons with twins: validate makes them there.
+set(left_out "*Picture*:*Closer*:HighlightDisc*:Alpha*:Rdb.SameBitsForEveryMemory*")
+set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*)
+add_shards(rusticl 2 80 full bash -c
+           "\"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
+set_property(TEST rusticl_1 rusticl_2 APPEND PROPERTY ENVIRONMENT "RUSTICL_ENABLE=llvmpipe"
+             "DEFRAY_TEST_DEVICE=llvmpipe")
+add_check(oclgrind 100 full bash ${here}/oclgrind.sh $<TARGET_FILE:kernels_tests> -${left_out})
+add_check(oclgrind_races 10 full oclgrind $<TARGET_FILE:faults_tests> --gtest_filter=*Races*)
+# Nothing run, or skipped, is "PASSED 0 tests" and exit code 0.
+set_tests_properties(oclgrind_races PROPERTIES PASS_REGULAR_EXPRESSION "PASSED  . 2 tests")
+
+# 'defray validate' keeps Oclgrind's findings itself. Reads of uninitialised memory are sought where
+# Oclgrind 21.10 neither raises false alarms (on values that come through loops) nor breaks off;
+# elsewhere validate's own two runs in buffers of different content show them.
+set(validate $<TARGET_FILE:defray> validate -o ${CMAKE_BINARY_DIR}/validate)
+add_check(oclgrind_validate 100 full oclgrind ${validate}_oclgrind)
+add_check(oclgrind_uninitialised 20 full oclgrind ${validate}_uninitialised --kernel coc --kernel
+          edges --kernel gather_literal --kernel gather_tiles --kernel linear_psf --kernel
+          rdb_clear --kernel repair --kernel tiltshift)
+set_tests_properties(oclgrind_uninitialised PROPERTIES ENVIRONMENT OCLGRIND_UNINITIALIZED=1)
+add_check(validate_all 100 full ${validate}_all --all)
+
+# The host code under AddressSanitizer and UndefinedBehaviorSanitizer, built by run.sh.
+foreach(program kernels host command)
+  add_shards(sanitized_${program} 2 110 full bash ${here}/preset_run.sh asan
+             ${CMAKE_BINARY_DIR}/asan/bin/${program}_tests)
+endforeach()
+
+# Five seconds of every fuzzer, built by run.sh, from the seeds in corpus/ and what the runs before
+# have found. What it finds it leaves as crash-… in the build folder's fuzz/.
+foreach(name camera cases channels options sequence text)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz/found/${name})
+  add_check(fuzz_${name} 5 full ${CMAKE_BINARY_DIR}/asan/bin/fuzz_${name} -max_total_time=5
+            -timeout=60 -malloc_limit_mb=256 ${CMAKE_BINARY_DIR}/fuzz/found/${name}
+            ${here}/fuzz/corpus/${name})
+  set_tests_properties(fuzz_${name} PROPERTIES WORKING_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
+endforeach()
