@@ -5,14 +5,14 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "opencl/device.h"
+#include "defray/device.h"
 
 namespace defray::cli {
 namespace {
 
-void print_text(const std::vector<DeviceInfo>& devices) {
+void print_text(const std::vector<DeviceProperties>& devices) {
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    const DeviceInfo& d = devices[i];
+    const DeviceProperties& d = devices[i];
     fmt::print("{}: {}\n", i, d.name);
     fmt::print("   platform    {}, {}\n", d.platform, d.version);
     fmt::print("   type        {}, {} compute units, work-groups up to {}\n", d.type,
@@ -25,9 +25,9 @@ void print_text(const std::vector<DeviceInfo>& devices) {
   fmt::print("reference: the scalar twins, one thread, no OpenCL\n");
 }
 
-void print_json(const std::vector<DeviceInfo>& devices) {
+void print_json(const std::vector<DeviceProperties>& devices) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const DeviceInfo& d : devices) {
+  for (const DeviceProperties& d : devices) {
     list.push_back({{"name", d.name},
                     {"platform", d.platform},
                     {"version", d.version},
@@ -53,7 +53,7 @@ Run add_devices(CLI::App& app) {
       "Use an index or a part of a name with 'defray render --device'.\n"
       "Example: defray devices --json");
   return [json] {
-    const std::vector<DeviceInfo> devices = list_devices();
+    const std::vector<DeviceProperties> devices = Device::list();
     if (*json) {
       print_json(devices);
     } else {

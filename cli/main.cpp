@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "commands.h"
+#include "defray/defray.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
 #include "option_table.h"
@@ -103,7 +104,7 @@ void refuse_empty_values(const CLI::App& command) {
 int run(int argc, char** argv) {
   CLI::App app{about, "defray"};
   app.footer(footer);
-  app.set_version_flag("--version", "defray " DEFRAY_VERSION);
+  app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
   for (const auto add :

@@ -1,6 +1,6 @@
 #pragma once
 // --math, of every command that has it.
-#include "opencl/session.h"
+#include "defray/device.h"
 #include "words.h"
 
 namespace defray::cli {

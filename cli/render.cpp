@@ -1,17 +1,15 @@
 // defray render: one picture or a sequence through the lens.
 #include "render.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "commands.h"
-#include "device/device_stages.h"
+#include "defray/defray.h"
 #include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
 #include "progress.h"
-#include "reference/twin_stages.h"
 #include "render_job.h"
 
 namespace defray::cli {
@@ -63,45 +61,28 @@ FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   return paths;
 }
 
-/// Throws Error(usage) unless there is such a kernel.
-void check_kernel(const std::string& kernel, const std::vector<std::string>& kernels) {
-  if (std::find(kernels.begin(), kernels.end(), kernel) != kernels.end()) return;
-  fail(ErrorKind::usage, "--work-group: no kernel is called '{}'.{} There are: {}", kernel,
-       did_you_mean(kernel, kernels), join(kernels, " "));
-}
-
-void set_work_group(Session& session, const WorkGroup& group) {
-  if (group.kernel.empty()) return session.set_work_group(group.x, group.y);
-  check_kernel(group.kernel, session.kernel_names());
-  session.set_work_group(group.kernel, group.x, group.y);
-}
-
-std::unique_ptr<Session> open_session(const RenderJob& job) {
-  SessionOptions options;
-  options.math = job.math;
-  auto session = std::make_unique<Session>(
-      select_device(job.device, "; or use --device reference, the slow scalar twin"), options);
-  session->set_memory(job.memory_bytes());
-  for (const WorkGroup& group : job.work_groups) set_work_group(*session, group);
-  return session;
+Device open_device(const RenderJob& job) {
+  check_output_format(job.paths.output);
+  Device device = Device::open(job.device, {job.math});
+  if (job.is_on_reference()) return device;
+  device.set_memory(job.memory_bytes());
+  for (const WorkGroup& group : job.work_groups) {
+    if (group.kernel.empty()) {
+      device.set_work_group(group.x, group.y);
+    } else {
+      device.set_work_group(group.kernel, group.x, group.y);
+    }
+  }
+  return device;
 }
 
 /// Renders frame after frame and tells about each.
 class SequenceRun {
  public:
   SequenceRun(const RenderJob& job, std::size_t frame_count)
-      : job_(job), bar_(frame_count, frame_count == 1 ? "frame" : "frames", !job.quiet) {
-    check_output_format(job.paths.output);
-    if (job.is_on_reference()) {
-      stages_ = std::make_unique<reference::TwinStages>();
-      device_ = "the scalar reference";
-      return;
-    }
-    session_ = open_session(job);
-    stages_ = std::make_unique<DeviceStages>(*session_);
-    device_ = session_->info().name;
-    if (job.math == Math::fast) device_ += " (fast arithmetic)";
-  }
+      : job_(job),
+        bar_(frame_count, frame_count == 1 ? "frame" : "frames", !job.quiet),
+        device_(open_device(job)) {}
 
   /// False when the frame failed and --skip-bad-frames lets the run go on.
   bool render(std::optional<int> frame, std::size_t done) {
@@ -113,8 +94,8 @@ class SequenceRun {
     }
     try {
       bar_.update(done, 0);
-      FrameResult result = render_frame(outcome.paths, job_.settings, *stages_,
-                                        [&](double share) { bar_.update(done, share); });
+      FrameResult result = render_file(device_, outcome.paths, job_.settings,
+                                       [&](double share) { bar_.update(done, share); });
       outcome.report = std::move(result.report);
       last_ = std::move(result.colour);
     } catch (const Error& error) {
@@ -148,17 +129,15 @@ class SequenceRun {
   void report(const FrameOutcome& outcome) {
     bar_.clear();
     if (job_.json) {
-      print_json_line(outcome, device_);
+      print_json_line(outcome, device_.name());
     } else if (!job_.quiet) {
-      print_text(outcome, device_);
+      print_text(outcome, device_.name());
     }
   }
 
   const RenderJob& job_;
   ProgressBar bar_;
-  std::unique_ptr<Session> session_;
-  std::unique_ptr<Stages> stages_;
-  std::string device_;
+  Device device_;
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };

@@ -4,7 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "pipeline.h"
+#include "base/window.h"
+#include "defray/io.h"
 
 namespace defray::cli {
 

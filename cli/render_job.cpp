@@ -1,5 +1,8 @@
 #include "render_job.h"
 
+#include "lens/depth.h"
+#include "methods/tiltshift.h"
+
 namespace defray::cli {
 std::size_t RenderJob::memory_bytes() const {
   if (!(memory_mib > 0) || memory_mib > 1048576) {
@@ -26,6 +29,7 @@ void finish(RenderJob& job) {
   RenderSettings& s = job.settings;
   MethodSettings& m = s.method;
   job.memory_bytes();  // before anything is read
+  m.chain.reset();
   if (m.method == Method::rdb && !job.is_literal) m.chain = job.stages;
   make_lens_cells(m.rdb.cells_per_side, m.rdb.jitter);
   validate(job.stages.aperture);

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "defray/device.h"
+#include "defray/io.h"
+#include "lens/camera.h"
 #include "math_words.h"
 #include "option_table.h"
 #include "parse.h"
-#include "pipeline.h"
 
 namespace defray::cli {
 

@@ -4,6 +4,7 @@
 
 #include <ctime>
 
+#include "defray/defray.h"
 #include "image/safe_output.h"
 #include "progress.h"
 #include "validate.h"
@@ -15,7 +16,7 @@ using namespace defray::validation;
 
 std::string version_and_date() {
   const std::time_t now = std::time(nullptr);
-  return fmt::format("defray {}, {:%Y-%m-%d}", DEFRAY_VERSION, fmt::gmtime(now));
+  return fmt::format("defray {}, {:%Y-%m-%d}", version(), fmt::gmtime(now));
 }
 
 void write_reports(const ValidateOptions& o, const Page& page, const TemporaryFolder& pictures,

@@ -7,10 +7,15 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "image/depth_plane.h"
 #include "image/further_channels.h"
+#include "image/nonfinite.h"
 #include "image/output.h"
 #include "image/safe_output.h"
+#include "lens/camera.h"
 #include "lens/coc.h"
+#include "lens/depth.h"
+#include "render.h"
 
 namespace defray {
 namespace {
@@ -45,44 +50,6 @@ void check_paths(const FramePaths& paths) {
       }
     }
   }
-}
-
-std::size_t handle_nonfinite(std::vector<Plane>& colour, Nonfinite policy, const Window& data,
-                             const std::string& path) {
-  std::size_t count = 0;
-  for (Plane& plane : colour) {
-    for (std::size_t i = 0; i < plane.size(); ++i) {
-      if (std::isfinite(plane[i])) continue;
-      ++count;
-      if (policy == Nonfinite::zero) plane[i] = 0;
-      if (policy == Nonfinite::error) {
-        const auto width = static_cast<std::size_t>(data.width);
-        fail(
-            ErrorKind::input,
-            "{}: colour {} at pixel ({}, {}); {} zero replaces such values, keep lets them through",
-            path, plane[i], data.x + static_cast<int>(i % width),
-            data.y + static_cast<int>(i / width), field("nonfinite"));
-      }
-    }
-  }
-  return count;
-}
-
-/// Depth from the colour's own file, or from another one with the same data window.
-Plane read_depth(const FramePaths& paths, const RenderSettings& settings, const Source& source,
-                 FrameReport& report) {
-  std::optional<ImageFile> other;
-  if (!paths.depth.empty()) other = ImageFile::read(paths.depth, Content::data);
-  const ImageFile& file = other ? *other : source.file;
-  const ChannelName name = choose_depth(file.path(), file.parts(), settings.request, source.choice);
-  report.depth_channel = describe(name, file.parts());
-  const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
-  if (part.data != report.data) {
-    fail(ErrorKind::input,
-         "{}: depth {} has data window {}, colour in {} has {}; both must be the same", file.path(),
-         report.depth_channel, to_string(part.data), paths.input, to_string(report.data));
-  }
-  return file.plane(name.part, name.channel);
 }
 
 /// Planes of these channels, and what was not finite in them.
@@ -142,21 +109,16 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
       read_planes(source, source.choice.channels, settings, report.colour_channels, report);
   report.nonfinite_kept = settings.nonfinite == Nonfinite::keep;
   if (settings.method.method == Method::tiltshift) return source;
-  source.depth = read_depth(paths, settings, source, report);
+  DepthPlane depth = read_depth(source.file, source.choice, settings.request, paths.depth);
+  source.depth = std::move(depth.values);
+  report.depth_channel = std::move(depth.channel);
   CameraValues camera = settings.camera;
   if (settings.camera_from_metadata) {
     camera = camera_from_metadata(source.file, settings.metres_per_unit).overridden_by(camera);
     camera.source = paths.input + "'s metadata";
   }
   report.lens = make_lens(camera, settings.metres_per_unit, settings.model, settings.max_coc_px);
-  if (settings.depth.kind == DepthKind::distance && report.lens.pixels_per_metre > 0) {
-    fail(ErrorKind::usage,
-         "{} distance needs the picture's field of view, which {} and {} do not state: convert the "
-         "depth to planar z first",
-         field("depth.kind"), field("eye"), field("pixels_per_metre"));
-  }
-  report.depth = convert_depth(source.depth, settings.depth, part.data, part.display,
-                               pixel_focal_length(report.lens, part.display.width),
+  report.depth = convert_depth(source.depth, settings.depth, part.data, part.display, report.lens,
                                paths.depth.empty() ? paths.input : paths.depth);
   if (!overlap(part.data, part.display)) {
     report.notes.push_back(
@@ -197,23 +159,13 @@ RenderJob job_of(const Source& source, const RenderSettings& settings, const Fra
   return job;
 }
 
-void report_on(const Rendered& rendered, const RenderSettings& settings, FrameReport& report) {
-  report.nearest_coc_px = rendered.nearest_coc_px;
-  report.farthest_coc_px = rendered.farthest_coc_px;
-  report.coc_limited = rendered.coc_limited;
-  if (settings.method.chain) report.chain = rendered.result.report;
-}
-
 void write_outputs(const FramePaths& paths, Source& source, const Rendered& rendered,
                    const ColourChoice& choice, const std::vector<Plane>& planes,
                    FrameReport& report) {
   write_picture(paths.output, source.file, choice, planes, report.notes);
   if (!paths.coc.empty()) {
-    Plane radii;
-    for (const std::int32_t q : rendered.frame.coc_quanta) {
-      radii.push_back(static_cast<float>(q) * px_per_quantum);
-    }
-    write_plane(paths.coc, "coc", source.file, source.choice.part, radii);
+    write_plane(paths.coc, "coc", source.file, source.choice.part,
+                radii_px(rendered.frame.coc_quanta.host()));
   }
   if (!paths.confidence.empty()) {
     write_plane(paths.confidence, "confidence", source.file, source.choice.part,
@@ -236,7 +188,7 @@ FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings
   report.read_seconds = watch.lap();
 
   Rendered rendered = render(job_of(source, settings, report), stages, progress);
-  report_on(rendered, settings, report);
+  describe(rendered, settings.method, report);
   ColourChoice choice = source.choice;
   std::vector<Plane> planes = rendered.result.colour;
   render_light(source, rendered.frame, settings, stages, report, choice, planes);

@@ -42,6 +42,13 @@ void describe_coc(const RenderJob& job, Rendered& out) {
 
 }  // namespace
 
+void describe(const Rendered& rendered, const MethodSettings& method, RenderReport& report) {
+  report.nearest_coc_px = rendered.nearest_coc_px;
+  report.farthest_coc_px = rendered.farthest_coc_px;
+  report.coc_limited = rendered.coc_limited;
+  if (method.method == Method::rdb && method.chain) report.chain = rendered.result.report;
+}
+
 Rendered render(RenderJob job, Stages& stages, const Progress& progress) {
   Rendered out;
   out.frame = frame_of(job);

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "base/window.h"
+#include "defray/report.h"
 #include "frame/stages.h"
 #include "lens/lens.h"
 #include "methods/method.h"
@@ -26,6 +27,9 @@ struct Rendered {
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.
   std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
 };
+
+/// What `rendered` tells, for a report.
+void describe(const Rendered& rendered, const MethodSettings& method, RenderReport& report);
 
 /// Throws Error.
 Rendered render(RenderJob job, Stages& stages, const Progress& progress = {});

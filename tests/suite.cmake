@@ -44,6 +44,9 @@ foreach(readme ${readmes})
   add_check(readme_${folder} 20 default bash ${here}/readme_test.sh ${readme}
             $<TARGET_FILE:defray>)
 endforeach()
+# The installed library, as a user's project finds and uses it.
+add_check(library 20 default bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
+          ${PROJECT_SOURCE_DIR}/README.md ${CMAKE_CXX_COMPILER})
 add_check(format 1 default bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 
 # All faults, on PoCL alone: every fault is a program to compile.

@@ -2,12 +2,9 @@
 // Rectangles of pixels: data windows and display windows.
 #include <string>
 
-namespace defray {
+#include "defray/frame.h"
 
-struct Window {
-  int x = 0, y = 0, width = 0, height = 0;
-  bool operator==(const Window&) const = default;
-};
+namespace defray {
 
 inline bool overlap(const Window& a, const Window& b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;

@@ -1,10 +1,10 @@
 #pragma once
 // Everything that kernels compute, behind one interface: a device runs the kernels
 // (device/device_stages.h), and the scalar twins compute the same (reference/twin_stages.h).
-#include <functional>
 #include <utility>
 #include <vector>
 
+#include "defray/report.h"
 #include "frame/frame.h"
 #include "kernels/params.h"
 
@@ -18,9 +18,6 @@ struct PatternShift;
 struct PatternSums;
 struct RayPlan;
 struct RayResult;
-
-/// Gets the share done, 0 to 1.
-using Progress = std::function<void(double)>;
 
 /// What is in front at each pixel, and what lies behind it. Frames of one layer.
 struct Surfaces {

@@ -3,17 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "defray/io.h"
 #include "image/channel_names.h"
 #include "image/image_file.h"
 
 namespace defray {
-
-/// What the user asked for; empty: choose, and fail where the choice is not clear.
-struct ChannelRequest {
-  std::string layer;
-  std::string view;
-  std::string depth_channel;
-};
 
 struct ColourChoice {
   int part = 0;

@@ -9,24 +9,6 @@
 
 namespace defray {
 
-/// Lens values as a source states them; whatever it does not state is empty.
-struct CameraValues {
-  std::optional<double> focal_length_mm;
-  std::optional<double> sensor_width_mm;
-  std::optional<double> pixels_per_metre;  ///< Instead of the sensor width.
-  std::optional<double> fstop;
-  std::optional<double> aperture_diameter_mm;
-  std::optional<double> focus_distance_units;
-  /// How large the scene is to look: the aperture is divided by this (Glatzel & Wilhelm, eq. 6).
-  std::optional<double> perceived_scale;
-  /// The same by the distance at which the plane of focus seems to be, metres (eq. 5).
-  std::optional<double> perceived_distance_m;
-  std::string source;  ///< Where they are from, for messages; empty: the command line.
-
-  /// Values of `over` win over these.
-  CameraValues overridden_by(const CameraValues& over) const;
-};
-
 /// The two eyes of the papers: aperture and image distance, and the pixels that stand for a metre
 /// of retina.
 enum class Eye {

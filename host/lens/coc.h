@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/plane.h"
 #include "kernels/params.h"
 
 namespace defray {
@@ -15,6 +16,9 @@ inline constexpr float px_per_quantum = 1.0f / (1 << DEFRAY_COC_FRACTION_BITS);
 inline std::int32_t tame(std::int32_t quanta) {
   return std::clamp(quanta, -DEFRAY_TAME_QUANTA, DEFRAY_TAME_QUANTA);
 }
+
+/// Radii in pixels.
+Plane radii_px(std::span<const std::int32_t> coc_quanta);
 
 /// The largest |CoC radius|, quanta; 0 for an empty plane.
 std::int32_t largest_coc(std::span<const std::int32_t> coc_quanta);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "lens/lens.h"
 
 namespace defray {
 namespace {
@@ -96,6 +97,18 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
   }
   if (report.background == depth.size()) report.nearest_units = 0;
   return report;
+}
+
+DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Window& data,
+                          const Window& display, const Lens& lens, const std::string& path) {
+  if (settings.kind == DepthKind::distance && lens.pixels_per_metre > 0) {
+    fail(ErrorKind::usage,
+         "{} distance needs the picture's field of view, which {} and {} do not state: convert the "
+         "depth to planar z first",
+         field("depth.kind"), field("eye"), field("pixels_per_metre"));
+  }
+  return convert_depth(depth, settings, data, display, pixel_focal_length(lens, display.width),
+                       path);
 }
 
 }  // namespace defray

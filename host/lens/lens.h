@@ -2,27 +2,10 @@
 // The thin lens: physical units in, constants of the circle of confusion out.
 #include <cstdint>
 
+#include "defray/lens.h"
 #include "kernels/params.h"
 
 namespace defray {
-
-/// Which picture the pinhole frame is.
-enum class LensModel {
-  cg,         ///< Field of view fixed by the focal length; a renderer's thin-lens camera.
-  breathing,  ///< Textbook camera: image distance, and with it the field of view, follows focus.
-};
-
-struct Lens {
-  double focal_length_mm = 50;
-  double aperture_diameter_mm = 50 / 2.8;
-  double sensor_width_mm = 36;
-  /// Pixels per metre of image plane, whatever the frame's width; 0: from the sensor width.
-  double pixels_per_metre = 0;
-  double focus_distance_units = 0;  ///< Planar, scene units; infinity is allowed.
-  double metres_per_unit = 1;       ///< Scene unit.
-  double max_coc_px = 0;            ///< Limit of the radius; 0: none.
-  LensModel model = LensModel::cg;
-};
 
 /// Throws Error(usage) on values that no lens has, focus inside the focal length included.
 void validate(const Lens& lens);

@@ -4,22 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "defray/options.h"
 #include "kernels/params.h"
 
 namespace defray {
-
-enum class GatherKind {
-  literal,  ///< The paper: each pixel averages within its own CoC, and bleeds.
-  aware,    ///< Each sample is weighed by whether its light arrives.
-};
-
-struct GatherSettings {
-  GatherKind kind = GatherKind::aware;
-  int samples = 32;     ///< A pass, a pixel.
-  int passes = 2;       ///< The paper's count; later passes work on the result of the one before.
-  bool rotate = false;  ///< Turns each pixel's samples by an angle of its own.
-  std::uint32_t seed = 0;
-};
 
 inline constexpr int gather_max_passes = 8;
 

@@ -1,30 +1,16 @@
 #pragma once
 // OpenCL devices: what there is, and choosing one.
-#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "defray/device.h"
 #include "opencl/opencl.h"
 
 namespace defray {
 
-/// An OpenCL device and what matters to defray about it.
-struct DeviceInfo {
+/// An OpenCL device.
+struct DeviceInfo : DeviceProperties {
   cl::Device device;
-  std::string name;
-  std::string platform;
-  std::string version;  ///< OpenCL and driver version.
-  std::string type;     ///< CPU, GPU, accelerator.
-  std::size_t compute_units = 0;
-  std::size_t max_work_group = 0;
-  std::size_t global_memory_bytes = 0;
-  std::size_t local_memory_bytes = 0;
-  std::size_t max_buffer_bytes = 0;
-  bool has_int64_atomics = false;  ///< Packed z-test; without it the scatter runs twice.
-  bool has_double = false;
-  bool rounds_divisions = false;    ///< x / y and sqrt(x) can be correctly rounded, if asked for.
-  bool keeps_denormals = false;     ///< Otherwise floats below 2^-126 may count as 0.
-  bool shares_host_memory = false;  ///< A CPU: buffers can be host memory itself.
 };
 
 /// Every device of every platform, in platform order; empty where there is none.

@@ -8,21 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "defray/device.h"
 #include "frame/frame.h"
 #include "opencl/device.h"
 #include "opencl/device_values.h"
 #include "opencl/kernel_source.h"
 
 namespace defray {
-
-/// What passes take of a device where nobody says otherwise.
-inline constexpr std::size_t default_memory_bytes = std::size_t{512} << 20;
-
-/// How kernels compute.
-enum class Math {
-  strict,  ///< As written, every operation rounded: the scalar twins' bits.
-  fast,    ///< The compiler may fuse and approximate: results differ from device to device.
-};
 
 struct SessionOptions {
   bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "defray/options.h"
 #include "lens/lens_cells.h"
 
 namespace defray {
-
-/// As the paper has it.
-struct RdbSettings {
-  int cells_per_side = 9;
-  bool jitter = false;
-  std::uint32_t seed = 0;
-};
 
 /// What rays of a frame go through.
 struct RayPlan {

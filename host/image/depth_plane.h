@@ -1,0 +1,21 @@
+#pragma once
+// The depth that goes with a picture.
+#include <string>
+
+#include "base/plane.h"
+#include "image/channels.h"
+#include "image/image_file.h"
+
+namespace defray {
+
+struct DepthPlane {
+  Plane values;         ///< As stored.
+  std::string channel;  ///< Its name, for people.
+};
+
+/// From the colour's own file, or from `depth_path`, if given, which must have the same data
+/// window. Throws Error(input).
+DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
+                      const ChannelRequest& request, const std::string& depth_path);
+
+}  // namespace defray

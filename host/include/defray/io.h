@@ -1,0 +1,101 @@
+#pragma once
+// Pictures in files: EXR, TIFF, HDR, PNG, JPEG.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "defray/device.h"
+#include "defray/export.h"
+#include "defray/frame.h"
+#include "defray/lens.h"
+#include "defray/options.h"
+#include "defray/report.h"
+
+namespace defray {
+
+/// Which channels of a file are meant; empty: choose, and fail where the choice is not clear.
+struct ChannelRequest {
+  std::string layer;
+  std::string view;
+  std::string depth_channel;
+};
+
+/// A picture with depth, read from a file, and all else that the file has.
+class DEFRAY_API PictureFile {
+ public:
+  /// Depth is from `depth_path`, or the file itself where that is empty. PNG and JPEG are decoded
+  /// from sRGB. Throws Error(input) naming the file: missing, unreadable, no colour, no depth, or
+  /// several of them and no request that says which.
+  static PictureFile read(const std::string& path, const ChannelRequest& request = {},
+                          const std::string& depth_path = "");
+
+  PictureFile(PictureFile&&) noexcept;
+  PictureFile& operator=(PictureFile&&) noexcept;
+  ~PictureFile();
+
+  /// R G B (A) and depth as stored, in memory of this object.
+  const Picture& picture() const;
+
+  /// Writes the file anew to `path`, `colour` in place of its own. The same format keeps channels,
+  /// windows, metadata and types; another one what it can hold: returns notes of what it left out.
+  /// Throws Error(usage) for an extension that defray does not write, Error(output).
+  std::vector<std::string> write(const std::string& path,
+                                 const std::vector<std::vector<float>>& colour);
+
+  /// Writes one plane of floats (`coc`, `confidence`) with the windows and metadata of the file, to
+  /// .exr or .tif. Throws as write does.
+  void write_plane(const std::string& path, const std::string& name,
+                   const std::vector<float>& values) const;
+
+ private:
+  struct State;
+  explicit PictureFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// How to render from file to file, the same for every frame of a sequence.
+struct RenderSettings {
+  ChannelRequest request;
+  std::vector<std::string> channels;  ///< Names or globs of further channels for the lens.
+  DepthSettings depth;
+  CameraValues camera;  ///< Explicit values; they win over metadata.
+  bool camera_from_metadata = false;
+  double metres_per_unit = 1;
+  LensModel model = LensModel::cg;
+  double max_coc_px = 0;
+  Nonfinite nonfinite = Nonfinite::zero;
+  MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
+  TiltshiftSettings tiltshift;
+};
+
+/// Which files. Empty `depth`: depth is in `input`. Empty `coc`, `confidence`: not written.
+struct FramePaths {
+  std::string input, depth, output, coc, confidence = {};
+};
+
+/// What was done, for people and machines.
+struct FrameReport : RenderReport {
+  FramePaths paths;
+  Method method = Method::rdb;
+  std::vector<std::string> colour_channels;
+  std::vector<std::string> light_channels, data_channels;  ///< Further ones, by what they hold.
+  std::string depth_channel;  ///< Empty for a tilt-shift, which reads neither depth nor lens.
+  Window data, display;
+  Lens lens;
+  bool nonfinite_kept = false;
+  std::vector<std::string> notes;  ///< Whatever else the user should know.
+  double read_seconds = 0, render_seconds = 0, write_seconds = 0;
+};
+
+/// The pictures of a rendered frame, for showing.
+struct FrameResult {
+  FrameReport report;
+  std::vector<std::vector<float>> colour;  ///< As written.
+};
+
+/// Renders one frame from file to file, as `defray render` does. Throws Error.
+DEFRAY_API FrameResult render_file(Device& device, const FramePaths& paths,
+                                   const RenderSettings& settings, const Progress& progress = {});
+
+}  // namespace defray

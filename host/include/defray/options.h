@@ -1,0 +1,122 @@
+#pragma once
+// The methods and their settings.
+#include <cstdint>
+#include <optional>
+
+#include "defray/export.h"
+#include "defray/lens.h"
+
+namespace defray {
+
+enum class Method {
+  rdb,        ///< Ray distribution buffer (Shinya 1994).
+  linear,     ///< Each pixel spread over its PSF (Potmesil & Chakravarty 1981).
+  gather,     ///< Poisson-disk gather (Glatzel & Wilhelm).
+  tiltshift,  ///< A mean with `linear`'s weights, its CoC from the pixel's row: no depth.
+};
+
+/// "rdb", as on the command line.
+DEFRAY_API const char* to_string(Method method);
+
+/// The ray distribution buffer as the paper has it.
+struct RdbSettings {
+  int cells_per_side = 9;  ///< Of the lens, 1 to 64.
+  bool jitter = false;     ///< Shifts each pixel's lens samples: noise instead of patterns.
+  std::uint32_t seed = 0;
+};
+
+/// What is taken to be outside the frame. The data window is the frame: overscan is used as it is.
+enum class Border {
+  clamp,        ///< The frame's edge goes on, as far as it can reach in, at most half the frame.
+  black,        ///< The same surfaces, without light.
+  renormalise,  ///< Nothing: pixels are means over the rays that are known.
+};
+
+/// What is done about what lies behind.
+enum class Hidden {
+  off,
+  smooth,  ///< Made up from what is around.
+  on,      ///< And from where the picture repeats itself.
+};
+
+/// The stages that bring the ray distribution buffer closer to the truth.
+struct ChainSettings {
+  int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
+  Hidden hidden = Hidden::on;
+  int pattern_shifts = 24;  ///< Shifts at which Hidden::on looks, each with both its signs.
+  bool split_edges = true;
+  bool repair_depth = true;
+  bool highlights = true;
+  bool soften = true;
+  Border border = Border::clamp;
+  Aperture aperture;
+};
+
+enum class Quality { draft, normal, high };
+
+/// What goes together, the fastest first; Quality::normal is ChainSettings().
+DEFRAY_API ChainSettings settings_for(Quality quality);
+
+enum class GatherKind {
+  literal,  ///< The paper: each pixel averages within its own CoC, and bleeds.
+  aware,    ///< Each sample is weighed by whether its light arrives.
+};
+
+struct GatherSettings {
+  GatherKind kind = GatherKind::aware;
+  int samples = 32;     ///< A pass, a pixel; 1 to 1024.
+  int passes = 2;       ///< The paper's count; later passes work on the result of the one before.
+  bool rotate = false;  ///< Turns each pixel's samples by an angle of its own.
+  std::uint32_t seed = 0;
+};
+
+/// Lengths in heights of the display window, from its top.
+struct TiltshiftSettings {
+  double band_centre = 0.5;  ///< 0 to 1.
+  double band_width = 0.2;   ///< Height of the sharp band, 0 to 1.
+  double max_blur_px = 9.2;  ///< Radius at the frame's edge that is farthest from the band.
+};
+
+struct MethodSettings {
+  Method method = Method::rdb;
+  RdbSettings rdb;
+  /// rdb: with the stages that bring it closer to the truth. Empty: Shinya's method alone.
+  std::optional<ChainSettings> chain;
+  GatherSettings gather;
+};
+
+enum class DepthKind {
+  z,           ///< Planar, along the camera's axis.
+  distance,    ///< Along the ray from the camera.
+  inverse,     ///< 1 / planar depth.
+  normalized,  ///< 0 at `near`, 1 at `far`, linear in planar depth.
+};
+
+/// What the values of a depth plane mean.
+struct DepthSettings {
+  DepthKind kind = DepthKind::z;
+  bool invert = false;    ///< normalized: 1 at near, 0 at far.
+  double near_units = 0;  ///< normalized only.
+  double far_units = 0;
+  /// The stored value that means "nothing there". Empty: 65504, anything >= 1e9, inf and <= 0.
+  std::optional<double> background;
+};
+
+/// What to do with NaN and Inf colours.
+enum class Nonfinite {
+  error,
+  zero,
+  keep,  ///< They spread over the CoC of their pixel.
+};
+
+/// All that render() is told beside the lens. As they are: the ray distribution buffer with all its
+/// stages, as `defray render` without options.
+struct Options : MethodSettings {
+  Options() { chain.emplace(); }
+  TiltshiftSettings tiltshift;
+  DepthSettings depth;
+  Nonfinite nonfinite = Nonfinite::zero;
+  bool wants_nearest = false;  ///< rdb: RenderResult::nearest.
+};
+
+}  // namespace defray

@@ -1,0 +1,51 @@
+#pragma once
+// What a render tells about itself.
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace defray {
+
+/// Gets the share done, 0 to 1.
+using Progress = std::function<void(double)>;
+
+/// Of the conversion to planar depth.
+struct DepthReport {
+  std::size_t background = 0;     ///< Pixels taken as background.
+  std::size_t not_a_number = 0;   ///< NaN pixels, taken as background too.
+  std::size_t outside_range = 0;  ///< normalized: stored values outside 0...1.
+  double nearest_units = 0;       ///< Range of the rest; 0 where nothing is left.
+  double farthest_units = 0;
+};
+
+/// A stage and its time.
+struct StageTime {
+  std::string stage;
+  double seconds;
+};
+
+/// Of the stages around the ray distribution buffer.
+struct ChainReport {
+  std::size_t repaired = 0;    ///< Pixels of anti-aliased depth.
+  std::size_t behind = 0;      ///< Pixels with a made-up surface behind them.
+  std::size_t split = 0;       ///< Mixed pixels taken apart.
+  std::size_t highlights = 0;  ///< Fragments whose light became a disc.
+  int border_px = 0;           ///< By how much the frame was extended.
+  bool border_is_cut = false;  ///< Rays come from farther outside still.
+  int lens_points = 0;
+  double confidence = 0;  ///< Mean share of rays that the input determines.
+  std::vector<StageTime> stages;
+};
+
+/// Of a render.
+struct RenderReport {
+  DepthReport depth;
+  double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.
+  std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
+  std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
+  std::optional<ChainReport> chain;                ///< Of the RDB with its stages.
+};
+
+}  // namespace defray

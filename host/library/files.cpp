@@ -1,0 +1,70 @@
+#include "base/error.h"
+#include "defray/io.h"
+#include "image/depth_plane.h"
+#include "image/output.h"
+#include "library/stages_of.h"
+#include "pipeline.h"
+
+namespace defray {
+
+struct PictureFile::State {
+  ImageFile file;
+  ColourChoice choice;
+  std::vector<Plane> colour = {};
+  Plane depth = {};
+  Picture picture = {};
+};
+
+PictureFile::PictureFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PictureFile::PictureFile(PictureFile&&) noexcept = default;
+PictureFile& PictureFile::operator=(PictureFile&&) noexcept = default;
+PictureFile::~PictureFile() = default;
+
+PictureFile PictureFile::read(const std::string& path, const ChannelRequest& request,
+                              const std::string& depth_path) {
+  auto state = std::make_unique<State>(State{ImageFile::read(path), {}});
+  State& s = *state;
+  s.choice = choose_colour(path, s.file.parts(), request);
+  const PartInfo& part = s.file.parts()[static_cast<std::size_t>(s.choice.part)];
+  for (const int channel : s.choice.channels) {
+    s.colour.push_back(s.file.plane(s.choice.part, channel));
+  }
+  s.depth = read_depth(s.file, s.choice, request, depth_path).values;
+  s.picture = {part.data, part.display, {s.colour.begin(), s.colour.end()}, s.depth};
+  return PictureFile(std::move(state));
+}
+
+const Picture& PictureFile::picture() const { return state_->picture; }
+
+std::vector<std::string> PictureFile::write(const std::string& path,
+                                            const std::vector<Plane>& colour) {
+  check_output_format(path);
+  const Window& data = state_->picture.data;
+  const std::size_t count = size(data.width) * size(data.height);
+  const bool fits = colour.size() == state_->colour.size() &&
+                    std::all_of(colour.begin(), colour.end(),
+                                [&](const Plane& plane) { return plane.size() == count; });
+  if (!fits) {
+    fail(ErrorKind::usage, "{}: the colour to write is not of the size of the picture read", path);
+  }
+  std::vector<std::string> notes;
+  write_picture(path, state_->file, state_->choice, colour, notes);
+  return notes;
+}
+
+void PictureFile::write_plane(const std::string& path, const std::string& name,
+                              const Plane& values) const {
+  check_plane_format(path, name);
+  if (values.size() != state_->depth.size()) {
+    fail(ErrorKind::usage, "{}: {} is not of the size of the picture read", path, name);
+  }
+  defray::write_plane(path, name, state_->file, state_->choice.part, values);
+}
+
+FrameResult render_file(Device& device, const FramePaths& paths, const RenderSettings& settings,
+                        const Progress& progress) {
+  check_output_format(paths.output);
+  return render_frame(paths, settings, stages_of(device), progress);
+}
+
+}  // namespace defray

@@ -1,0 +1,101 @@
+#include "render.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "defray/defray.h"
+#include "image/nonfinite.h"
+#include "lens/coc.h"
+#include "lens/depth.h"
+#include "library/stages_of.h"
+
+namespace defray {
+namespace {
+
+const char* const source = "the picture";  ///< For messages, where files have their names.
+
+void check_plane(const char* what, std::span<const float> plane, const Window& data) {
+  if (plane.size() == size(data.width) * size(data.height)) return;
+  fail(ErrorKind::usage, "{} has {} values: the data window {} has {} pixels", what, plane.size(),
+       to_string(data), size(data.width) * size(data.height));
+}
+
+void check(const Picture& picture, const Options& options) {
+  const Window& data = picture.data;
+  if (data.width <= 0 || data.height <= 0) {
+    fail(ErrorKind::usage, "the data window {} has no pixels", to_string(data));
+  }
+  if (picture.display.width < 0 || picture.display.height < 0) {
+    fail(ErrorKind::usage, "the display window {} has no pixels", to_string(picture.display));
+  }
+  if (picture.colour.empty() || picture.colour.size() > 4) {
+    fail(ErrorKind::usage, "a picture has 1 to 4 planes of colour, not {}", picture.colour.size());
+  }
+  for (const auto& plane : picture.colour) check_plane("a plane of colour", plane, data);
+  if (options.method != Method::tiltshift) check_plane("the depth plane", picture.depth, data);
+}
+
+/// A view where every value is finite; else a copy in which handle_nonfinite has seen to them.
+Values<float> colour_of(std::span<const float> plane, const Window& data, Nonfinite policy,
+                        std::size_t& nonfinite) {
+  if (std::all_of(plane.begin(), plane.end(), [](float v) { return std::isfinite(v); })) {
+    return Values<float>::view(plane.data(), plane.size());
+  }
+  std::vector<Plane> copy{Plane(plane.begin(), plane.end())};
+  nonfinite += handle_nonfinite(copy, policy, data, source);
+  return std::move(copy.front());
+}
+
+Values<float> depth_of(const Picture& picture, const Window& display, const Lens& lens,
+                       const DepthSettings& settings, DepthReport& report) {
+  Plane depth(picture.depth.begin(), picture.depth.end());
+  report = convert_depth(depth, settings, picture.data, display, lens, source);
+  return depth;
+}
+
+RenderJob job_of(const Picture& picture, const Lens& lens, const Options& options,
+                 RenderReport& report) {
+  RenderJob job;
+  job.data = picture.data;
+  const bool has_display = picture.display.width > 0 && picture.display.height > 0;
+  job.display = has_display ? picture.display : picture.data;
+  for (const auto& plane : picture.colour) {
+    job.frame.channels.push_back(colour_of(plane, job.data, options.nonfinite, report.nonfinite));
+  }
+  job.method = options;
+  job.wants_nearest = options.wants_nearest;
+  job.tiltshift = options.tiltshift;
+  if (options.method == Method::tiltshift) return job;
+  job.lens = lens;
+  job.frame.depth = depth_of(picture, job.display, lens, options.depth, report.depth);
+  return job;
+}
+
+void validate(const Lens& lens, const Options& options) {
+  if (options.method == Method::tiltshift) return validate(options.tiltshift);
+  validate(lens);
+  validate(options.depth);
+  if (options.method == Method::gather) validate(options.gather);
+}
+
+}  // namespace
+
+RenderResult render(Device& device, const Picture& picture, const Lens& lens,
+                    const Options& options, const Progress& progress) {
+  check(picture, options);
+  validate(lens, options);
+  RenderResult out;
+  Rendered rendered =
+      render(job_of(picture, lens, options, out.report), stages_of(device), progress);
+  describe(rendered, options, out.report);
+  out.colour = std::move(rendered.result.colour);
+  out.coc_px = radii_px(rendered.frame.coc_quanta.host());
+  out.confidence = std::move(rendered.result.confidence);
+  out.nearest = std::move(rendered.result.nearest);
+  return out;
+}
+
+const char* version() { return DEFRAY_VERSION; }
+
+}  // namespace defray

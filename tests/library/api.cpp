@@ -1,0 +1,248 @@
+// The whole API as a user sees it: api PICTURE FOLDER. PICTURE has R, G, B and Z. Exits with 1
+// where something is not as the headers say; what it writes to FOLDER is for library_test.sh to
+// compare.
+#include <defray/defray.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using defray::Device;
+using defray::ErrorKind;
+
+int failures = 0;
+
+void expect(bool is_true, const std::string& what) {
+  if (is_true) return;
+  std::fprintf(stderr, "not so: %s\n", what.c_str());
+  ++failures;
+}
+
+/// `call` throws an Error of this kind, whose message has all of `part`.
+void expect_error(ErrorKind kind, const std::string& part, const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const defray::Error& error) {
+    const std::string message = error.what();
+    expect(error.kind() == kind && message.find(part) != std::string::npos,
+           "'" + message + "' says '" + part + "'");
+    return;
+  }
+  expect(false, "an error that says '" + part + "'");
+}
+
+/// A ramp of colour in front of a far wall, with a near square.
+struct Scene {
+  static constexpr int width = 24, height = 16, count = width * height;
+  std::vector<float> red = std::vector<float>(count), green = red, blue = red, depth = red;
+
+  Scene() {
+    for (int i = 0; i < count; ++i) {
+      const int x = i % width, y = i / width;
+      const bool is_near = x > 6 && x < 14 && y > 4 && y < 11;
+      const auto k = static_cast<std::size_t>(i);
+      red[k] = static_cast<float>(x) / width;
+      green[k] = static_cast<float>(y) / height;
+      blue[k] = is_near ? 1.0f : 0.25f;
+      depth[k] = is_near ? 1.0f : 5.0f;
+    }
+  }
+  defray::Picture picture() const {
+    defray::Picture p;
+    p.data = {0, 0, width, height};
+    p.colour = {red, green, blue};
+    p.depth = depth;
+    return p;
+  }
+};
+
+defray::Lens wide_open() {
+  defray::Lens lens;
+  lens.focal_length_mm = 50;
+  lens.sensor_width_mm = 5;
+  lens.aperture_diameter_mm = 35;
+  lens.focus_distance_units = 5;
+  return lens;
+}
+
+bool are_equal(const defray::RenderResult& a, const defray::RenderResult& b) {
+  return a.colour == b.colour && a.coc_px == b.coc_px && a.confidence == b.confidence &&
+         a.nearest == b.nearest;
+}
+
+void check_results(Device& device) {
+  const Scene scene;
+  defray::Options options;
+  options.wants_nearest = true;
+  double share = 0;
+  const auto result = defray::render(device, scene.picture(), wide_open(), options,
+                                     [&](double done) { share = done; });
+  expect(share == 1, "progress ends at 1");
+  expect(result.colour.size() == 3 && result.colour[0].size() == Scene::count, "planes are whole");
+  expect(result.colour[2] != scene.blue, "the near square is out of focus");
+  expect(result.coc_px[0] == 0 && result.coc_px[Scene::width * 7 + 10] < 0, "CoCs are signed");
+  expect(result.report.nearest_coc_px == double{result.coc_px[Scene::width * 7 + 10]},
+         "the report has the largest CoC in front");
+  expect(result.confidence.size() == Scene::count && result.nearest.size() == Scene::count,
+         "confidence and nearest hits are whole");
+  expect(result.report.chain && result.report.chain->lens_points > 100, "the report has stages");
+  expect(result.report.depth.farthest_units == 5, "the report has the depth's range");
+
+  Device reference = Device::reference();
+  expect(reference.name() == "the scalar reference", "the reference has a name");
+  expect(are_equal(result, defray::render(reference, scene.picture(), wide_open(), options)),
+         "the reference has the same bits");
+  device.set_memory(1 << 20);
+  device.set_work_group(16, 2);
+  device.set_work_group("rdb_merge", 8, 1);
+  expect(are_equal(result, defray::render(device, scene.picture(), wide_open(), options)),
+         "memory and work-groups change no bit");
+  device.set_work_group(0, 0);
+}
+
+void check_methods(Device& device) {
+  const Scene scene;
+  defray::Options options;
+  const auto render = [&] {
+    return defray::render(device, scene.picture(), wide_open(), options).colour;
+  };
+  const auto whole = render();
+  options.chain = settings_for(defray::Quality::draft);
+  const auto draft = render();
+  options.chain.reset();
+  const auto literal = render();
+  options.method = defray::Method::linear;
+  const auto linear = render();
+  options.method = defray::Method::gather;
+  const auto gather = render();
+  options.method = defray::Method::tiltshift;
+  const auto tiltshift = render();
+  const std::vector<std::vector<std::vector<float>>> all{whole,  draft,  literal,
+                                                         linear, gather, tiltshift};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) expect(all[i] != all[j], "each method has its own picture");
+  }
+  expect(defray::to_string(options.method) == std::string("tiltshift"), "methods have names");
+}
+
+void check_inputs(Device& device) {
+  Scene scene;
+  const auto colour = [&](const defray::Options& options) {
+    return defray::render(device, scene.picture(), wide_open(), options).colour;
+  };
+  defray::Options options;
+  const auto plain = colour(options);
+  std::vector<float> z = scene.depth;
+  for (float& value : scene.depth) value = 1 / value;
+  options.depth.kind = defray::DepthKind::inverse;
+  expect(colour(options) == plain, "inverse depth is understood");
+  scene.depth = z;
+
+  scene.red[5] = std::numeric_limits<float>::quiet_NaN();
+  const auto result = defray::render(device, scene.picture(), wide_open());
+  expect(result.report.nonfinite == 1 && std::isfinite(result.colour[0][5]), "NaN becomes 0");
+  options = {};
+  options.nonfinite = defray::Nonfinite::keep;
+  expect(std::isnan(colour(options)[0][5]), "NaN is kept");
+  options.nonfinite = defray::Nonfinite::error;
+  expect_error(ErrorKind::input, "the picture: colour nan at pixel (5, 0)",
+               [&] { colour(options); });
+}
+
+void check_messages(Device& device) {
+  const Scene scene;
+  const auto picture_error = [&](const std::string& part, auto&& change) {
+    defray::Picture picture = scene.picture();
+    change(picture);
+    expect_error(ErrorKind::usage, part, [&] { defray::render(device, picture, wide_open()); });
+  };
+  picture_error("the data window 0x0+0+0 has no pixels", [](auto& p) { p.data = {}; });
+  picture_error("the display window -1x4+0+0 has no pixels", [](auto& p) {
+    p.display = {0, 0, -1, 4};
+  });
+  picture_error("a picture has 1 to 4 planes of colour, not 0", [](auto& p) { p.colour = {}; });
+  picture_error("a plane of colour has 383 values: the data window 24x16+0+0 has 384 pixels",
+                [](auto& p) { p.colour[1] = p.colour[1].first(383); });
+  picture_error("the depth plane has 0 values", [](auto& p) { p.depth = {}; });
+  const auto options_error = [&](const std::string& part, auto&& change) {
+    defray::Options options;
+    change(options);
+    expect_error(ErrorKind::usage, part,
+                 [&] { defray::render(device, scene.picture(), wide_open(), options); });
+  };
+  options_error("blades", [](auto& o) { o.chain->aperture.blades = 99; });
+  options_error("samples", [](auto& o) {
+    o.method = defray::Method::gather;
+    o.gather.samples = 0;
+  });
+  options_error("near", [](auto& o) { o.depth.kind = defray::DepthKind::normalized; });
+  expect_error(ErrorKind::usage, "focus",
+               [&] { defray::render(device, scene.picture(), defray::Lens()); });
+
+  expect_error(ErrorKind::device, "no OpenCL device is called 'abacus'",
+               [] { Device::open("abacus"); });
+  expect_error(ErrorKind::usage, "memory is 0", [&] { device.set_memory(0); });
+  expect_error(ErrorKind::usage, "no kernel is called 'edge'. Did you mean 'edges'?",
+               [&] { device.set_work_group("edge", 8, 8); });
+  expect_error(ErrorKind::usage, "work-items", [&] { device.set_work_group(100000, 1); });
+  Device reference = Device::open("reference");
+  expect_error(ErrorKind::usage, "memory means nothing to device reference",
+               [&] { reference.set_memory(1); });
+  expect_error(ErrorKind::usage, "work_group means nothing to device reference",
+               [&] { reference.set_work_group(8, 8); });
+}
+
+/// The picture in memory and from file to file.
+void check_files(Device& device, const std::string& input, const std::string& folder) {
+  defray::PictureFile file = defray::PictureFile::read(input);
+  defray::Lens lens = wide_open();
+  const auto result = defray::render(device, file.picture(), lens);
+  expect(file.write(folder + "/api.exr", result.colour).empty(), "nothing is left out");
+  file.write_plane(folder + "/api_coc.exr", "coc", result.coc_px);
+  file.write_plane(folder + "/api_confidence.exr", "confidence", result.confidence);
+  expect(!file.write(folder + "/api.png", result.colour).empty(), "PNG leaves depth out");
+
+  defray::RenderSettings settings;
+  settings.camera.focal_length_mm = lens.focal_length_mm;
+  settings.camera.sensor_width_mm = lens.sensor_width_mm;
+  settings.camera.aperture_diameter_mm = lens.aperture_diameter_mm;
+  settings.camera.focus_distance_units = lens.focus_distance_units;
+  const auto frame =
+      defray::render_file(device, {input, "", folder + "/file.exr", "", ""}, settings);
+  expect(frame.colour == result.colour, "render_file has the bits of render");
+  expect(frame.report.depth_channel == "Z" && frame.report.chain, "files have a report");
+
+  expect_error(ErrorKind::input, "none.exr", [] { defray::PictureFile::read("none.exr"); });
+  expect_error(ErrorKind::usage, "the colour to write is not of the size of the picture read",
+               [&] { file.write(folder + "/x.exr", {}); });
+  expect_error(ErrorKind::usage, "coc is not of the size of the picture read",
+               [&] { file.write_plane(folder + "/x.exr", "coc", {}); });
+  expect_error(ErrorKind::usage, "x.gif", [&] { file.write(folder + "/x.gif", result.colour); });
+  expect_error(ErrorKind::output, "nowhere",
+               [&] { file.write(folder + "/nowhere/x.exr", result.colour); });
+}
+
+}  // namespace
+
+int main(int, char** arguments) try {
+  expect(defray::version() == std::string("0.1.0"), "the version is 0.1.0");
+  const auto devices = Device::list();
+  expect(!devices.empty() && devices[0].compute_units > 0, "there is a device");
+  Device device = Device::open();
+  Device fast = Device::open(device.name(), {defray::Math::fast});
+  expect(fast.name() == device.name() + " (fast arithmetic)", "fast arithmetic shows");
+  check_results(device);
+  check_methods(device);
+  check_inputs(device);
+  check_messages(device);
+  check_files(device, arguments[1], arguments[2]);
+  return failures > 0;
+} catch (const defray::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

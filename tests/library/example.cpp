@@ -1,0 +1,21 @@
+#include <defray/defray.h>
+
+#include <cstdio>
+
+int main(int, char** names) try {
+  auto file = defray::PictureFile::read(names[1]);
+  const auto& in = file.picture();
+  defray::Picture picture{.data = in.data};  // and spans of floats: any renderer's planes will do
+  picture.colour = {in.colour[0], in.colour[1], in.colour[2]};
+  picture.depth = in.depth;
+  defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 35, .focus_distance_units = 1.2};
+  defray::Options options;
+  options.chain->aperture.blades = 6;
+  auto device = defray::Device::open();
+  const auto result = defray::render(device, picture, lens, options);
+  std::printf("CoC up to %.1f px on %s\n", result.report.farthest_coc_px, device.name().c_str());
+  file.write(names[2], result.colour);
+} catch (const defray::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# The library as a user has it: installed, found by CMake and by pkg-config, used without any other
+# header of ours, with the bits of the command line. library_test.sh BUILD README CXX
+set -euo pipefail
+build=$(realpath "$1") readme=$(realpath "$2") cxx=$3
+here=$(cd "$(dirname "$0")" && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+# Pixels: headers carry the time.
+same() {
+  local hash
+  hash=$(iinfo --hash "$1" | grep -oE '[0-9A-F]{40}') || complain "$1 has no hash"
+  iinfo --hash "$2" | grep -q "$hash" || complain "$1 and $2 differ"
+}
+complain() { echo "library: $*" >&2; exit 1; }
+
+cmake --install "$build" --prefix "$folder/prefix" >install.log
+prefix=$folder/prefix
+library=$(find "$prefix" -name libdefray.so)
+export LD_LIBRARY_PATH=$(dirname "$library") PATH=$prefix/bin:$PATH
+export PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig
+soname=$(readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p')
+[ "$soname" = libdefray.so.0.1 ] || complain "its name is '$soname'"
+[ -e "$(dirname "$library")/$soname" ] || complain "$soname is missing"
+
+# Only the API shows.
+nm -DC --defined-only "$library" | cut -d' ' -f2- >symbols
+grep -vE '^. (DEFRAY_0\.1|(typeinfo( name)?|vtable) for defray::Error@|defray::)' symbols >foreign ||
+  true
+[ -s foreign ] && complain "it shows what is not the API: $(head -3 foreign)"
+grep -q 'T defray::render(defray::Device' symbols || complain "render does not show"
+grep -E 'defray::(Session|DeviceStages|Frame|ImageFile|run_chain|apply_method)\b' symbols &&
+  complain "it shows its inner works"
+
+# Every header compiles alone, strictly, and none brings another library's.
+for header in "$prefix"/include/defray/*.h; do
+  "$cxx" -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only \
+    -I "$prefix/include" -include "$header" -x c++ /dev/null
+done
+"$cxx" -std=c++20 -M -I "$prefix/include" -include "$prefix/include/defray/defray.h" -x c++ \
+  /dev/null | tr ' ' '\n' >included
+grep -iE '/(CL|fmt|nlohmann|OpenImageIO|opencv[^/]*|Imath|kernels)/' included &&
+  complain "its headers bring others"
+
+# The README has the example.
+awk '/^```cpp/ {on = 1; next} /^```/ {on = 0} on' "$readme" >snippet
+diff "$here/example.cpp" snippet || complain "README's snippet is not tests/library/example.cpp"
+
+mkdir user && cp "$here"/{example.cpp,api.cpp,CMakeLists.txt} user
+cmake -S user -B user/build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$cxx" >cmake.log
+cmake --build user/build --parallel 2 >build.log || { cat build.log; complain "find_package"; }
+"$cxx" -std=c++20 -Wall user/example.cpp -o with_pkg_config $(pkg-config --cflags --libs defray)
+[ "$(pkg-config --modversion defray)" = 0.1.0 ] || complain "pkg-config has another version"
+
+defray scene fence -o scene --width 96 --height 64 --truth-samples 1 >scene.log
+defray render scene/pinhole.exr -o cli.exr --focus 1.2 --aperture-diameter 35 --focal-length 50 --blades 6 -q
+user/build/example scene/pinhole.exr cmake.exr
+./with_pkg_config scene/pinhole.exr pkg_config.exr
+same cmake.exr cli.exr
+same pkg_config.exr cli.exr
+if ./with_pkg_config missing.exr x.exr 2>error; then complain "a missing file is no error"; fi
+grep -q 'missing.exr' error || complain "a missing file is not named: $(cat error)"
+
+mkdir out
+user/build/api scene/pinhole.exr out
+defray render scene/pinhole.exr -o out/cli.exr --focus 5 --aperture-diameter 35 --focal-length 50 --sensor-width 5 -q \
+  --coc-out out/cli_coc.exr --confidence-out out/cli_confidence.exr
+same out/api.exr out/cli.exr
+same out/file.exr out/cli.exr
+same out/api_coc.exr out/cli_coc.exr
+same out/api_confidence.exr out/cli_confidence.exr
+echo "The library renders what the command line renders."
