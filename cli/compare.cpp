@@ -14,9 +14,8 @@
 #include "lens/depth.h"
 #include "measure/edge_band.h"
 #include "measure/metrics.h"
-#include "options.h"
 #include "picture.h"
-#include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::cli {
 namespace {
@@ -67,7 +66,8 @@ std::vector<std::uint8_t> read_band(const Options& o, const Picture& picture) {
   Plane depth = file.plane(name.part, name.channel);
   const int width = part.display.width;
   convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);
-  return edge_band(depth, part.data.width, reference::coc(lens, width, depth), o.edge_step);
+  return edge_band(depth, part.data.width, reference::TwinStages().coc(lens, width, depth).host(),
+                   o.edge_step);
 }
 
 Json errors_json(const Errors& e) {

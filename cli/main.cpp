@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
+#include "option_table.h"
 
 namespace defray::cli {
 namespace {
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
   try {
     return defray::cli::run(argc, argv);
   } catch (const defray::Error& error) {
-    return defray::cli::fail_with(error.kind(), error.what());
+    return defray::cli::fail_with(error.kind(), defray::cli::message_of(error));
   } catch (const std::bad_alloc&) {
     return defray::cli::fail_with(defray::ErrorKind::input, "not enough memory for this picture");
   } catch (const std::system_error& error) {  // fmt's, from a broken standard output

@@ -1,26 +1,37 @@
 #include "parse.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <regex>
+#include <set>
 
-#include "options.h"
+#include "words.h"
 
 namespace defray::cli {
+namespace {
+
+const Words<double> metres_in{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                              {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
+
+}  // namespace
 
 double parse_unit(const std::string& text) {
-  static const std::map<std::string, double> metres{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
-                                                    {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) {
-    return choice("--unit", text, metres);
+    return choice("--unit", text, metres_in);
   }
   if (!(number > 0) || std::isinf(number)) {
     fail(ErrorKind::usage, "--unit: the scene unit is {} m: it must be a finite number above 0",
          number);
   }
   return number;
+}
+
+std::string unit_of(double metres) {
+  const std::string name = word_of(metres, metres_in);
+  return name.empty() ? fmt::format("{}", metres) : name;
 }
 
 double parse_background(const std::string& text) {
@@ -35,15 +46,26 @@ double parse_background(const std::string& text) {
   return number;
 }
 
-std::array<std::size_t, 2> parse_work_group(const std::string& text) {
-  if (text.empty()) return {0, 0};
-  static const std::regex form(R"(([1-9]\d{0,5})(?:x([1-9]\d{0,5}))?)");
-  std::smatch match;
-  if (!std::regex_match(text, match, form)) {
-    fail(ErrorKind::usage, "--work-group '{}': write it as 64 or 64x1", text);
+std::vector<WorkGroup> parse_work_groups(const std::string& text) {
+  static const std::regex form(R"((?:([a-z]\w*)=)?([1-9]\d{0,5})(?:x([1-9]\d{0,5}))?)");
+  std::vector<WorkGroup> groups;
+  std::set<std::string> named;
+  for (const std::string& part : split(text + ",", ',')) {  // "" is one empty part
+    std::smatch match;
+    if (!std::regex_match(part, match, form)) {
+      fail(ErrorKind::usage, "--work-group '{}': write it as 64 or 64x1, for one kernel fill=8x8",
+           text);
+    }
+    const std::string kernel = match[1];
+    if (!named.insert(kernel).second) {
+      fail(ErrorKind::usage, "--work-group '{}' says {} for the second time", text,
+           kernel.empty() ? "that of all kernels" : kernel);
+    }
+    groups.push_back({kernel, std::stoul(match[2]), match[3].matched ? std::stoul(match[3]) : 1});
   }
-  const std::size_t y = match[2].matched ? std::stoul(match[2]) : 1;
-  return {std::stoul(match[1]), y};
+  std::stable_partition(groups.begin(), groups.end(),
+                        [](const WorkGroup& group) { return group.kernel.empty(); });
+  return groups;
 }
 
 }  // namespace defray::cli

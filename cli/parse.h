@@ -3,17 +3,28 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace defray::cli {
 
 /// "cm" or "0.01" -> 0.01, metres in a scene unit. Throws Error(usage).
 double parse_unit(const std::string& text);
 
+/// 0.01 -> "cm"; "0.5" where no unit is so long.
+std::string unit_of(double metres);
+
 /// The stored depth that says "background"; infinity, and so no other, for "none". Throws
 /// Error(usage).
 double parse_background(const std::string& text);
 
-/// "64x1" -> {64, 1}; {0, 0} for an empty text. Throws Error(usage).
-std::array<std::size_t, 2> parse_work_group(const std::string& text);
+/// A work-group for one kernel, or for all that no other names.
+struct WorkGroup {
+  std::string kernel;  ///< Empty: all.
+  std::size_t x = 0, y = 1;
+};
+
+/// "64x1", "fill=8x8,rdb_merge=32" -> a work-group each, that of all kernels first. Throws
+/// Error(usage).
+std::vector<WorkGroup> parse_work_groups(const std::string& text);
 
 }  // namespace defray::cli

@@ -10,8 +10,8 @@
 #include "image/ldr.h"
 #include "image/safe_output.h"
 #include "lens/camera.h"
+#include "lens_rows.h"
 #include "measure/psf_report.h"
-#include "options.h"
 #include "progress.h"
 
 namespace defray::cli {
@@ -97,34 +97,36 @@ int run(const Options& o) {
   return 0;
 }
 
+std::vector<OptionGroup> psf_options(Options& o) {
+  const Needs chart{[](const Given& given) { return given("--output"); }, "requires --output"};
+  OptionGroup lens{"Lens", lens_rows(o.camera, "m")};
+  for (OptionRow& row : camera_rows(o.camera_file, o.focus_setting, "")) {
+    lens.rows.push_back(std::move(row));
+  }
+  return {{"",
+           {{"--depth",
+             with_default(value(o.depth), ""),
+             "Planar depth of the point, m; inf is allowed",
+             {.is_required = true}}}},
+          lens,
+          {"What is computed",
+           {{"--width", value(o.width), "Pixels across the sensor"},
+            {"--wavelength", values(o.wavelengths_nm),
+             "Wavelengths in nm, 100 to 20000, comma-separated"}}},
+          {"Output",
+           {{"-o,--output", value(o.output), "Chart of both PSFs, PNG or JPEG"},
+            {"--log", flag(o.log), "The chart's densities on a logarithmic axis", {.needs = chart}},
+            {"--csv", value(o.csv), "Table of both PSFs, energy per square pixel"},
+            {"--json", flag(o.json), "Print one JSON object"}}}};
+}
+
 }  // namespace
 
 Run add_psf(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "psf", "Compare the geometric PSF, which render uses, with the diffraction PSF");
   auto o = std::make_shared<Options>();
-  command->add_option("--depth", o->depth, "Planar depth of the point, m; inf is allowed")
-      ->required();
-  command->add_option("--focus", o->camera.focus_distance_units,
-                      "Focus distance, m; inf is allowed");
-  command->add_option("--fstop", o->camera.fstop, "f-number");
-  command->add_option("--aperture-diameter", o->camera.aperture_diameter_mm,
-                      "Aperture diameter, mm, instead of --fstop");
-  command->add_option("--focal-length", o->camera.focal_length_mm, "Focal length, mm");
-  command->add_option("--sensor-width", o->camera.sensor_width_mm, "Sensor width, mm (36)");
-  auto* camera =
-      command->add_option("--camera", o->camera_file, "camera.json: the lens; options win over it");
-  command->add_option("--focus-setting", o->focus_setting, "Which of the camera's focus settings")
-      ->needs(camera);
-  command->add_option("--width", o->width, "Pixels across the sensor");
-  command
-      ->add_option("--wavelength", o->wavelengths_nm,
-                   "Wavelengths in nm, 100 to 20000, comma-separated")
-      ->delimiter(',');
-  auto* output = command->add_option("-o,--output", o->output, "Chart of both PSFs, PNG or JPEG");
-  command->add_flag("--log", o->log, "The chart's densities on a logarithmic axis")->needs(output);
-  command->add_option("--csv", o->csv, "Table of both PSFs, energy per square pixel");
-  command->add_flag("--json", o->json, "Print one JSON object");
+  const OptionTable options(*command, psf_options(*o));
   command->footer(
       "Diffraction: Fresnel integral over the circular aperture (Shinya 1994, eq. 4), each\n"
       "wavelength alone and the mean over the band they span. It matters where the Airy diameter\n"
@@ -132,7 +134,11 @@ Run add_psf(CLI::App& app) {
       "a\n"
       "pixel outside the geometric disc. The lens is the breathing one of 'defray render'.\n"
       "Example: defray psf --depth 4 --focus 3 --fstop 2.8 --focal-length 50 -o psf.png");
-  return [o] { return run(*o); };
+  return [o, options] {
+    options.set();
+    options.refuse_idle();
+    return run(*o);
+  };
 }
 
 }  // namespace defray::cli

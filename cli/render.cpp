@@ -1,35 +1,51 @@
 // defray render: one picture or a sequence through the lens.
 #include "render.h"
 
+#include <algorithm>
 #include <filesystem>
 
+#include "commands.h"
+#include "device/device_stages.h"
 #include "exit_code.h"
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
-#include "options.h"
-#include "parse.h"
 #include "progress.h"
+#include "reference/twin_stages.h"
+#include "render_job.h"
 
 namespace defray::cli {
 namespace {
 
+constexpr const char* footer =
+    R"(Units: focus, --near, --far and depth in scene units (--unit says what one is); focal length,
+sensor and aperture in millimetres; CoC in pixels (radius, negative in front of the focus).
+
+Examples:
+  defray render beauty.exr -o out.exr --focus 3 --fstop 2.8 --focal-length 50 --sensor-width 36
+  defray render 'shot.####.exr' -o 'out/shot.####.exr' --frames 1-8 --camera camera.json
+  defray render beauty.png --depth z.exr -o out.png --focus 1.2 --fstop 1.4 --focal-length 35
+  defray render vray.exr -o out.exr --depth-kind normalized --invert --near 0.5 --far 40 \
+      --focus 3 --fstop 4 --focal-length 50)";
+
 /// The frames to render; a single empty one for a picture without a pattern.
-std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
-  const bool is_sequence = has_frame_pattern(o.input);
+std::vector<std::optional<int>> frames_of(const RenderJob& job) {
+  const FramePaths& p = job.paths;
+  const bool is_sequence = has_frame_pattern(p.input);
   if (!is_sequence) {
-    if (!o.frames.empty()) {
+    if (!job.frames.empty()) {
       fail(ErrorKind::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
-    for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
+    for (const std::string& name : {p.output, p.coc, p.confidence}) {
       if (!name.empty() && has_frame_pattern(name)) {
-        fail(ErrorKind::usage, "{}: has a frame pattern, the input {} has none", name, o.input);
+        fail(ErrorKind::usage, "{}: has a frame pattern, the input {} has none", name, p.input);
       }
     }
     return {std::nullopt};
   }
-  const std::vector<int> numbers = o.frames.empty() ? find_frames(o.input) : parse_frames(o.frames);
-  for (const std::string& name : {o.output, o.coc_out, o.confidence_out}) {
+  const std::vector<int> numbers =
+      job.frames.empty() ? find_frames(p.input) : parse_frames(job.frames);
+  for (const std::string& name : {p.output, p.coc, p.confidence}) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
       fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,
            numbers.size());
@@ -38,8 +54,7 @@ std::vector<std::optional<int>> frames_of(const RenderOptions& o) {
   return {numbers.begin(), numbers.end()};
 }
 
-FramePaths paths_of(const RenderOptions& o, std::optional<int> frame) {
-  FramePaths paths{o.input, o.depth, o.output, o.coc_out, o.confidence_out};
+FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   if (!frame) return paths;
   for (std::string* path :
        {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence}) {
@@ -48,50 +63,67 @@ FramePaths paths_of(const RenderOptions& o, std::optional<int> frame) {
   return paths;
 }
 
+/// Throws Error(usage) unless there is such a kernel.
+void check_kernel(const std::string& kernel, const std::vector<std::string>& kernels) {
+  if (std::find(kernels.begin(), kernels.end(), kernel) != kernels.end()) return;
+  fail(ErrorKind::usage, "--work-group: no kernel is called '{}'.{} There are: {}", kernel,
+       did_you_mean(kernel, kernels), join(kernels, " "));
+}
+
+void set_work_group(Session& session, const WorkGroup& group) {
+  if (group.kernel.empty()) return session.set_work_group(group.x, group.y);
+  check_kernel(group.kernel, session.kernel_names());
+  session.set_work_group(group.kernel, group.x, group.y);
+}
+
+std::unique_ptr<Session> open_session(const RenderJob& job) {
+  SessionOptions options;
+  options.math = job.math;
+  auto session = std::make_unique<Session>(
+      select_device(job.device, "; or use --device reference, the slow scalar twin"), options);
+  session->set_memory(job.memory_bytes());
+  for (const WorkGroup& group : job.work_groups) set_work_group(*session, group);
+  return session;
+}
+
 /// Renders frame after frame and tells about each.
 class SequenceRun {
  public:
-  SequenceRun(const RenderOptions& options, std::size_t frame_count)
-      : options_(options),
-        settings_(to_settings(options)),
-        bar_(frame_count, frame_count == 1 ? "frame" : "frames", !options.quiet) {
-    check_output_format(options.output);
-    const auto group = parse_work_group(options.work_group);
-    SessionOptions session;
-    session.math = choice<Math>("--math", options.math, math_words);
-    if (options.device == "reference") {
+  SequenceRun(const RenderJob& job, std::size_t frame_count)
+      : job_(job), bar_(frame_count, frame_count == 1 ? "frame" : "frames", !job.quiet) {
+    check_output_format(job.paths.output);
+    if (job.is_on_reference()) {
+      stages_ = std::make_unique<reference::TwinStages>();
       device_ = "the scalar reference";
       return;
     }
-    session_ = std::make_unique<Session>(
-        select_device(options.device, "; or use --device reference, the slow scalar twin"),
-        session);
-    session_->set_work_group(group[0], group[1]);
+    session_ = open_session(job);
+    stages_ = std::make_unique<DeviceStages>(*session_);
     device_ = session_->info().name;
-    if (session.math == Math::fast) device_ += " (fast arithmetic)";
+    if (job.math == Math::fast) device_ += " (fast arithmetic)";
   }
 
   /// False when the frame failed and --skip-bad-frames lets the run go on.
   bool render(std::optional<int> frame, std::size_t done) {
-    FrameOutcome outcome{frame, paths_of(options_, frame), "ok", "", {}};
-    if (options_.skip_existing && std::filesystem::exists(outcome.paths.output)) {
+    FrameOutcome outcome{frame, paths_of(job_.paths, frame), "ok", "", {}};
+    if (job_.skip_existing && std::filesystem::exists(outcome.paths.output)) {
       outcome.status = "skipped";
       report(outcome);
       return true;
     }
     try {
       bar_.update(done, 0);
-      FrameResult result = render_frame(outcome.paths, settings_, session_.get(),
+      FrameResult result = render_frame(outcome.paths, job_.settings, *stages_,
                                         [&](double share) { bar_.update(done, share); });
       outcome.report = std::move(result.report);
       last_ = std::move(result.colour);
     } catch (const Error& error) {
       outcome.status = "failed";
-      outcome.error = error.what();
-      if (options_.json) report(outcome);
+      outcome.error = message_of(error);
+      if (job_.json) report(outcome);
       bar_.clear();
-      if (!options_.skip_bad_frames || error.kind() == ErrorKind::device) throw;
-      fmt::print(stderr, "defray: error: {}\n", error.what());
+      if (!job_.skip_bad_frames || error.kind() == ErrorKind::device) throw;
+      fmt::print(stderr, "defray: error: {}\n", outcome.error);
       return false;
     }
     last_data_ = outcome.report.data;
@@ -108,37 +140,40 @@ class SequenceRun {
       return;
     }
     bar_.clear();
-    show("defray: " + options_.output, to_display_window(last_, last_data_, last_display_),
+    show("defray: " + job_.paths.output, to_display_window(last_, last_data_, last_display_),
          last_display_.width, last_display_.height);
   }
 
  private:
   void report(const FrameOutcome& outcome) {
     bar_.clear();
-    if (options_.json) {
+    if (job_.json) {
       print_json_line(outcome, device_);
-    } else if (!options_.quiet) {
+    } else if (!job_.quiet) {
       print_text(outcome, device_);
     }
   }
 
-  const RenderOptions& options_;
-  RenderSettings settings_;
+  const RenderJob& job_;
   ProgressBar bar_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<Stages> stages_;
   std::string device_;
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };
 
-int run(const RenderOptions& options) {
-  const auto frames = frames_of(options);
-  SequenceRun sequence(options, frames.size());
+int run(const OptionTable& options, RenderJob& job) {
+  options.set();
+  const auto frames = frames_of(job);
+  options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
+  finish(job);
+  SequenceRun sequence(job, frames.size());
   std::size_t failed = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (!sequence.render(frames[i], i)) ++failed;
   }
-  if (options.show) sequence.show_last();
+  if (job.show) sequence.show_last();
   if (failed > 0) {
     fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());
     return ExitCode::failed;
@@ -151,9 +186,10 @@ int run(const RenderOptions& options) {
 Run add_render(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("render", "Render depth of field into a picture or a sequence");
-  auto options = std::make_shared<RenderOptions>();
-  add_render_options(*command, *options);
-  return [options] { return run(*options); };
+  command->footer(footer);
+  const auto job = std::make_shared<RenderJob>();
+  const OptionTable options(*command, render_options(*job));
+  return [options, job] { return run(options, *job); };
 }
 
 }  // namespace defray::cli

@@ -35,7 +35,7 @@ std::string lens_line(const FrameReport& r) {
                      l.focus_distance_units, l.metres_per_unit);
 }
 
-std::string defocus_line(const DefocusReport& d) {
+std::string chain_line(const ChainReport& d) {
   std::string line = fmt::format("{} lens points, {:.2f} % of their rays determined by the input",
                                  d.lens_points, 100 * d.confidence);
   const std::pair<const char*, std::size_t> counts[] = {
@@ -46,7 +46,7 @@ std::string defocus_line(const DefocusReport& d) {
   return line;
 }
 
-nlohmann::ordered_json defocus_json(const DefocusReport& d) {
+nlohmann::ordered_json chain_json(const ChainReport& d) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const StageTime& s : d.stages) stages[s.stage] = s.seconds;
   return {{"lens_points", d.lens_points}, {"confidence", d.confidence},
@@ -68,14 +68,13 @@ std::vector<std::string> notes_of(const FrameReport& r) {
   if (r.coc_limited > 0) {
     notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
   }
-  if (r.defocus && r.defocus->repaired > 0) {
-    notes.push_back(
-        fmt::format("depth looks anti-aliased: {} px repaired (--keep-depth leaves them)",
-                    r.defocus->repaired));
+  if (r.chain && r.chain->repaired > 0) {
+    notes.push_back(fmt::format(
+        "depth looks anti-aliased: {} px repaired (--keep-depth leaves them)", r.chain->repaired));
   }
-  if (r.defocus && r.defocus->border_is_cut) {
+  if (r.chain && r.chain->border_is_cut) {
     notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",
-                                r.defocus->border_px));
+                                r.chain->border_px));
   }
   return notes;
 }
@@ -110,7 +109,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
       {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
       {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
   report.update(lens_json(r));
-  if (r.defocus) report["defocus"] = defocus_json(*r.defocus);
+  if (r.chain) report["defocus"] = chain_json(*r.chain);
   report.update({{"nearest_coc_px", r.nearest_coc_px},
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},
@@ -139,7 +138,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
-  if (r.defocus) fmt::print("  {}\n", defocus_line(*r.defocus));
+  if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);

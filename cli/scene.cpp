@@ -11,7 +11,6 @@
 #include "image/image_file.h"
 #include "image/safe_output.h"
 #include "image/sequence.h"
-#include "options.h"
 #include "progress.h"
 #include "scenes/render.h"
 
@@ -131,8 +130,8 @@ std::vector<FrameNumber> frames_of(const Options& o) {
 
 /// Throws Error(usage) before anything is written.
 void check(const Options& o, const std::vector<FrameNumber>& frames) {
-  check_samples("--truth-samples", o.truth_samples);
-  check_samples("--pinhole-samples", o.pinhole.samples);
+  check_samples("truth_samples", o.truth_samples);
+  check_samples("pinhole_samples", o.pinhole.samples);
   if (o.pinhole.averages_depth && o.pinhole.samples == 1) {
     fail(ErrorKind::usage,
          "--antialiased-depth with --pinhole-samples 1: of one ray there is no mean");
@@ -157,7 +156,8 @@ int run(const Options& o) {
 std::string list_of_scenes() {
   std::string text = "Scenes:\n";
   for (const SceneInfo& info : scene_list()) {
-    text += fmt::format("  {:14} {}\n", info.name, info.about);
+    const std::string moves = info.frames > 1 ? fmt::format(" (--frames 1-{})", info.frames) : "";
+    text += fmt::format("  {:14} {}{}\n", info.name, info.about, moves);
   }
   return text;
 }

@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
-#include "options.h"
+#include "math_words.h"
 #include "progress.h"
 #include "validation/report.h"
 
@@ -149,12 +149,13 @@ Run add_validate(CLI::App& app) {
   auto* all = command->add_flag("--all", o->all, "Every device of every implementation");
   all->excludes(device);
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
-  command->add_flag("--full", o->full, "Every pattern with every size; some minutes")
-      ->excludes(quick);
+  auto* full = command->add_flag("--full", o->full, "Every pattern with every size; some minutes");
+  full->excludes(quick);
   auto* kernel =
       command->add_option("--kernel", o->kernels, "Only these kernels, comma-separated or repeated")
           ->delimiter(',');
   auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it");
+  only->excludes(quick)->excludes(full);
   auto* math =
       command->add_option("--math", o->math, "strict, or fast to see which rules it breaks");
   command

@@ -11,8 +11,7 @@
 #include "lens/camera.h"
 #include "lens/depth.h"
 #include "lens/lens.h"
-#include "methods/method.h"
-#include "methods/tiltshift.h"
+#include "render.h"
 
 namespace defray {
 
@@ -57,8 +56,8 @@ struct FrameReport {
   std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
   std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
   bool nonfinite_kept = false;
-  std::optional<DefocusReport> defocus;  ///< Of the RDB with its stages.
-  std::vector<std::string> notes;        ///< Whatever else the user should know.
+  std::optional<ChainReport> chain;  ///< Of the RDB with its stages.
+  std::vector<std::string> notes;    ///< Whatever else the user should know.
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
 };
 
@@ -68,8 +67,8 @@ struct FrameResult {
   std::vector<Plane> colour;  ///< As written.
 };
 
-/// Renders one frame. `session` null: the scalar twin. Throws Error.
-FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings, Session* session,
-                         const std::function<void(double)>& progress = {});
+/// Renders one frame. Throws Error.
+FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings, Stages& stages,
+                         const Progress& progress = {});
 
 }  // namespace defray

@@ -15,7 +15,7 @@
 // channel0..3  [height][width]
 // behind_coc   [height][width]    signed radius; as given where nothing was found
 // behind_inverse [height][width]  1/depth; negative where nothing was found
-// behind       [height][width]    colour
+// behind0..3   [height][width]    colour
 // Global size: (width, height).
 #include "colour.clh"
 #include "frame.clh"
@@ -134,13 +134,13 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
                    __global const float* restrict inverse, __global const uint* restrict mixed,
                    __global const uint* restrict active, CHANNEL_PARAMETERS(channel),
                    __global int* restrict behind_coc, __global float* restrict behind_inverse,
-                   __global float4* restrict behind) {
+                   WRITTEN_CHANNELS(behind)) {
   const int2 at = work_item();
   if (!is_inside(p.width, p.height, at)) return;
   const uint pixel = pixel_at(p.width, p.height, at);
   behind_inverse[pixel] = -1.0f;
   behind_coc[pixel] = coc_quanta[pixel];
-  behind[pixel] = 0.0f;
+  set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
   const uint tile = (uint)at.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)at.x / DEFRAY_FILL_TILE;
   if (!active[tile]) return;
 
@@ -198,5 +198,5 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   behind_coc[pixel] = convert_int_rte(coc / weights);
   const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;
   behind_inverse[pixel] = mean < most ? mean : most;
-  behind[pixel] = colour / colour_weights;
+  set_colour(CHANNELS(behind), pixel, colour / colour_weights);
 }

@@ -57,18 +57,6 @@
 #define DEFRAY_CELL_MAP_BITS 6
 #define DEFRAY_CELL_MAP (1 << DEFRAY_CELL_MAP_BITS)
 
-/// Default work-groups (x, all other dimensions 1); any other size gives the same bits.
-#define DEFRAY_COC_GROUP 64
-#define DEFRAY_RDB_CLEAR_GROUP 256
-#define DEFRAY_RDB_SCATTER_GROUP 64
-#define DEFRAY_RDB_MERGE_GROUP 64
-#define DEFRAY_STAGE_GROUP 64  ///< repair, edges, fill, split, soften.
-#define DEFRAY_LINEAR_GROUP 16
-#define DEFRAY_TILTSHIFT_GROUP 64
-#define DEFRAY_GATHER_GROUP 64
-#define DEFRAY_GATHER_REACH_GROUP 16
-#define DEFRAY_PATTERN_GROUP 16
-
 /// Pixels of a row that one work-item of `linear` computes, as one vector.
 #define DEFRAY_LINEAR_RUN 16
 /// Side of the square tiles whose largest CoC `gather_reach` finds, in pixels.
@@ -134,6 +122,15 @@ typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
 } DefrayFrameParams;
+
+/// Two surfaces as the layers of one frame: `assemble`.
+typedef struct {
+  DEFRAY_UINT width;
+  DEFRAY_UINT height;        ///< Rows of the window.
+  DEFRAY_UINT first_row;     ///< Of the window, in the frame.
+  DEFRAY_UINT frame_height;
+  DEFRAY_UINT margin;        ///< Columns and rows around the picture, which were not seen.
+} DefrayAssembleParams;
 
 /// What lies behind: `fill`.
 typedef struct {
@@ -232,6 +229,7 @@ typedef struct {
 static_assert(sizeof(DefrayHighlightParams) == 16);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
+static_assert(sizeof(DefrayAssembleParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayPatternParams) == 56);

@@ -34,7 +34,7 @@ uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict cove
     for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
       const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
       if (coverage[i] == 0u) continue;
-      if (found == DEFRAY_EMPTY || depth_at(depth_bits, i) > depth_at(depth_bits, found)) found = i;
+      if (found == DEFRAY_EMPTY || depth_bits[i] > depth_bits[found]) found = i;
     }
   }
   return found;

@@ -93,7 +93,7 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   if (sx >= p.width || row >= p.window_rows * p.layers || cell >= p.cell_count) return;
 
   const uint source = row * p.width + sx;
-  const uint depth = depth_at(depth_bits, source);
+  const uint depth = depth_bits[source];
   if (depth == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
   const long r = radius;

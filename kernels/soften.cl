@@ -8,14 +8,14 @@
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
 // channel0..3  [height][layers][width]
-// out          [height][layers][width]
+// out0..3      [height][layers][width]
 // Global size: (width, height x layers).
 #include "colour.clh"
 #include "frame.clh"
 
 __kernel void soften(const DefraySoftenParams p, __global const int* restrict coc_quanta,
                      __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
-                     __global float4* restrict out) {
+                     WRITTEN_CHANNELS(out)) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.height * p.layers) return;
@@ -23,7 +23,7 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
   const float4 own = colour_at(CHANNELS(channel), own_at);
   const int own_coc = coc_quanta[own_at];
   const float side = fabs((float)own_coc) * (2.0f / 256.0f) / p.cells_a_side;
-  out[own_at] = own;
+  set_colour(CHANNELS(out), own_at, own);
   if (side <= 1.0f || (coverage[own_at] & ~DEFRAY_SYNTHESISED) == 0u) return;
 
   const float half_side = 0.5f * side;
@@ -51,5 +51,6 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
     }
   }
   const float4 difference = sum / weights;  // the fragment itself has weight
-  out[own_at] = difference == 0.0f || !isfinite(own) ? own : own + difference;  // -0 stays -0
+  const float4 changed = difference == 0.0f || !isfinite(own) ? own : own + difference;
+  set_colour(CHANNELS(out), own_at, changed);  // -0 stays -0
 }

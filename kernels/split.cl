@@ -9,11 +9,11 @@
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
 // behind_coc      [height][width]  in and out
-// behind          [height][width]  colour, in and out
+// behind0..3      [height][width]  colour, in and out
 // behind_flags    [height][width]  coverage of the fragment behind
 // front_coc       [height][width]
 // front_inverse   [height][width]
-// front           [height][width]  colour
+// front0..3       [height][width]  colour
 // front_coverage  [height][width]  2^-16 of the pixel
 // Global size: (width, height).
 #include "colour.clh"
@@ -110,9 +110,9 @@ float4 rest_of(const float4 c, const float4 other, const float others_share) {
 __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                     __global const float* restrict inverse, __global const uint* restrict mixed,
                     CHANNEL_PARAMETERS(channel), __global int* restrict behind_coc,
-                    __global float* restrict behind_inverse, __global float4* restrict behind,
+                    __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind),
                     __global uint* restrict behind_flags, __global int* restrict front_coc,
-                    __global float* restrict front_inverse, __global float4* restrict front,
+                    __global float* restrict front_inverse, WRITTEN_CHANNELS(front),
                     __global uint* restrict front_coverage) {
   const int2 at = work_item();
   if (!is_inside(p.width, p.height, at)) return;
@@ -120,7 +120,7 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   const float4 c = colour_at(CHANNELS(channel), pixel);
   front_coc[pixel] = coc_quanta[pixel];
   front_inverse[pixel] = inverse[pixel];
-  front[pixel] = c;
+  set_colour(CHANNELS(front), pixel, c);
   front_coverage[pixel] = DEFRAY_WHOLE;
   behind_flags[pixel] = DEFRAY_WHOLE | DEFRAY_SYNTHESISED;
   if (!mixed[pixel] || behind_inverse[pixel] < 0.0f) return;
@@ -134,7 +134,7 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   }
   const int middle = nearest + (farthest - nearest) / 2;
   const bool saw_front = coc_of(coc_quanta, pixel) < middle;
-  float4 b = behind[pixel];
+  float4 b = (float4)(behind0[pixel], behind1[pixel], behind2[pixel], behind3[pixel]);
   Nearby f =
       pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, -DEFRAY_TAME_QUANTA, middle - 1);
   if (!f.is_found) {
@@ -153,17 +153,17 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
     if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     const uint kept = stored(fmax(share, LEAST_OF_FRONT));
-    front[pixel] = rest_of(c, b, 1.0f - (float)kept * 0x1p-16f);
+    set_colour(CHANNELS(front), pixel, rest_of(c, b, 1.0f - (float)kept * 0x1p-16f));
     front_coverage[pixel] = kept;
   } else if (share < LEAST_COVERAGE) {
     behind_inverse[pixel] = -1.0f;
   } else {
     const uint kept = stored(fmin(share, MOST_OF_BEHIND));
-    front[pixel] = f.colour;
+    set_colour(CHANNELS(front), pixel, f.colour);
     front_coc[pixel] = coc_quanta[f.source];
     front_inverse[pixel] = inverse[f.source];
     front_coverage[pixel] = kept;
-    behind[pixel] = rest_of(c, f.colour, (float)kept * 0x1p-16f);
+    set_colour(CHANNELS(behind), pixel, rest_of(c, f.colour, (float)kept * 0x1p-16f));
     behind_coc[pixel] = coc_quanta[pixel];
     behind_inverse[pixel] = inverse[pixel];
     behind_flags[pixel] = DEFRAY_WHOLE;

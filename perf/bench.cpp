@@ -1,13 +1,13 @@
 #include "bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "image/display.h"
-#include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::perf {
 namespace {
@@ -25,23 +25,22 @@ std::vector<Plane> crop(const std::vector<Plane>& planes, int width, int x0, int
 
 }  // namespace
 
-void check_against_twin(Session& session, const Subject& s, const MethodSettings& settings) {
+void check_against_twin(Stages& stages, const Subject& s, const MethodSettings& settings) {
   const int w = std::min(96, s.scene.width), h = std::min(64, s.scene.height);
   const int x0 = (s.scene.width - w) / 2, y0 = (s.scene.height - h) / 2;
   const auto colour = crop(s.pinhole.colour, s.scene.width, x0, y0, w, h);
   const Plane depth = crop({s.pinhole.depth}, s.scene.width, x0, y0, w, h)[0];
-  const auto coc = reference::coc(s.lens, s.scene.width, depth);
-  const PinholeFrame frame{w, h, coc, depth, colour};
-  if (apply_method(frame, settings, &session) != apply_method(frame, settings, nullptr)) {
+  reference::TwinStages twin;
+  const Frame frame{w, h, twin.coc(s.lens, s.scene.width, depth), depth, colour};
+  if (apply_method(frame, settings, stages).colour != apply_method(frame, settings, twin).colour) {
     fail(ErrorKind::internal, "a timed picture differs from its twin");
   }
 }
 
 double seconds_of(const std::function<void()>& run) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   run();
-  return std::chrono::duration<double>(Clock::now() - start).count();
+  return watch.seconds();
 }
 
 Timing time_of(int repetitions, const std::function<void()>& run) {
@@ -62,11 +61,11 @@ std::string to_text(const Timing& t) {
 std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
 Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings) {
-  check_against_twin(bench.session, subject, settings);
+  check_against_twin(bench.stages, subject, settings);
   std::vector<Plane> first;
   bool repeats = true;
   const Timing timing = time_of(bench.repetitions(), [&] {
-    std::vector<Plane> picture = render(bench.session, subject, settings);
+    std::vector<Plane> picture = render(bench.stages, subject, settings);
     if (first.empty())
       first = std::move(picture);
     else

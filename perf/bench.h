@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/device_stages.h"
 #include "measure/html_report.h"
 #include "methods/method.h"
 #include "scenes/subject.h"
@@ -14,8 +15,8 @@ namespace defray::perf {
 
 /// How an experiment runs.
 struct Bench {
-  std::string folder;  ///< Pictures and plots go here.
-  Session& session;
+  std::string folder;     ///< Pictures and plots go here.
+  DeviceStages& stages;   ///< Of the device that is measured.
   bool is_quick = false;  ///< Small pictures and few repetitions: to see that it works.
   std::function<void(const std::string& step)> step;  ///< Told before each long step.
 
@@ -43,7 +44,7 @@ std::string fixed(double value, int digits = 2);
 
 /// Kernel against twin on the picture's middle (96 x 64 pixels). Throws Error(internal) where they
 /// differ by a bit.
-void check_against_twin(Session& session, const Subject& subject, const MethodSettings& settings);
+void check_against_twin(Stages& stages, const Subject& subject, const MethodSettings& settings);
 
 /// Times `render` after check_against_twin, and a check that every run gives the same picture.
 /// Throws Error(internal) where it does not.

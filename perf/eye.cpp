@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "experiments.h"
+#include "lens/coc.h"
 #include "measure/metrics.h"
 #include "methods/tiltshift.h"
 
@@ -42,20 +43,20 @@ TiltshiftSettings estimate_gradient(const Subject& s) {
   return {centre, static_cast<double>(last - first + 1) / height, mean_radius_px(s, edge)};
 }
 
-std::vector<Plane> render_tiltshift(Session& session, const Subject& s) {
+std::vector<Plane> render_tiltshift(Stages& stages, const Subject& s) {
   const auto p =
       tiltshift_params(estimate_gradient(s), s.scene.width, s.scene.height, 0, s.scene.height);
-  const auto coc = tiltshift_on_device(session, p);
+  Frame frame = s.frame();
+  frame.coc_quanta = stages.tiltshift(p);
   MethodSettings tiltshift_method;
   tiltshift_method.method = Method::tiltshift;
-  return apply_method({s.scene.width, s.scene.height, coc, s.pinhole.depth, s.pinhole.colour},
-                      tiltshift_method, &session);
+  return apply_method(frame, tiltshift_method, stages).colour;
 }
 
 View render_view(const Bench& bench, const std::string& name) {
   bench.step(name + ": truth");
   View v{
-      make_subject(bench.session, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
+      make_subject(bench.stages, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
       {},
       {},
       {},
@@ -63,10 +64,10 @@ View render_view(const Bench& bench, const std::string& name) {
       {}};
   v.truth = render_truth(v.subject.scene, v.subject.lens, bench.is_quick ? 16 : 128, 1).colour;
   bench.step(name + ": filters");
-  v.literal = render(bench.session, v.subject, gather_of(GatherKind::literal, 32, 2));
-  v.aware = render(bench.session, v.subject, gather_of(GatherKind::aware, 32, 2));
-  v.rdb = render(bench.session, v.subject, rdb_of(17));
-  v.tiltshift = render_tiltshift(bench.session, v.subject);
+  v.literal = render(bench.stages, v.subject, gather_of(GatherKind::literal, 32, 2));
+  v.aware = render(bench.stages, v.subject, gather_of(GatherKind::aware, 32, 2));
+  v.rdb = render(bench.stages, v.subject, rdb_of(17));
+  v.tiltshift = render_tiltshift(bench.stages, v.subject);
   return v;
 }
 
@@ -160,7 +161,7 @@ Timing time_copy(const Bench& bench, const std::vector<Plane>& planes) {
 Table cost(const Bench& bench, Section& section) {
   bench.step("cost at 1920 x 1200");
   const Subject s = make_subject(
-      bench.session, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
+      bench.stages, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
   const Timing copy = time_copy(bench, s.pinhole.colour);
   Table table{
       "eye-cost",
@@ -187,6 +188,12 @@ void add_view(const Bench& bench, const std::string& name, Section& section) {
   const auto aware_difference = difference_picture(v.aware, v.truth, 4);
   const auto paper_difference = difference_picture(v.literal, v.tiltshift, 4);
   section.tables.push_back(artefacts(v, name));
+  const auto& rows = section.tables.back().rows;
+  section.findings.push_back(
+      fmt::format("{}: gather literal {} dB, aware {}, RDB {}, vertical blur {}; RMS in blurred "
+                  "pixels beside sharp ones {}, {}, {}, {}.",
+                  name, rows[1][1], rows[2][1], rows[3][1], rows[4][1], rows[1][5], rows[2][5],
+                  rows[3][5], rows[4][5]));
   const TiltshiftSettings g = estimate_gradient(v.subject);
   section.figures.push_back(sheet(
       bench, "eye-" + name,

@@ -24,9 +24,9 @@ Section figure7(const Bench& bench) {
   Series large{"RDB, focus 1 m (large CoC)", {}, true, true};
   Series views{"accumulation buffer", {}, true, true};
   const Subject near =
-      make_subject(bench.session, make_plate2(bench.size(256), bench.size(256), 1), "f1");
+      make_subject(bench.stages, make_plate2(bench.size(256), bench.size(256), 1), "f1");
   const Subject far =
-      make_subject(bench.session, make_plate2(bench.size(256), bench.size(256), 1), "f3");
+      make_subject(bench.stages, make_plate2(bench.size(256), bench.size(256), 1), "f3");
   const std::vector<int> sides = bench.is_quick
                                      ? std::vector<int>{1, 4}
                                      : std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16};

@@ -1,4 +1,4 @@
-// defray-perf: the published experiments, one command each.
+// defray-perf: the published experiments, and the READMEs' tables of figures.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,9 +9,11 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "device/device_stages.h"
 #include "exit_code.h"
 #include "experiments.h"
 #include "image/safe_output.h"
+#include "report.h"
 
 namespace defray::perf {
 namespace {
@@ -49,13 +51,14 @@ int run(const Options& o) {
   std::filesystem::create_directories(o.folder, error);
   check_can_write(o.folder + "/index.html");
   Session session(select_device(o.device));
+  DeviceStages stages(session);
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   std::vector<Section> sections;
   for (const std::string& name : names) {
     const auto step = [&](const std::string& what) {
       if (is_terminal) fmt::print(stderr, "\r\033[K{}: {}", name, what);
     };
-    sections.push_back(experiments().at(name).run({o.folder, session, o.is_quick, step}));
+    sections.push_back(experiments().at(name).run({o.folder, stages, o.is_quick, step}));
     if (is_terminal) fmt::print(stderr, "\r\033[K");
     // Small pictures have small circles of confusion: what they show is not what the papers saw.
     if (o.is_quick) sections.back().findings = {"a rehearsal (--quick): its figures mean nothing"};
@@ -96,6 +99,7 @@ int parse_and_run(int argc, char** argv) {
   command->add_option("--device", o.device, "Index or part of the name of 'defray devices'");
   command->add_flag("--quick", o.is_quick, "A quarter of the size, two repetitions: a rehearsal");
   command->footer(about());
+  const std::function<int()> report = add_report(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -103,7 +107,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& parse_error) {
     fail(ErrorKind::usage, "{}", parse_error.what());
   }
-  return run(o);
+  return command->parsed() ? run(o) : report();
 }
 
 }  // namespace

@@ -4,38 +4,36 @@
 // also timed: the baseline of the same run. Use --benchmark_repetitions=5 for median and spread.
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <cmath>
 
-#include "reference/reference.h"
+#include "base/stopwatch.h"
+#include "device/device_stages.h"
+#include "device/rdb_run.h"
+#include "lens/lens.h"
+#include "reference/twin_stages.h"
 
 namespace {
 
 using namespace defray;
 
-struct Frame {
-  int width, height;
-  std::vector<std::int32_t> coc;
-  Plane depth;
-  std::vector<Plane> colour;
-};
-
 /// Near discs over a receding floor: depths continuous and not, CoC from 0 to `radius` either way.
 Frame make_frame(int width, int height, int radius) {
-  Frame frame{width, height, {}, {}, std::vector<Plane>(4)};
+  std::vector<std::int32_t> coc;
+  Plane depth;
+  std::vector<Plane> colour(4);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double u = double(x) / width, v = double(y) / height;
       const double disc = std::hypot(std::fmod(u * 5, 1.0) - 0.5, std::fmod(v * 4, 1.0) - 0.5);
       const double z = disc < 0.3 ? 2.6 + u : 5 / (0.55 + 0.9 * v);
-      frame.coc.push_back(static_cast<std::int32_t>(std::lround(256 * radius * (z - 5) / z)));
-      frame.depth.push_back(static_cast<float>(z));
+      coc.push_back(static_cast<std::int32_t>(std::lround(256 * radius * (z - 5) / z)));
+      depth.push_back(static_cast<float>(z));
       for (std::size_t c = 0; c < 4; ++c) {
-        frame.colour[c].push_back(static_cast<float>(((x >> c) ^ (y >> c)) & 1));
+        colour[c].push_back(static_cast<float>(((x >> c) ^ (y >> c)) & 1));
       }
     }
   }
-  return frame;
+  return {width, height, std::move(coc), std::move(depth), colour};
 }
 
 Session& session() {
@@ -43,22 +41,38 @@ Session& session() {
   return shared;
 }
 
-RdbSettings settings() { return {}; }
-
-double rays(const Frame& frame) {
-  const auto cells = make_lens_cells(settings().cells_per_side, false).centres.size();
-  return double(frame.width) * frame.height * double(cells);
+DeviceStages& device() {
+  static DeviceStages& shared = *new DeviceStages(session());
+  return shared;
 }
 
-std::vector<Plane> render(const Frame& f) {
-  return render_rdb(session(), f.width, f.height, f.coc, f.depth, f.colour, settings());
+RayPlan plan() { return plan_rays({}); }
+
+double rays(const Frame& frame) {
+  return double(frame.pixels()) * double(plan().cells.centres.size());
+}
+
+Values<float> in_host_memory(const Values<float>& v) {
+  return Values<float>::view(v.begin(), v.size());
+}
+
+/// The same frame, on no device yet: its way there is timed too.
+Frame in_host_memory(const Frame& f) {
+  const auto coc = Quanta::view(f.coc_quanta.begin(), f.coc_quanta.size());
+  Frame view{f.width, f.height, coc, in_host_memory(f.depth), {}};
+  for (const Values<float>& channel : f.channels) view.channels.push_back(in_host_memory(channel));
+  return view;
+}
+
+std::vector<Plane> render(Stages& stages, const Frame& f) {
+  return stages.rays(in_host_memory(f), plan()).means;
 }
 
 /// Whether the device's picture is the twin's, within float rounding; on 160 x 120.
 bool is_correct(int radius) {
   const Frame f = make_frame(160, 120, radius);
-  const auto kernel = render(f);
-  const auto twin = reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings());
+  reference::TwinStages stages;
+  const auto kernel = render(device(), f), twin = render(stages, f);
   double worst = 0;
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t i = 0; i < twin[c].size(); ++i) {
@@ -80,14 +94,18 @@ void coc(benchmark::State& state) {
   const Frame f = frame_of(state);
   Lens lens;
   lens.focus_distance_units = 5;
-  for (auto _ : state) benchmark::DoNotOptimize(coc_on_device(session(), lens, f.width, f.depth));
+  for (auto _ : state) {
+    const Quanta coc = device().coc(lens, f.width, in_host_memory(f.depth));
+    benchmark::DoNotOptimize(coc.host());  // waits for it
+  }
   set_rate(state, double(f.width) * f.height, "pixels/s");
 }
 
 /// Clears and scatters every pass of a frame.
 void rdb_scatter(benchmark::State& state) {
   const Frame f = frame_of(state);
-  RdbRun run(session(), {f.width, f.height, f.coc, f.depth, f.colour}, settings());
+  const RayPlan rays_plan = plan();
+  RdbRun run(session(), f, rays_plan);
   for (auto _ : state) {
     for (const RdbPass& pass : run.passes()) run.scatter(pass);
     run.finish();
@@ -97,20 +115,20 @@ void rdb_scatter(benchmark::State& state) {
 
 /// Merges every pass of a frame; the scatter before each is not timed.
 void rdb_merge(benchmark::State& state) {
-  using Clock = std::chrono::steady_clock;
   const Frame f = frame_of(state);
-  RdbRun run(session(), {f.width, f.height, f.coc, f.depth, f.colour}, settings());
+  const RayPlan rays_plan = plan();
+  RdbRun run(session(), f, rays_plan);
   for (auto _ : state) {
-    Clock::duration merging{};
+    double merging_s = 0;
     for (const RdbPass& pass : run.passes()) {
       run.scatter(pass);
       run.finish();
-      const auto start = Clock::now();
+      const Stopwatch watch;
       run.merge(pass);
       run.finish();
-      merging += Clock::now() - start;
+      merging_s += watch.seconds();
     }
-    state.SetIterationTime(std::chrono::duration<double>(merging).count());
+    state.SetIterationTime(merging_s);
   }
   set_rate(state, rays(f), "rays/s");
 }
@@ -118,10 +136,8 @@ void rdb_merge(benchmark::State& state) {
 /// The scalar twin, one thread: the baseline of the same run.
 void scalar_twin(benchmark::State& state) {
   const Frame f = frame_of(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        reference::render_rdb(f.width, f.height, f.coc, f.depth, f.colour, settings()));
-  }
+  reference::TwinStages stages;
+  for (auto _ : state) benchmark::DoNotOptimize(render(stages, f));
   set_rate(state, rays(f), "rays/s");
 }
 
@@ -131,7 +147,7 @@ void render_whole(benchmark::State& state) {
     return;
   }
   const Frame f = frame_of(state);
-  for (auto _ : state) benchmark::DoNotOptimize(render(f));
+  for (auto _ : state) benchmark::DoNotOptimize(render(device(), f));
   set_rate(state, rays(f), "rays/s");
 }
 

@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chain/stages.h"
-#include "rdb/rdb.h"
+#include "lens/coc.h"
+#include "rdb/rdb_plan.h"
 
 namespace defray::perf {
 namespace {
-
-/// One layer of fragments, [height][width].
-struct Layer {
-  std::vector<std::int32_t> coc_quanta;
-  Plane depth;  ///< `no_fragment()` where there is none.
-  std::vector<Plane> colour;
-  std::vector<std::uint32_t> coverage;
-};
 
 /// The same view, so many pixels more on each side.
 Scene widened(const Scene& scene, int margin) {
@@ -26,35 +18,50 @@ Scene widened(const Scene& scene, int margin) {
   return wide;
 }
 
-/// A picture's surfaces as fragments. What is nothing is no fragment, but for a background.
-Layer layer_of(const Bench& bench, const Subject& s, const ScenePicture& picture) {
-  Layer layer{{}, picture.depth, picture.colour, {}};
-  for (float& z : layer.depth) {
+/// A picture's surfaces. What is nothing is no surface, but for a background.
+Frame surfaces_of(const Bench& bench, const Subject& s, const ScenePicture& picture) {
+  Plane depth = picture.depth;
+  for (float& z : depth) {
     if (z >= static_cast<float>(nothing_there)) z = HUGE_VALF;
   }
-  layer.coc_quanta = coc_on_device(bench.session, s.lens, s.scene.width, layer.depth);
-  layer.coverage.assign(layer.depth.size(), DEFRAY_WHOLE);
-  for (std::size_t i = 0; i < layer.depth.size(); ++i) {
-    if (!std::isinf(layer.depth[i]) || s.scene.background) continue;
-    layer.depth[i] = no_fragment();
-    layer.coverage[i] = 0;
+  Frame f{s.scene.width,
+          s.scene.height,
+          bench.stages.coc(s.lens, s.scene.width, depth),
+          {},
+          picture.colour};
+  std::vector<std::uint32_t> coverage(depth.size(), DEFRAY_WHOLE);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (!std::isinf(depth[i]) || s.scene.background) continue;
+    depth[i] = no_fragment();
+    coverage[i] = 0;
   }
-  return layer;
+  f.depth = std::move(depth);
+  f.coverage = std::move(coverage);
+  return f;
 }
 
-Plane inverse_of(const Plane& depth) {
+Plane inverse_of(std::span<const float> depth) {
   Plane inverse;
   for (const float z : depth) inverse.push_back(is_fragment(z) ? 1 / z : -1.0f);
   return inverse;
 }
 
+/// The pinhole picture as the chain's first stages take it.
+Frame with_inverse(const Subject& s) {
+  Frame f = s.frame();
+  f.inverse = inverse_of(s.pinhole.depth);
+  return f;
+}
+
 /// What lies behind, where something uncovers it.
-Layer behind_of(const Bench& bench, const Wide& w) {
-  Layer behind = layer_of(bench, w.subject, w.exact.behind);
-  for (std::size_t i = 0; i < behind.depth.size(); ++i) {
+Frame behind_of(const Bench& bench, const Wide& w) {
+  Frame behind = surfaces_of(bench, w.subject, w.exact.behind);
+  const auto depth = behind.depth.edit();
+  const auto coverage = behind.coverage.edit();
+  for (std::size_t i = 0; i < depth.size(); ++i) {
     if (w.is_uncovered[i] || w.exact.share[i] < 1) continue;
-    behind.depth[i] = no_fragment();
-    behind.coverage[i] = 0;
+    depth[i] = no_fragment();
+    coverage[i] = 0;
   }
   return behind;
 }
@@ -73,77 +80,71 @@ bool saw_farther(const Subject& s, int x, int y) {
   return coc(x, y) >= least + (most - least) / 2;
 }
 
-Fragments fragments_of(const Wide& w, const Layer& front, const Layer& behind) {
-  Fragments f{w.subject.scene.width, w.subject.scene.height, 2, {}, {}, {}, {}};
-  f.channels.resize(3);
-  const auto append = [&](auto& to, const auto& from, std::size_t row) {
-    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(row * size(f.width));
-    to.insert(to.end(), begin, begin + f.width);
-  };
-  for (std::size_t row = 0; row < size(f.height); ++row) {
-    for (const Layer* layer : {&front, &behind}) {
-      append(f.coc_quanta, layer->coc_quanta, row);
-      append(f.depth, layer->depth, row);
-      append(f.coverage, layer->coverage, row);
-      for (std::size_t c = 0; c < 3; ++c) append(f.channels[c], layer->colour[c], row);
+/// Two planes, row by row.
+template <typename T>
+std::vector<T> interleaved(const Values<T>& front, const Values<T>& behind, int width) {
+  std::vector<T> rows;
+  for (std::size_t at = 0; at < front.size(); at += size(width)) {
+    for (const Values<T>* plane : {&front, &behind}) {
+      rows.insert(rows.end(), plane->begin() + at, plane->begin() + at + width);
     }
   }
-  return f;
+  return rows;
 }
 
-Layer layer_of(Surface s) {
-  Layer layer{std::move(s.coc_quanta), {}, std::move(s.channels), std::move(s.coverage)};
-  for (std::size_t i = 0; i < s.inverse.size(); ++i) {
-    const float inverse = s.inverse[i];
-    layer.depth.push_back(inverse < 0 ? no_fragment() : 1 / inverse);  // 1/0: the background
-    if (inverse < 0) layer.coverage[i] = 0;
+/// As Stages::assemble, but depths keep their last bit: they need not go through 1/depth.
+Frame layered(const Frame& front, const Frame& behind) {
+  Frame f = front.without_planes();
+  f.layers = 2;
+  const auto both = [&](const auto& a, const auto& b) { return interleaved(a, b, f.width); };
+  f.coc_quanta = both(front.coc_quanta, behind.coc_quanta);
+  f.depth = both(front.depth, behind.depth);
+  f.coverage = both(front.coverage, behind.coverage);
+  for (std::size_t c = 0; c < front.channels.size(); ++c) {
+    f.channels.push_back(both(front.channels[c], behind.channels[c]));
   }
-  return layer;
+  return f;
 }
 
 }  // namespace
 
 Wide make_wide(const Bench& bench, const Setup& setup) {
   const Scene& scene = setup.subject.scene;
-  const int margin = std::min(rdb_reach(largest_coc(setup.subject.coc)), scene.height);
-  Wide w{setup, margin, make_antialiased(bench.session, widened(scene, margin), setup.setting),
+  const int margin = std::min(rdb_reach(largest_coc(setup.subject.coc.host())), scene.height);
+  Wide w{setup, margin, make_antialiased(bench.stages, widened(scene, margin), setup.setting),
          {},    {},     {}};
-  const Subject& s = w.subject;
-  w.exact = render_coverage(s.scene, pinhole_samples);
-  w.mixed = edges(bench.session, s.scene.width, s.scene.height, s.coc);
-  const Plane inverse = inverse_of(s.pinhole.depth);
-  const FrameView view{s.scene.width, s.scene.height, s.coc, inverse, s.pinhole.colour};
-  for (const float i : fill(bench.session, view, w.mixed).inverse) w.is_uncovered.push_back(i >= 0);
+  w.exact = render_coverage(w.subject.scene, pinhole_samples);
+  const Frame pinhole = with_inverse(w.subject);
+  w.mixed = bench.stages.edges(pinhole);
+  const Frame behind = bench.stages.fill(pinhole, w.mixed);
+  for (const float i : behind.inverse) w.is_uncovered.push_back(i >= 0);
   return w;
 }
 
-Fragments exact_fragments(const Bench& bench, const Wide& w) {
-  Layer front = layer_of(bench, w.subject, w.exact.front);
-  for (std::size_t i = 0; i < front.coverage.size(); ++i) {
+Frame exact_surfaces(const Bench& bench, const Wide& w) {
+  Frame front = surfaces_of(bench, w.subject, w.exact.front);
+  const auto coverage = front.coverage.edit();
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
     const double share = static_cast<double>(w.exact.share[i]);
-    if (front.coverage[i] > 0) {
-      front.coverage[i] = static_cast<std::uint32_t>(std::lround(share * DEFRAY_WHOLE));
-    }
+    if (coverage[i] > 0)
+      coverage[i] = static_cast<std::uint32_t>(std::lround(share * DEFRAY_WHOLE));
   }
-  return fragments_of(w, front, behind_of(bench, w));
+  return layered(front, behind_of(bench, w));
 }
 
-Fragments split_fragments(const Bench& bench, const Wide& w) {
+Frame split_surfaces(const Bench& bench, const Wide& w) {
   const Subject& s = w.subject;
-  const Plane inverse = inverse_of(s.pinhole.depth);
-  const FrameView view{s.scene.width, s.scene.height, s.coc, inverse, s.pinhole.colour};
-  Layer behind = behind_of(bench, w);
-  const Layer own = layer_of(bench, s, w.exact.front);
+  Frame behind = behind_of(bench, w);
+  const Frame own = surfaces_of(bench, s, w.exact.front);
   for (std::size_t i = 0; i < w.mixed.size(); ++i) {
-    const int x = static_cast<int>(i) % view.width, y = static_cast<int>(i) / view.width;
+    const int x = static_cast<int>(i) % s.scene.width, y = static_cast<int>(i) / s.scene.width;
     if (!w.mixed[i] || w.exact.share[i] < 1 || !saw_farther(s, x, y)) continue;
-    behind.coc_quanta[i] = own.coc_quanta[i];  // the farther surface is the pixel's own
-    behind.depth[i] = own.depth[i];
-    for (std::size_t c = 0; c < 3; ++c) behind.colour[c][i] = own.colour[c][i];
+    behind.coc_quanta.edit()[i] = own.coc_quanta[i];  // the farther surface is the pixel's own
+    behind.depth.edit()[i] = own.depth[i];
+    for (std::size_t c = 0; c < 3; ++c) behind.channels[c].edit()[i] = own.channels[c][i];
   }
-  Surfaces parts = split(bench.session, view, w.mixed,
-                         {behind.coc_quanta, inverse_of(behind.depth), behind.colour, {}});
-  return fragments_of(w, layer_of(std::move(parts.front)), layer_of(std::move(parts.behind)));
+  behind.inverse = inverse_of(behind.depth.host());
+  return bench.stages.assemble(bench.stages.split(with_inverse(s), w.mixed, std::move(behind)));
 }
 
 }  // namespace defray::perf

@@ -1,6 +1,5 @@
 #pragma once
-// A scene's surfaces as fragments, exactly as they are: what the chain must guess.
-#include "rdb/fragments.h"
+// A scene's surfaces, exactly as they are: what the chain must guess.
 #include "truth.h"
 
 namespace defray::perf {
@@ -11,7 +10,7 @@ struct Wide {
   int margin;
   Subject subject;  ///< Anti-aliased.
   Coverage exact;
-  std::vector<std::uint32_t> mixed;
+  Words mixed;
   /// Where the chain looks for hidden surfaces: elsewhere they would only show through the small
   /// gaps between the rays of a slanting surface.
   std::vector<std::uint8_t> is_uncovered;
@@ -19,10 +18,10 @@ struct Wide {
 
 Wide make_wide(const Bench& bench, const Setup& setup);
 
-/// Surfaces and coverage as they are.
-Fragments exact_fragments(const Bench& bench, const Wide& wide);
+/// Surfaces and coverage as they are, in two layers.
+Frame exact_surfaces(const Bench& bench, const Wide& wide);
 
-/// Surfaces as they are, mixed pixels taken apart as the chain does it.
-Fragments split_fragments(const Bench& bench, const Wide& wide);
+/// The same, but mixed pixels taken apart as the chain does it.
+Frame split_surfaces(const Bench& bench, const Wide& wide);
 
 }  // namespace defray::perf

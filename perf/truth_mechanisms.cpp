@@ -14,10 +14,10 @@ struct Variant {
 };
 
 /// The default but for one change.
-Variant with(const std::string& name, const std::function<void(DefocusSettings&)>& change,
+Variant with(const std::string& name, const std::function<void(ChainSettings&)>& change,
              bool averages_depth = false) {
   Variant v{name, default_chain(), averages_depth};
-  change(*v.settings.defocus);
+  change(*v.settings.chain);
   return v;
 }
 
@@ -66,7 +66,7 @@ Timing ratio(const Paired& p, std::size_t variant) {
 Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& all) {
   const Subject& s = setup.subject;
   const Subject filtered = make_antialiased(
-      bench.session, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
+      bench.stages, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
   Paired p;
   p.seconds.resize(all.size());
   for (int round = -1; round < (bench.is_quick ? 1 : 3); ++round) {  // -1: the picture
@@ -74,7 +74,7 @@ Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& a
       bench.step(fmt::format("{}: {}, round {}", setup.name(), all[v].name, round + 1));
       std::vector<Plane> picture;
       const double seconds = seconds_of([&] {
-        picture = render(bench.session, all[v].averages_depth ? filtered : s, all[v].settings);
+        picture = render(bench.stages, all[v].averages_depth ? filtered : s, all[v].settings);
       });
       if (round < 0) {
         p.pictures.push_back(std::move(picture));
@@ -112,8 +112,9 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
     quality.rows.push_back({v.name});
     cost.rows.push_back({v.name});
   }
+  double least_spread = 1e9, largest_spread = 0;
   for (const Setup& setup : setups) {
-    check_against_twin(bench.session, setup.subject, default_chain());
+    check_against_twin(bench.stages, setup.subject, default_chain());
     const Paired p = run(bench, setup, all);
     quality.columns.push_back(setup.name());
     cost.columns.push_back(setup.name());
@@ -126,12 +127,17 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
       quality.rows[v + 2].push_back(v <= default_at ? fixed(db) : signed_db(db - default_db));
       const Timing t = ratio(p, v);
       cost.rows[v + 1].push_back(fmt::format("{:.2f} ± {:.0f} %", t.median_s, 100 * t.spread));
+      if (v == default_at) continue;
+      least_spread = std::min(least_spread, t.spread);
+      largest_spread = std::max(largest_spread, t.spread);
     }
     section.findings.push_back(
         fmt::format("{}: literal {:.2f} dB, default {:.2f} dB; truth's own "
                     "noise is at about {:.1f} dB.",
                     setup.name(), setup.psnr_db(p.pictures[0]), default_db, setup.truth_db()));
   }
+  section.findings.push_back(fmt::format("Ratios of times spread by {:.0f} to {:.0f} %.",
+                                         100 * least_spread, 100 * largest_spread));
   section.tables.push_back(quality);
   section.tables.push_back(cost);
 }

@@ -1,6 +1,6 @@
 // What is left of the error: the default chain with more and more of what it must guess given to
 // it, from the scene.
-#include "chain/stages.h"
+#include "chain/highlights.h"
 #include "lens/lens_samples.h"
 #include "truth_exact.h"
 
@@ -21,15 +21,14 @@ std::vector<Plane> cropped(const Wide& w, const std::vector<Plane>& planes) {
 }
 
 /// The rest of the chain.
-std::vector<Plane> distributed(const Bench& bench, Fragments f, int cells_per_side) {
-  RdbSettings rdb;
+std::vector<Plane> distributed(const Bench& bench, Frame f, int cells_per_side) {
   const int points = static_cast<int>(make_lens_cells(cells_per_side, false).centres.size());
-  rdb.samples = make_lens_samples({}, points);
-  const Plane kept = highlights(bench.session, f, 3);
-  const LightSources lights =
-      take_light(f, kept, 3, make_aperture_table(rasterise({})), rdb.samples);
-  f.channels = soften(bench.session, f, points);
-  return distribute_rays(bench.session, FragmentView(f), rdb, &lights).means;
+  RayPlan plan;
+  plan.cells = make_lens_samples({}, points);
+  const LightSources lights = take_light(f, bench.stages.highlights(f, 3), 3,
+                                         make_aperture_table(rasterise({})), plan.cells);
+  f.channels = bench.stages.soften(f, points);
+  return bench.stages.rays(f, plan, &lights).means;
 }
 
 }  // namespace
@@ -56,10 +55,10 @@ void add_split(const Bench& bench, const std::vector<Setup>& setups, Section& se
     const auto add_wide = [&](const std::vector<Plane>& picture) {
       add(setup.psnr_db(cropped(w, picture)));
     };
-    add(setup.psnr_db(render(bench.session, setup.subject, default_chain())));
-    add_wide(render(bench.session, w.subject, default_chain()));
-    add_wide(distributed(bench, split_fragments(bench, w), 13));
-    const Fragments exact = exact_fragments(bench, w);
+    add(setup.psnr_db(render(bench.stages, setup.subject, default_chain())));
+    add_wide(render(bench.stages, w.subject, default_chain()));
+    add_wide(distributed(bench, split_surfaces(bench, w), 13));
+    const Frame exact = exact_surfaces(bench, w);
     add_wide(distributed(bench, exact, 13));
     add_wide(distributed(bench, exact, 33));
     add_wide(distributed(bench, exact, bench.is_quick ? 17 : 64));

@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "reference/twin_stages.h"
 #include "validation/oclgrind_log.h"
 
 namespace defray::test {
@@ -51,6 +52,18 @@ Session& session_without_int64() {
   if (!shared) shared = std::make_unique<Session>(device_under_test(), SessionOptions{false});
   return *shared;
 }
+
+DeviceStages& device() {
+  static DeviceStages stages(session());
+  return stages;
+}
+
+Stages& twins() {
+  static reference::TwinStages stages;
+  return stages;
+}
+
+std::vector<Stages*> device_and_twins() { return {&device(), &twins()}; }
 
 bool is_slow_device() { return validation::is_simulator(device_under_test()); }
 
@@ -110,6 +123,12 @@ std::uint64_t hash_of(const std::vector<Plane>& planes) {
     }
   }
   return hash;
+}
+
+std::uint64_t hash_of_planes(const Planes& planes) {
+  std::vector<Plane> copies;
+  for (const Values<float>& plane : planes) copies.emplace_back(plane.begin(), plane.end());
+  return hash_of(copies);
 }
 
 Folder::Folder() {

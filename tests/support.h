@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "rdb/rdb.h"
+#include "device/device_stages.h"
 
 namespace defray::test {
 
@@ -20,6 +20,29 @@ Session& session();
 
 /// The same, without 64-bit atomics.
 Session& session_without_int64();
+
+/// The stages on that session, and by the twins; both, one after the other.
+DeviceStages& device();
+Stages& twins();
+std::vector<Stages*> device_and_twins();
+
+/// A session that works on copies, in bands that fit so many bytes, until this ends.
+class InBands {
+ public:
+  InBands(Session& session, std::size_t memory_bytes) : session_(session) {
+    session_.set_copies(true);
+    session_.set_memory(memory_bytes);
+  }
+  ~InBands() {
+    session_.set_copies(false);
+    session_.set_memory(default_memory_bytes);
+  }
+  InBands(const InBands&) = delete;
+  InBands& operator=(const InBands&) = delete;
+
+ private:
+  Session& session_;
+};
 
 /// True where every work-item costs a thousand times more (Oclgrind): fewer cells, same sizes.
 bool is_slow_device();
@@ -42,6 +65,7 @@ Plane random_plane(Size size, std::uint32_t seed);
 
 /// FNV-1a over the bytes of planes.
 std::uint64_t hash_of(const std::vector<Plane>& planes);
+std::uint64_t hash_of_planes(const Planes& planes);
 
 /// A folder of this test's own, removed with it.
 class Folder {

@@ -4,15 +4,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <span>
+
+#include "lens/coc.h"
+#include "rdb/rdb_plan.h"
 
 namespace defray {
 namespace {
 
-int margin_of(const PinholeFrame& f, Border border, DefocusReport& report) {
+int margin_of(const Frame& f, Border border, ChainReport& report) {
   if (border == Border::renormalise) return 0;
   std::int32_t largest = 0;
+  const auto coc = f.coc_quanta.host();
   const auto look = [&](int x, int y) {
-    largest = std::max(largest, std::abs(f.coc_quanta[size(y) * size(f.width) + size(x)]));
+    largest = std::max(largest, std::abs(coc[f.index(x, y)]));
   };
   for (int x = 0; x < f.width; ++x) look(x, 0), look(x, f.height - 1);
   for (int y = 0; y < f.height; ++y) look(0, y), look(f.width - 1, y);
@@ -25,7 +30,7 @@ int margin_of(const PinholeFrame& f, Border border, DefocusReport& report) {
 
 /// `plane` with its edge repeated around it.
 template <typename T>
-std::vector<T> extended(const std::vector<T>& plane, int width, int height, int margin) {
+std::vector<T> repeated(std::span<const T> plane, int width, int height, int margin) {
   std::vector<T> out;
   out.reserve((size(width) + 2 * size(margin)) * (size(height) + 2 * size(margin)));
   for (int y = -margin; y < height + margin; ++y) {
@@ -39,7 +44,7 @@ std::vector<T> extended(const std::vector<T>& plane, int width, int height, int 
 
 /// A line of front fragments from the frame's edge inwards, and outwards at negative places.
 struct Line {
-  const Fragments& fragments;
+  std::span<const std::int32_t> coc;
   std::size_t edge;
   std::ptrdiff_t inward;
 
@@ -48,7 +53,6 @@ struct Line {
   }
   /// How many fragments from the edge on are of one surface, at most so many.
   int surface(int most) const {
-    const auto& coc = fragments.coc_quanta;
     int count = 1;
     while (count < most &&
            std::abs(tame(coc[at(count)]) - tame(coc[at(count - 1)])) <= DEFRAY_JUMP_QUANTA)
@@ -57,7 +61,7 @@ struct Line {
   }
 };
 
-void continue_line(const Line& line, int surface, int margin, Plane& plane) {
+void continue_line(const Line& line, int surface, int margin, std::span<float> plane) {
   const float edge = plane[line.at(0)];
   float sum = 0;  // of differences: one colour stays that colour
   for (int d = 0; d < margin; ++d) {
@@ -69,45 +73,51 @@ void continue_line(const Line& line, int surface, int margin, Plane& plane) {
 
 }  // namespace
 
-void continue_colours(const ExtendedFrame& e, Fragments& f) {
-  const int m = e.margin;
+void continue_colours(Frame& f) {
+  const int m = f.margin;
+  if (m == 0) return;
+  std::vector<std::span<float>> channels;
+  for (Values<float>& channel : f.channels) channels.push_back(channel.edit());
+  const auto coc = f.coc_quanta.host();
   const auto go_on = [&](int x, int y, int step_x, int step_y, int length) {
     const auto inward = static_cast<std::ptrdiff_t>(step_y) * f.layers * f.width + step_x;
-    const Line line{f, f.index(x, y, 0), inward};
+    const Line line{coc, f.index(x, y), inward};
     const int surface = line.surface(std::min(length, m));
-    for (Plane& plane : f.channels) continue_line(line, surface, m, plane);
+    for (const std::span<float> plane : channels) continue_line(line, surface, m, plane);
   };
-  for (int y = m; m > 0 && y < e.height - m; ++y) {
-    go_on(m, y, 1, 0, e.width - 2 * m);
-    go_on(e.width - m - 1, y, -1, 0, e.width - 2 * m);
+  for (int y = m; y < f.height - m; ++y) {
+    go_on(m, y, 1, 0, f.width - 2 * m);
+    go_on(f.width - m - 1, y, -1, 0, f.width - 2 * m);
   }
-  for (int x = 0; m > 0 && x < e.width; ++x) {
-    go_on(x, m, 0, 1, e.height - 2 * m);
-    go_on(x, e.height - m - 1, 0, -1, e.height - 2 * m);
+  for (int x = 0; x < f.width; ++x) {
+    go_on(x, m, 0, 1, f.height - 2 * m);
+    go_on(x, f.height - m - 1, 0, -1, f.height - 2 * m);
   }
 }
 
-bool ExtendedFrame::is_in_margin(std::size_t pixel) const {
-  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
-  return x < margin || y < margin || x >= width - margin || y >= height - margin;
-}
-
-ExtendedFrame extend(const PinholeFrame& f, Border border, bool wants_data, DefocusReport& report) {
+Frame extended(const Frame& f, Border border, bool wants_data, ChainReport& report) {
   const int margin = margin_of(f, border, report);
-  ExtendedFrame e{f.width + 2 * margin, f.height + 2 * margin, margin, {}, {}, {}, {}};
-  e.coc_quanta = extended(f.coc_quanta, f.width, f.height, margin);
-  e.inverse = extended(f.depth, f.width, f.height, margin);
-  for (float& z : e.inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
-  for (const Plane& plane : f.channels) {
-    e.channels.push_back(extended(plane, f.width, f.height, margin));
-    for (std::size_t i = 0; border == Border::black && i < e.channels.back().size(); ++i) {
-      if (e.is_in_margin(i)) e.channels.back()[i] = 0;
+  Frame e = f.without_planes();
+  e.width += 2 * margin;
+  e.height += 2 * margin;
+  e.margin = margin;
+  e.origin_x -= margin;
+  e.origin_y -= margin;
+  e.coc_quanta = repeated(f.coc_quanta.host(), f.width, f.height, margin);
+  Plane inverse = repeated(f.depth.host(), f.width, f.height, margin);
+  for (float& z : inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
+  e.inverse = std::move(inverse);
+  for (const Values<float>& channel : f.channels) {
+    Plane plane = repeated(channel.host(), f.width, f.height, margin);
+    for (std::size_t i = 0; border == Border::black && i < plane.size(); ++i) {
+      if (e.is_in_margin(i)) plane[i] = 0;
     }
+    e.channels.emplace_back(std::move(plane));
   }
   if (wants_data) {
-    std::vector<std::uint32_t> own(size(f.width) * size(f.height));
+    std::vector<std::uint32_t> own(f.pixels());
     std::iota(own.begin(), own.end(), 0u);
-    e.data = extended(own, f.width, f.height, margin);
+    e.data_of = repeated(std::span<const std::uint32_t>(own), f.width, f.height, margin);
   }
   return e;
 }

@@ -6,7 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "opencl/bands.h"
+#include "base/plane.h"
+#include "lens/coc.h"
 
 namespace defray {
 namespace {
@@ -45,7 +46,7 @@ void sort_into_tiles(LightSources& lights, int width, int height) {
 
 /// Median alpha around a fragment's disc, where `highlights` looks for the light around it; its own
 /// if all of that is beyond the frame.
-float alpha_around(const Fragments& f, const Plane& alpha, std::size_t own, std::int32_t coc) {
+float alpha_around(const Frame& f, const Plane& alpha, std::size_t own, std::int32_t coc) {
   const int x = static_cast<int>(own % size(f.width));
   const int y = static_cast<int>(own / size(f.width) / size(f.layers));
   const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
@@ -65,27 +66,6 @@ float alpha_around(const Fragments& f, const Plane& alpha, std::size_t own, std:
 }
 
 }  // namespace
-
-Plane highlights(Session& session, const Fragments& f, int light_channels,
-                 std::size_t memory_bytes) {
-  const std::size_t stride = size(f.width) * size(f.layers);
-  Plane kept(f.depth.size());
-  // As `around` in the kernel has it.
-  const std::int64_t reach = std::max(tame(largest_coc(f.coc_quanta)) / 256 + 1, 3) + 3;
-  constexpr std::size_t bytes_a_fragment = 28;
-  for (const Band& b :
-       cut_into_bands(f.height, reach, 1, stride * bytes_a_fragment, memory_bytes)) {
-    BandOnDevice band(session, b, stride);
-    const DefrayHighlightParams p{word(f.width), word(b.window_rows), word(f.layers),
-                                  word(light_channels)};
-    const ChannelsOnDevice in(band, f.channels);
-    const cl::Buffer made = band.made<cl_float>();
-    band.launch("highlights", f.layers, p, band.view(f.coc_quanta), band.view(f.coverage), in.of[0],
-                in.of[1], in.of[2], in.of[3], made);
-    band.read(made, kept);
-  }
-  return kept;
-}
 
 std::vector<std::uint32_t> map_cells(const LensCells& cells) {
   constexpr int side = DEFRAY_CELL_MAP;
@@ -107,35 +87,41 @@ std::vector<std::uint32_t> map_cells(const LensCells& cells) {
   return map;
 }
 
-LightSources take_light(Fragments& f, const Plane& kept, int light_channels,
+LightSources take_light(Frame& f, const Values<float>& kept_share, int light_channels,
                         const ApertureTable& aperture, const LensCells& cells) {
   LightSources lights;
+  const auto kept = kept_share.host();
+  if (std::all_of(kept.begin(), kept.end(), [](float k) { return k == 1.0f; })) return lights;
   const bool has_alpha = f.channels.size() > size(light_channels);
-  const Plane alpha = has_alpha ? f.channels.back() : Plane{};
+  const Plane alpha =
+      has_alpha ? Plane(f.channels.back().begin(), f.channels.back().end()) : Plane{};
+  std::vector<std::span<float>> channels;
+  for (Values<float>& channel : f.channels) channels.push_back(channel.edit());
+  const auto coc_quanta = f.coc_quanta.host();
+  const auto depth = f.depth.host();
+  const auto coverage = f.coverage.host();
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] == 1.0f) continue;
     const std::size_t row = i / size(f.width);
-    const std::int32_t coc = tame(f.coc_quanta[i]);
+    const std::int32_t coc = tame(coc_quanta[i]);
     lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
                             static_cast<std::int32_t>(row / size(f.layers)), coc,
-                            std::bit_cast<std::int32_t>(f.depth[i])});
+                            std::bit_cast<std::int32_t>(depth[i])});
     std::array<float, 4> excess{};
-    const float share =
-        static_cast<float>(f.coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
+    const float share = static_cast<float>(coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
     for (std::size_t c = 0; c < size(light_channels); ++c) {
-      const float base = f.channels[c][i] * kept[i];
-      excess[c] = (f.channels[c][i] - base) * share;
-      f.channels[c][i] = base;
+      const float base = channels[c][i] * kept[i];
+      excess[c] = (channels[c][i] - base) * share;
+      channels[c][i] = base;
     }
     // Alpha stays with the light: before nothing all of it, before what is opaque none.
     const float around = has_alpha ? alpha_around(f, alpha, i, coc) : 0;
     if (has_alpha && around < alpha[i]) {
-      excess[f.channels.size() - 1] = (alpha[i] - std::fmax(around, 0.0f)) * share;
-      f.channels.back()[i] = std::fmax(around, 0.0f);
+      excess[channels.size() - 1] = (alpha[i] - std::fmax(around, 0.0f)) * share;
+      channels.back()[i] = std::fmax(around, 0.0f);
     }
     lights.excess.push_back(excess);
   }
-  if (lights.empty()) return lights;
   sort_into_tiles(lights, f.width, f.height);
   lights.table = aperture.sums;
   lights.share_of_light = 1.0f / static_cast<float>(aperture.total());

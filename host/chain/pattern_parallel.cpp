@@ -17,8 +17,6 @@ constexpr int refine_steps = 8;       ///< On each side of a minimum,
 constexpr double refine_by = 0.0025;  ///< of so much of its length.
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
-std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-
 struct Sample {
   int x, y;
 };
@@ -31,15 +29,21 @@ struct Length {
 /// Along one axis of the picture.
 class ParallelSearch {
  public:
-  ParallelSearch(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
-                 const PatternSettings& settings, PatternShift longest)
-      : frame_(frame), pixels_(pixels), settings_(settings), longest_(longest) {
+  ParallelSearch(const Frame& frame, const Words& pixels, const PatternSettings& settings,
+                 PatternShift longest)
+      : width_(frame.width),
+        height_(frame.height),
+        coc_(frame.coc_quanta.host()),
+        inverse_(frame.inverse.host()),
+        pixels_(pixels.host()),
+        settings_(settings),
+        longest_(longest) {
     const int dx = longest.y > 0 ? 1 : 0, dy = 1 - dx;  // across the shift
     for (int y = 0; y < frame.height - dy; y += sampled_rows) {
       for (int x = 0; x < frame.width - dx; ++x) {
-        if (!(pixels[at(x, y)] & DEFRAY_PATTERN_KNOWN)) continue;
+        if (!(pixels_[at(x, y)] & DEFRAY_PATTERN_KNOWN)) continue;
         ++known_;
-        const float here = frame.inverse[at(x, y)], next = frame.inverse[at(x + dx, y + dy)];
+        const float here = inverse_[at(x, y)], next = inverse_[at(x + dx, y + dy)];
         // Over a window of 25 px a shift of 100 px changes by 1.
         if (!(std::fabs(next - here) * 2500 > here) || !(here > 0)) continue;
         samples_.push_back({x, y});
@@ -71,12 +75,12 @@ class ParallelSearch {
   }
 
  private:
-  std::size_t at(int x, int y) const { return as_size(y) * as_size(frame_.width) + as_size(x); }
+  std::size_t at(int x, int y) const { return size(y) * size(width_) + size(x); }
 
   std::vector<Length> costs(const std::vector<float>& lengths) const {
     std::vector<Length> all(lengths.size());
     parallel_for(static_cast<int>(all.size()), [&](int i) {
-      all[as_size(i)] = {cost(lengths[as_size(i)]), lengths[as_size(i)]};
+      all[size(i)] = {cost(lengths[size(i)]), lengths[size(i)]};
     });
     return all;
   }
@@ -98,13 +102,12 @@ class ParallelSearch {
     const PatternShift shift{longest_.x, longest_.y, parallel};
     for (const Sample& from : samples_) {
       const std::size_t here = at(from.x, from.y);
-      const PatternShift s = shift_at(shift, frame_.inverse[here]);
+      const PatternShift s = shift_at(shift, inverse_[here]);
       const int x = from.x + s.x, y = from.y + s.y;
-      if ((s.x == 0 && s.y == 0) || x >= frame_.width || y >= frame_.height) continue;
+      if ((s.x == 0 && s.y == 0) || x >= width_ || y >= height_) continue;
       const std::size_t there = at(x, y);
       if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (std::abs(std::int64_t{frame_.coc_quanta[here]} - frame_.coc_quanta[there]) >
-          settings_.tolerance_quanta) {
+      if (std::abs(std::int64_t{coc_[here]} - coc_[there]) > settings_.tolerance_quanta) {
         continue;
       }
       for (const int bit : {0, 8, 16}) {
@@ -119,8 +122,10 @@ class ParallelSearch {
     return (squares << 8) / pairs + hidden * known_ / pairs;
   }
 
-  const PatternFrame& frame_;
-  const std::vector<std::uint32_t>& pixels_;
+  int width_, height_;
+  std::span<const std::int32_t> coc_;
+  std::span<const float> inverse_;
+  std::span<const std::uint32_t> pixels_;
   const PatternSettings& settings_;
   PatternShift longest_;
   std::vector<Sample> samples_;
@@ -130,8 +135,7 @@ class ParallelSearch {
 
 }  // namespace
 
-std::vector<PatternShift> find_parallel_shifts(const PatternFrame& frame,
-                                               const std::vector<std::uint32_t>& pixels,
+std::vector<PatternShift> find_parallel_shifts(const Frame& frame, const Words& pixels,
                                                const PatternSettings& settings) {
   struct Found {
     std::uint64_t cost;
@@ -146,7 +150,7 @@ std::vector<PatternShift> find_parallel_shifts(const PatternFrame& frame,
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.cost < b.cost; });
-  found.resize(std::min(found.size(), as_size(settings.parallel_shifts)));
+  found.resize(std::min(found.size(), size(settings.parallel_shifts)));
   std::vector<PatternShift> shifts;
   for (const Found& f : found) {
     shifts.push_back(f.shift);

@@ -16,22 +16,21 @@ constexpr int refine_px = 3;    ///< Around a coarse minimum.
 constexpr int refine_rows = 8;  ///< One row of so many is compared.
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
-std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-
 /// Colours and CoC as the comparison reads them; `known` is 0 or -1, all bits.
 struct Picture {
   Picture(int w, int h)
-      : width(w), height(h), r(as_size(w) * as_size(h)), g(r), b(r), known(r), coc(r.size()) {}
+      : width(w), height(h), r(size(w) * size(h)), g(r), b(r), known(r), coc(r.size()) {}
   int width, height;
   std::vector<std::int16_t> r, g, b, known;
   std::vector<std::int32_t> coc;
 };
 
-Picture whole_picture(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels) {
+Picture whole_picture(const Frame& frame, const Words& pixels) {
   Picture p(frame.width, frame.height);
-  p.coc = frame.coc_quanta;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const std::uint32_t v = pixels[i];
+  p.coc.assign(frame.coc_quanta.begin(), frame.coc_quanta.end());
+  const auto words = pixels.host();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::uint32_t v = words[i];
     p.r[i] = static_cast<std::int16_t>(v & 255);
     p.g[i] = static_cast<std::int16_t>(v >> 8 & 255);
     p.b[i] = static_cast<std::int16_t>(v >> 16 & 255);
@@ -47,7 +46,7 @@ Picture block_means(const Picture& p) {
     const int x = i % means.width * block, y = i / means.width * block;
     std::int64_t count = 0, r = 0, g = 0, b = 0, coc = 0;
     for (int k = 0; k < block * block; ++k) {
-      const std::size_t at = as_size(y + k / block) * as_size(p.width) + as_size(x + k % block);
+      const std::size_t at = size(y + k / block) * size(p.width) + size(x + k % block);
       if (!p.known[at]) continue;
       ++count;
       r += p.r[at];
@@ -56,7 +55,7 @@ Picture block_means(const Picture& p) {
       coc += p.coc[at];
     }
     if (2 * count < block * block) continue;
-    const std::size_t at = as_size(i);
+    const std::size_t at = size(i);
     means.r[at] = static_cast<std::int16_t>((r + count / 2) / count);
     means.g[at] = static_cast<std::int16_t>((g + count / 2) / count);
     means.b[at] = static_cast<std::int16_t>((b + count / 2) / count);
@@ -84,8 +83,8 @@ void add_pairs(const Picture& p, std::size_t at, std::size_t there, int count,
   // Below 2^32 in a run: 3 x 255^2 x 16384.
   constexpr int run = 16384;
   for (int first = 0; first < count; first += run) {
-    const std::size_t end = as_size(std::min(run, count - first));
-    const std::size_t i = at + as_size(first), j = there + as_size(first);
+    const std::size_t end = size(std::min(run, count - first));
+    const std::size_t i = at + size(first), j = there + size(first);
     std::uint32_t squares = 0, pairs = 0;
     for (std::size_t k = 0; k < end; ++k) {
       // Radii go up to 2^30: their difference fits 32 bits without a sign.
@@ -111,8 +110,8 @@ Agreement agreement(const Picture& p, PatternShift s, int row_step, std::int32_t
   const int x = std::max(0, -s.x), count = p.width - std::abs(s.x);
   if (count <= 0) return sum;
   for (int y = std::max(0, -s.y); y < p.height - std::max(0, s.y); y += row_step) {
-    add_pairs(p, as_size(y) * as_size(p.width) + as_size(x),
-              as_size(y + s.y) * as_size(p.width) + as_size(x + s.x), count, tolerance, sum);
+    add_pairs(p, size(y) * size(p.width) + size(x), size(y + s.y) * size(p.width) + size(x + s.x),
+              count, tolerance, sum);
   }
   return sum;
 }
@@ -135,7 +134,7 @@ class CoarseMap {
   CoarseMap(const Picture& blocks, const PatternSettings& s)
       : reach_x_(s.reach_x_px / block),
         reach_y_(s.reach_y_px / block),
-        costs_(as_size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
+        costs_(size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
     constexpr std::size_t least_share = 50;  // a fiftieth
     const std::size_t all = blocks.r.size();
     parallel_for(reach_y_ + 1, [&](int y) {
@@ -159,7 +158,7 @@ class CoarseMap {
   }
 
  private:
-  std::size_t index(int x, int y) const { return as_size(y * (2 * reach_x_ + 1) + x + reach_x_); }
+  std::size_t index(int x, int y) const { return size(y * (2 * reach_x_ + 1) + x + reach_x_); }
 
   std::uint64_t at(int x, int y) const {
     if (y < 0) return at(-x, -y);
@@ -185,10 +184,10 @@ std::vector<Candidate> refined(const Picture& picture, const std::vector<Candida
   constexpr int side = 2 * refine_px + 1, tries = side * side;
   std::vector<Candidate> all(coarse.size() * tries);
   parallel_for(static_cast<int>(all.size()), [&](int i) {
-    const PatternShift from = coarse[as_size(i / tries)].shift;
+    const PatternShift from = coarse[size(i / tries)].shift;
     const int k = i % tries;
     const PatternShift s{from.x + k % side - refine_px, from.y + k / side - refine_px};
-    all[as_size(i)] = {agreement(picture, s, refine_rows, tolerance).cost(picture.r.size(), 1), s};
+    all[size(i)] = {agreement(picture, s, refine_rows, tolerance).cost(picture.r.size(), 1), s};
   });
   std::vector<Candidate> best;
   for (auto first = all.begin(); first != all.end(); first += tries) {
@@ -201,13 +200,12 @@ std::vector<Candidate> refined(const Picture& picture, const std::vector<Candida
 
 }  // namespace
 
-std::vector<PatternShift> find_pattern_shifts(const PatternFrame& frame,
-                                              const std::vector<std::uint32_t>& pixels,
+std::vector<PatternShift> find_pattern_shifts(const Frame& frame, const Words& pixels,
                                               const PatternSettings& settings) {
   const Picture picture = whole_picture(frame, pixels);
   std::vector<Candidate> found = CoarseMap(block_means(picture), settings).minima();
   sort_candidates(found);
-  found.resize(std::min(found.size(), as_size(settings.shifts)));
+  found.resize(std::min(found.size(), size(settings.shifts)));
   found = refined(picture, found, settings.tolerance_quanta);
   sort_candidates(found);
   std::vector<PatternShift> shifts;

@@ -62,7 +62,7 @@ PatternMargins::PatternMargins(const std::vector<PatternShift>& shifts, int wind
   y += window_px + 1;
 }
 
-DefrayPatternParams pattern_band(const PatternFrame& frame, const PatternMargins& margins,
+DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margins,
                                  const PatternSettings& settings, int band_y, int band_rows) {
   DefrayPatternParams p{};
   p.width = static_cast<std::uint32_t>(frame.width);

@@ -24,13 +24,13 @@ struct PatternMargins {
 };
 
 /// Fields of a band; those of a launch are left 0.
-DefrayPatternParams pattern_band(const PatternFrame& frame, const PatternMargins& margins,
+DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margins,
                                  const PatternSettings& settings, int band_y, int band_rows);
 
 /// A plane of the frame on the window of a band, `outside` around the frame.
 template <typename T>
-std::vector<T> pattern_window(const PatternFrame& frame, const DefrayPatternParams& p, int band_y,
-                              const std::vector<T>& plane, T outside) {
+std::vector<T> pattern_window(const Frame& frame, const DefrayPatternParams& p, int band_y,
+                              const Values<T>& plane, T outside) {
   const std::size_t rows = p.rows + 2 * std::size_t{p.margin_y}, width = p.width;
   std::vector<T> window(rows * p.stride, outside);
   for (std::size_t row = 0; row < rows; ++row) {

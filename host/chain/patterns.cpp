@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/srgb.h"
+
 namespace defray {
 
 std::uint32_t least_pairs(int window_px) {
@@ -11,15 +13,36 @@ std::uint32_t least_pairs(int window_px) {
   return (n * n * n * n + 9) / 10;
 }
 
-std::vector<std::uint32_t> pattern_pixels(const PatternFrame& frame,
-                                          const std::vector<Plane>& channels) {
-  std::vector<std::uint32_t> pixels = frame.encoded;
+std::vector<std::uint32_t> encoded_colours(const Frame& f, const Frame& behind,
+                                           const Words& mixed) {
+  std::vector<std::uint32_t> encoded(f.pixels());
+  const auto is_mixed = mixed.host();
+  const auto inverse = behind.inverse.host();
+  for (std::size_t i = 0; i < encoded.size(); ++i) {
+    const bool hides = is_mixed[i] || inverse[i] >= 0 || f.is_in_margin(i);
+    encoded[i] = hides ? 0 : DEFRAY_PATTERN_KNOWN;
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = f.channels[std::min(c, f.channels.size() - 1)].host();
+    for (std::size_t i = 0; i < encoded.size(); ++i) {
+      const long shown = std::lround(255 * shown_value(channel[i]));
+      encoded[i] |= static_cast<std::uint32_t>(shown) << (8 * c);
+    }
+  }
+  return encoded;
+}
+
+Words pattern_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
+                     const std::vector<bool>& is_behind) {
+  for (const Values<float>& channel : channels) {
+    const auto values = channel.host();
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const bool is_plain = std::fabs(values[i]) <= 1.0f;  // no NaN is
+      if (!is_plain) pixels[i] &= ~DEFRAY_PATTERN_KNOWN;
+    }
+  }
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const bool is_plain = std::all_of(channels.begin(), channels.end(), [i](const Plane& plane) {
-      return std::fabs(plane[i]) <= 1.0f;  // no NaN is
-    });
-    if (!is_plain) pixels[i] &= ~DEFRAY_PATTERN_KNOWN;
-    if (frame.behind[i]) pixels[i] |= DEFRAY_PATTERN_BEHIND;
+    if (is_behind[i]) pixels[i] |= DEFRAY_PATTERN_BEHIND;
   }
   return pixels;
 }
@@ -33,28 +56,16 @@ PatternShift shift_at(const PatternShift& shift, float inverse) {
   return {std::clamp(shift.x, -length, length), std::clamp(shift.y, -length, length)};
 }
 
-void improve_by_patterns(const PatternFrame& frame, const std::vector<Plane>& channels,
-                         const PatternSettings& settings, std::vector<Plane>& behind,
-                         const PatternMatcher& match) {
-  const auto is_behind = [](std::uint32_t flag) { return flag != 0; };
-  if (std::none_of(frame.behind.begin(), frame.behind.end(), is_behind)) return;
-  const std::vector<std::uint32_t> pixels = pattern_pixels(frame, channels);
+void improve_by_patterns(Stages& stages, const Frame& frame, const Words& pixels,
+                         const PatternSettings& settings, Frame& behind) {
+  const auto is_behind = [](std::uint32_t pixel) { return (pixel & DEFRAY_PATTERN_BEHIND) != 0; };
+  if (std::none_of(pixels.begin(), pixels.end(), is_behind)) return;
   std::vector<PatternShift> shifts = find_pattern_shifts(frame, pixels, settings);
   const std::vector<PatternShift> parallel = find_parallel_shifts(frame, pixels, settings);
   shifts.insert(shifts.end(), parallel.begin(), parallel.end());
   if (shifts.empty()) return;
-  const PatternSums sums = match(pixels, shifts);
-  blend_patterns(frame, sums, pattern_variance(frame, pixels, settings), behind);
-}
-
-void improve_by_patterns(Session& session, const PatternFrame& frame,
-                         const std::vector<Plane>& channels, const PatternSettings& settings,
-                         std::vector<Plane>& behind, const std::function<void(double)>& progress) {
-  improve_by_patterns(
-      frame, channels, settings, behind,
-      [&](const std::vector<std::uint32_t>& pixels, const std::vector<PatternShift>& shifts) {
-        return match_patterns(session, frame, pixels, channels, behind, shifts, settings, progress);
-      });
+  const PatternSums sums = stages.patterns(frame, behind, pixels, shifts, settings);
+  blend_patterns(pixels, sums, pattern_variance(frame, pixels, settings), behind.channels);
 }
 
 }  // namespace defray

@@ -133,8 +133,8 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
   prefer(found, [&](const ChannelName& n) { return n.view == colour.view; });
   prefer(found, [&](const ChannelName& n) { return n.part == colour.part; });
   if (found.size() > 1) {
-    fail(ErrorKind::input, "{}: several channels are called '{}': {}; choose with --view", path,
-         request.depth_channel, depth_listing(found, parts));
+    fail(ErrorKind::input, "{}: several channels are called '{}': {}; choose with {}", path,
+         request.depth_channel, depth_listing(found, parts), field("view"));
   }
   return found.front();
 }
@@ -172,8 +172,8 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
     prefer(left, [&](const ColourChoice& c) { return c.view == parts.front().views.front(); });
   }
   if (left.size() > 1) {
-    fail(ErrorKind::input, "{}: colour could be {}; choose with --layer or --view", path,
-         colour_listing(left));
+    fail(ErrorKind::input, "{}: colour could be {}; choose with {} or {}", path,
+         colour_listing(left), field("layer"), field("view"));
   }
   return left.front();
 }
@@ -198,12 +198,12 @@ ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& p
   if (best.empty()) {
     fail(ErrorKind::input,
          "{}: no depth: no channel is called Z or depth (a Z beside X and Y is a vector). Give "
-         "--depth FILE or --depth-channel NAME. It has: {}",
-         path, channel_listing(names));
+         "{} FILE or {} NAME. It has: {}",
+         path, field("depth"), field("depth_channel"), channel_listing(names));
   }
   if (best.size() > 1) {
-    fail(ErrorKind::input, "{}: depth could be {}; choose with --depth-channel", path,
-         depth_listing(best, parts));
+    fail(ErrorKind::input, "{}: depth could be {}; choose with {}", path,
+         depth_listing(best, parts), field("depth_channel"));
   }
   return best.front();
 }

@@ -77,7 +77,8 @@ std::vector<LightGroup> in_groups(const std::vector<ChannelName>& light) {
 std::vector<std::string> parse_channel_list(const std::string& list) {
   const std::vector<std::string> patterns = split(list + ",", ',');  // "" is one empty name
   for (const std::string& pattern : patterns) {
-    if (pattern.empty()) fail(ErrorKind::usage, "--channels '{}': a name in it is empty", list);
+    if (pattern.empty())
+      fail(ErrorKind::usage, "{} '{}': a name in it is empty", field("channels"), list);
   }
   return patterns;
 }

@@ -13,7 +13,7 @@ struct LightGroup {
   bool has_alpha = false;
 };
 
-/// What `--channels` names, of the colour's part.
+/// What RenderSettings::channels names, of the colour's part.
 struct FurtherChannels {
   std::vector<LightGroup> light;  ///< Averaged as the colour is.
   std::vector<int> data;          ///< These get the value of the nearest hit.

@@ -40,14 +40,6 @@ bool is_ldr_path(const std::string& path) {
   return e == ".png" || e == ".jpg" || e == ".jpeg";
 }
 
-double srgb_encode(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
-double srgb_decode(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 LdrPicture read_ldr(const std::string& path, Content content) {
   cv::Mat image;
   try {

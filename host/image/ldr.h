@@ -4,15 +4,12 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "base/srgb.h"
 
 namespace defray {
 
 /// True for .png, .jpg and .jpeg.
 bool is_ldr_path(const std::string& path);
-
-/// sRGB transfer function (IEC 61966-2-1) and its inverse, for values of any size.
-double srgb_encode(double linear);
-double srgb_decode(double encoded);
 
 struct LdrPicture {
   int width = 0, height = 0;

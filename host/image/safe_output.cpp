@@ -92,7 +92,7 @@ void write_safely(const std::string& to, const std::function<void(const std::str
   try {
     write(name);
   } catch (const Error& error) {  // the user knows the output by its own name
-    std::string message = error.what();
+    std::string message = error.marked();
     for (auto at = message.find(name); at != std::string::npos; at = message.find(name)) {
       message.replace(at, name.size(), path);
     }

@@ -156,20 +156,20 @@ std::vector<int> parse_frames(const std::string& text) {
     const auto range = parse_range(part);
     if (!range) {
       fail(ErrorKind::usage,
-           "--frames '{}': '{}' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12, "
+           "{} '{}': '{}' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12, "
            "numbers up to {}",
-           text, part, largest_frame);
+           field("frames"), text, part, largest_frame);
     }
     count += range->count();
     ranges.push_back(*range);
   }
   if (count > max_frames) {
-    fail(ErrorKind::usage, "--frames '{}' goes over {} frames: allowed are at most {}", text, count,
-         max_frames);
+    fail(ErrorKind::usage, "{} '{}' goes over {} frames: allowed are at most {}", field("frames"),
+         text, count, max_frames);
   }
   std::vector<int> frames;
   for (const Range& range : ranges) append(range, frames);
-  if (frames.empty()) fail(ErrorKind::usage, "--frames '{}' names no frame", text);
+  if (frames.empty()) fail(ErrorKind::usage, "{} '{}' names no frame", field("frames"), text);
   erase_repeated(frames);
   return frames;
 }

@@ -80,19 +80,21 @@ namespace {
 /// m of Glatzel & Wilhelm, eq. 5: the perceived size of the scene, 1 where nothing is asked for.
 double perceived_scale(const CameraValues& values, double metres_per_unit) {
   if (values.perceived_scale && values.perceived_distance_m) {
-    fail(ErrorKind::usage, "--scale and --perceived-distance say the same thing: give one of them");
+    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them",
+         field("perceived_scale"), field("perceived_distance_m"));
   }
   double scale = values.perceived_scale.value_or(1);
   if (values.perceived_distance_m) {
     scale = *values.perceived_distance_m / (*values.focus_distance_units * metres_per_unit);
     if (std::isinf(*values.focus_distance_units)) {
-      fail(ErrorKind::usage, "--perceived-distance needs a finite --focus; --scale does not");
+      fail(ErrorKind::usage, "{} needs a finite {}; {} does not", field("perceived_distance_m"),
+           field("focus_distance_units"), field("perceived_scale"));
     }
   }
   if (!(scale > 0) || !std::isfinite(scale)) {
     const bool is_scale = values.perceived_scale.has_value();
     fail(ErrorKind::usage, "{} {} makes the perceived scale {}: allowed are finite numbers above 0",
-         is_scale ? "--scale" : "--perceived-distance",
+         field(is_scale ? "perceived_scale" : "perceived_distance_m"),
          is_scale ? *values.perceived_scale : *values.perceived_distance_m, scale);
   }
   return scale;
@@ -103,32 +105,35 @@ double perceived_scale(const CameraValues& values, double metres_per_unit) {
 Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel model,
                double max_coc_px) {
   std::vector<std::string> missing;
-  if (!values.focus_distance_units) missing.push_back("--focus");
-  if (!values.focal_length_mm) missing.push_back("--focal-length");
+  if (!values.focus_distance_units) missing.push_back(field("focus_distance_units"));
+  if (!values.focal_length_mm) missing.push_back(field("focal_length_mm"));
   if (!values.fstop && !values.aperture_diameter_mm) {
-    missing.push_back("--fstop or --aperture-diameter");
+    missing.push_back(field("fstop") + " or " + field("aperture_diameter_mm"));
   }
   if (!missing.empty()) {
     fail(ErrorKind::usage, "the lens is not complete: give {}{}", join(missing, ", "),
-         values.source.empty() ? " (or --camera)"
+         values.source.empty() ? " (or " + field("camera") + ")"
                                : fmt::format("; {} has no such value", values.source));
   }
   if (values.fstop && values.aperture_diameter_mm) {
-    fail(ErrorKind::usage, "--fstop and --aperture-diameter say the same thing: give one of them");
+    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them", field("fstop"),
+         field("aperture_diameter_mm"));
   }
   if (values.fstop && !(*values.fstop > 0)) {
     fail(ErrorKind::usage, "f-number is {}: it must be above 0", *values.fstop);
   }
   if (values.sensor_width_mm && values.pixels_per_metre) {
-    fail(ErrorKind::usage, "--sensor-width and --pixel-scale say the same thing: give one of them");
+    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them",
+         field("sensor_width_mm"), field("pixels_per_metre"));
   }
   if (values.pixels_per_metre && !(*values.pixels_per_metre > 0)) {
-    fail(ErrorKind::usage, "--pixel-scale is {}: it must be above 0", *values.pixels_per_metre);
+    fail(ErrorKind::usage, "{} is {}: it must be above 0", field("pixels_per_metre"),
+         *values.pixels_per_metre);
   }
   Lens lens;
   lens.focal_length_mm = *values.focal_length_mm;
   lens.pixels_per_metre = values.pixels_per_metre.value_or(0);
-  lens.sensor_width_mm = values.sensor_width_mm.value_or(36);
+  lens.sensor_width_mm = values.sensor_width_mm.value_or(lens.sensor_width_mm);
   lens.focus_distance_units = *values.focus_distance_units;
   lens.aperture_diameter_mm =
       values.fstop ? lens.focal_length_mm / *values.fstop : *values.aperture_diameter_mm;

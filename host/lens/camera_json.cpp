@@ -41,8 +41,8 @@ const json& choose_setting(const std::string& path, const json& root, const std:
          did_you_mean(setting, names), join(names, " "));
   }
   if (names.size() > 1) {
-    fail(ErrorKind::input, "{}: has several focus settings: {}; choose with --focus-setting", path,
-         join(names, " "));
+    fail(ErrorKind::input, "{}: has several focus settings: {}; choose with {}", path,
+         join(names, " "), field("focus_setting"));
   }
   static const json nothing = json::object();
   return names.empty() ? nothing : settings[names.front()];

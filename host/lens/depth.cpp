@@ -47,14 +47,14 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
 void validate(const DepthSettings& s) {
   if (s.kind == DepthKind::normalized) {
     if (!(s.near_units > 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
-      fail(ErrorKind::usage,
-           "--depth-kind normalized needs 0 < --near < --far in scene units; found near {} far {}",
-           s.near_units, s.far_units);
+      fail(ErrorKind::usage, "{} normalized needs 0 < {} < {} in scene units; found near {} far {}",
+           field("depth.kind"), field("near_units"), field("far_units"), s.near_units, s.far_units);
     }
   } else if (s.invert) {
-    fail(ErrorKind::usage, "--invert goes with --depth-kind normalized only");
+    fail(ErrorKind::usage, "{} goes with {} normalized only", field("invert"), field("depth.kind"));
   } else if (s.near_units != 0 || s.far_units != 0) {
-    fail(ErrorKind::usage, "--near and --far go with --depth-kind normalized only");
+    fail(ErrorKind::usage, "{} and {} go with {} normalized only", field("near_units"),
+         field("far_units"), field("depth.kind"));
   }
 }
 
@@ -87,8 +87,8 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
       if (!(depth[i] > 0)) {
         fail(ErrorKind::input,
              "{}: depth {} at pixel ({}, {}) is not in front of the camera (stored: {}); if it "
-             "means background, say so with --background {}",
-             path, z, x, y, stored, stored);
+             "means background, say so with {} {}",
+             path, z, x, y, stored, field("background"), stored);
       }
       report.nearest_units = std::min(report.nearest_units, z);
       report.farthest_units = std::max(report.farthest_units, z);

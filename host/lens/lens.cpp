@@ -17,7 +17,7 @@ constexpr double smallest = 1e-30, largest = 1e30;
 
 bool is_usable(double value) { return value >= smallest && value <= largest; }
 
-void require_positive(const char* what, double value) {
+void require_positive(const std::string& what, double value) {
   if (!is_usable(value)) {
     fail(ErrorKind::usage, "{} is {}: it must be a number from {} to {}", what, value, smallest,
          largest);
@@ -55,13 +55,14 @@ void validate(const Lens& lens) {
   require_positive("focal length", lens.focal_length_mm);
   require_positive("sensor width", lens.sensor_width_mm);
   require_positive("scene unit", lens.metres_per_unit);
-  if (lens.pixels_per_metre != 0) require_positive("--pixel-scale", lens.pixels_per_metre);
+  if (lens.pixels_per_metre != 0)
+    require_positive(field("pixels_per_metre"), lens.pixels_per_metre);
   if (lens.aperture_diameter_mm != 0 && !is_usable(lens.aperture_diameter_mm)) {
     fail(ErrorKind::usage, "aperture diameter is {} mm: it must be 0, or from {} to {}",
          lens.aperture_diameter_mm, smallest, largest);
   }
   if (!(lens.max_coc_px >= 0)) {
-    fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", lens.max_coc_px);
+    fail(ErrorKind::usage, "{} is {} px: it must be above 0", field("max_coc_px"), lens.max_coc_px);
   }
   if (!(lens.focus_distance_units >= smallest)) {
     fail(ErrorKind::usage, "focus distance is {}: it must be {} or more (inf is allowed)",
@@ -70,8 +71,9 @@ void validate(const Lens& lens) {
   if (lens.focus_distance_units <= focal_length_units(lens)) {
     fail(ErrorKind::usage,
          "focus distance {} lies inside the focal length ({} mm = {} scene units): focus farther "
-         "away, or set --unit if depth is not in metres",
-         lens.focus_distance_units, lens.focal_length_mm, focal_length_units(lens));
+         "away, or set {} if depth is not in metres",
+         lens.focus_distance_units, lens.focal_length_mm, focal_length_units(lens),
+         field("metres_per_unit"));
   }
 }
 

@@ -11,7 +11,8 @@ namespace defray {
 
 LensCells make_lens_cells(int cells_per_side, bool jitter) {
   if (cells_per_side < 1 || cells_per_side > 64) {
-    fail(ErrorKind::usage, "--rdb is {}: allowed are 1 to 64 cells a side", cells_per_side);
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 64 cells a side", field("cells_per_side"),
+         cells_per_side);
   }
   constexpr std::int64_t radius = 1 << DEFRAY_LENS_FRACTION_BITS;
   const auto centre = [&](int i) {

@@ -50,7 +50,8 @@ double hexagonal_spacing(int count) {
 
 PoissonDisk make_poisson_disk(int count, std::uint32_t seed) {
   if (count < 1 || count > poisson_disk_max_count) {
-    fail(ErrorKind::usage, "--samples is {}: allowed are 1 to {}", count, poisson_disk_max_count);
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to {}", field("samples"), count,
+         poisson_disk_max_count);
   }
   constexpr int darts = 400;
   constexpr double tightest = 0.8, shrink = 0.98;

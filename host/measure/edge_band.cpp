@@ -15,8 +15,8 @@ bool is_discontinuity(float a, float b, double step) {
 }
 
 /// At each pixel of a discontinuity the reach of its blur in pixels, 0 elsewhere.
-std::vector<double> reaches(const Plane& depth, int width,
-                            const std::vector<std::int32_t>& coc_quanta, double step) {
+std::vector<double> reaches(const Plane& depth, int width, std::span<const std::int32_t> coc_quanta,
+                            double step) {
   std::vector<double> reach(depth.size());
   const auto visit = [&](std::size_t p, std::size_t q) {
     if (!is_discontinuity(depth[p], depth[q], step)) return;
@@ -74,9 +74,10 @@ class Discs {
 }  // namespace
 
 std::vector<std::uint8_t> edge_band(const Plane& depth, int width,
-                                    const std::vector<std::int32_t>& coc_quanta, double step) {
+                                    std::span<const std::int32_t> coc_quanta, double step) {
   if (!(step >= 0) || !std::isfinite(step)) {
-    fail(ErrorKind::usage, "--edge-step is {}: it must be a finite number, 0 or more", step);
+    fail(ErrorKind::usage, "{} is {}: it must be a finite number, 0 or more", field("edge_step"),
+         step);
   }
   const std::vector<double> reach = reaches(depth, width, coc_quanta, step);
   const auto row = static_cast<std::size_t>(width);

@@ -1,6 +1,7 @@
 #pragma once
 // The pixels that the blur around depth discontinuities can reach: where post-filters go wrong.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/plane.h"
@@ -13,6 +14,6 @@ namespace defray {
 /// discontinuity, the maximum over its two pixels. Exact. `depth` is planar; `coc_quanta` as of
 /// reference::coc. Throws Error(usage) unless step is finite and >= 0.
 std::vector<std::uint8_t> edge_band(const Plane& depth, int width,
-                                    const std::vector<std::int32_t>& coc_quanta, double step);
+                                    std::span<const std::int32_t> coc_quanta, double step);
 
 }  // namespace defray

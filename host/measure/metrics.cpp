@@ -97,8 +97,6 @@ double energy(const std::vector<Plane>& picture) {
 
 }  // namespace
 
-double shown_value(float linear) { return srgb_encode(clipped(linear)); }
-
 void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b) {
   if (a.size() < rgb || b.size() < rgb || a[0].size() != b[0].size()) {
     fail(ErrorKind::usage, "pictures to compare differ in size: {} and {} pixels",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "base/srgb.h"
 
 namespace defray {
 
@@ -27,9 +28,6 @@ struct Comparison : Errors {
   double ssim = 0;
   double energy_ratio = 0;  ///< Sum of a's values over the sum of b's; not finite: b sums to 0.
 };
-
-/// sRGB-encoded, clipped to 0...1: the values that a display gets.
-double shown_value(float linear);
 
 /// Throws Error(usage) when sizes differ or R G B lack.
 void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b);

@@ -55,10 +55,11 @@ PointImage image_of_point(const Lens& lens, double depth_units, int width_px) {
     fail(ErrorKind::usage, "aperture diameter is 0: no light passes, there is no PSF");
   }
   if (!(depth_units > 0)) {
-    fail(ErrorKind::usage, "--depth is {}: it must be above 0 (inf is allowed)", depth_units);
+    fail(ErrorKind::usage, "{} is {}: it must be above 0 (inf is allowed)", field("depth"),
+         depth_units);
   }
   if (width_px < 1 || width_px > 65536) {
-    fail(ErrorKind::usage, "--width is {}: 1 to 65536 pixels are possible", width_px);
+    fail(ErrorKind::usage, "{} is {}: 1 to 65536 pixels are possible", field("width"), width_px);
   }
   const double f = lens.focal_length_mm / 1000;
   const double focus = lens.focus_distance_units * lens.metres_per_unit;

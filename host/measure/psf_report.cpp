@@ -20,7 +20,7 @@ void validate(const std::vector<double>& wavelengths_nm) {
   if (wavelengths_nm.empty()) fail(ErrorKind::usage, "no wavelength is given");
   for (const double nm : wavelengths_nm) {
     if (!(nm >= 100 && nm <= 20000)) {
-      fail(ErrorKind::usage, "--wavelength is {} nm: 100 to 20000 nm are possible", nm);
+      fail(ErrorKind::usage, "{} is {} nm: 100 to 20000 nm are possible", field("wavelength"), nm);
     }
   }
 }

@@ -2,11 +2,9 @@
 // Poisson-disk gather (Glatzel & Wilhelm) on OpenCL: as published, or aware of depth.
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "kernels/params.h"
-#include "lens/coc.h"
 
 namespace defray {
 
@@ -40,19 +38,5 @@ DefrayGatherParams gather_params(const GatherSettings& settings, int width, int 
 
 /// Tiles of a frame, and how many of them a CoC of this size spans.
 DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_quanta);
-
-/// The largest |CoC| of each tile, quanta: kernel `gather_tiles`.
-std::vector<std::int32_t> gather_tiles_on_device(Session& session, int width, int height,
-                                                 const std::vector<std::int32_t>& coc_quanta);
-
-/// How far light comes from, for each tile, quanta: kernels `gather_tiles` and `gather_reach`.
-std::vector<std::int32_t> gather_reach_on_device(Session& session, int width, int height,
-                                                 const std::vector<std::int32_t>& coc_quanta);
-
-/// The lens picture: 1 to 4 channels in, as many out. `progress` gets the share done, 0 to 1.
-std::vector<Plane> render_gather(Session& session, int width, int height,
-                                 const std::vector<std::int32_t>& coc_quanta,
-                                 const std::vector<Plane>& channels, const GatherSettings& settings,
-                                 const std::function<void(double)>& progress = {});
 
 }  // namespace defray

@@ -1,12 +1,11 @@
 #pragma once
 // The methods, behind one call: a frame with its circles of confusion in, the lens picture out.
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
+#include "frame/stages.h"
 #include "methods/gather.h"
-#include "methods/linear.h"
 #include "rdb/rdb.h"
 
 namespace defray {
@@ -25,27 +24,13 @@ struct MethodSettings {
   Method method = Method::rdb;
   RdbSettings rdb;
   /// rdb: with the stages that bring it closer to the truth. Empty: Shinya's method alone.
-  std::optional<DefocusSettings> defocus;
-  LinearSettings linear;  ///< Of tiltshift too.
+  std::optional<ChainSettings> chain;
   GatherSettings gather;
 };
 
-/// A frame before the lens.
-struct PinholeFrame {
-  int width, height;
-  const std::vector<std::int32_t>& coc_quanta;
-  const Plane& depth;                  ///< Planar, > 0; only the RDB reads it.
-  const std::vector<Plane>& channels;  ///< 1 to 4.
-  bool has_alpha = false;              ///< The last channel is alpha.
-  /// Where the frame lies in the display window, and that window's size; 0: the frame itself.
-  int origin_x = 0, origin_y = 0, display_width = 0, display_height = 0;
-};
-
-/// The lens picture, as many channels as there are. `session` null: the scalar twins.
-/// `progress` gets the share done, 0 to 1. Throws Error(usage) for settings out of range.
-/// `details` gets what the RDB's stages tell beside the picture; of the RDB alone, nearest hits.
-std::vector<Plane> apply_method(const PinholeFrame& frame, const MethodSettings& settings,
-                                Session* session, const std::function<void(double)>& progress = {},
-                                DefocusResult* details = nullptr);
+/// The lens picture, as many channels as there are, and what the method tells beside it. `frame`
+/// has coc_quanta, channels and, for the RDB, depth. Throws Error(usage) for settings out of range.
+MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Stages& stages,
+                          bool wants_nearest = false, const Progress& progress = {});
 
 }  // namespace defray

@@ -9,14 +9,15 @@ namespace defray {
 
 void validate(const TiltshiftSettings& s) {
   if (!(s.band_centre >= 0 && s.band_centre <= 1)) {
-    fail(ErrorKind::usage, "--band-centre is {}: allowed are 0 (top) to 1 (bottom of the frame)",
-         s.band_centre);
+    fail(ErrorKind::usage, "{} is {}: allowed are 0 (top) to 1 (bottom of the frame)",
+         field("band_centre"), s.band_centre);
   }
   if (!(s.band_width >= 0 && s.band_width <= 1)) {
-    fail(ErrorKind::usage, "--band-width is {}: allowed are 0 to 1 frame heights", s.band_width);
+    fail(ErrorKind::usage, "{} is {}: allowed are 0 to 1 frame heights", field("band_width"),
+         s.band_width);
   }
   if (!(s.max_blur_px >= 0 && s.max_blur_px <= linear_max_radius_px)) {
-    fail(ErrorKind::usage, "--max-blur is {} px: allowed are 0 to {}", s.max_blur_px,
+    fail(ErrorKind::usage, "{} is {} px: allowed are 0 to {}", field("max_blur_px"), s.max_blur_px,
          linear_max_radius_px);
   }
 }
@@ -36,14 +37,6 @@ DefrayTiltshiftParams tiltshift_params(const TiltshiftSettings& s, int width, in
   p.limit_quanta = static_cast<float>(quanta);
   p.slope_quanta_per_px = ramp > 0 ? static_cast<float>(quanta / (ramp * display_height)) : 0;
   return p;
-}
-
-std::vector<std::int32_t> tiltshift_on_device(Session& session, const DefrayTiltshiftParams& p) {
-  std::vector<std::int32_t> coc(std::size_t{p.width} * p.rows);
-  const cl::Buffer out = session.buffer(coc.size() * sizeof(std::int32_t));
-  session.launch("tiltshift", DEFRAY_TILTSHIFT_GROUP, {p.width, p.rows}, p, out);
-  session.read(out, coc.data(), coc.size() * sizeof(std::int32_t));
-  return coc;
 }
 
 }  // namespace defray

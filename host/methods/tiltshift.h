@@ -1,11 +1,7 @@
 #pragma once
 // The tilt-shift baseline: a vertical blur gradient that knows no depth (Glatzel & Wilhelm, fig.
 // 2).
-#include <cstdint>
-#include <vector>
-
 #include "kernels/params.h"
-#include "opencl/session.h"
 
 namespace defray {
 
@@ -23,8 +19,5 @@ void validate(const TiltshiftSettings& settings);
 /// window's top, which is `display_height` high.
 DefrayTiltshiftParams tiltshift_params(const TiltshiftSettings& settings, int width, int rows,
                                        int first_row, int display_height);
-
-/// CoC radius of every pixel, quanta (1/256 px), never negative.
-std::vector<std::int32_t> tiltshift_on_device(Session& session, const DefrayTiltshiftParams& p);
 
 }  // namespace defray

@@ -2,17 +2,30 @@
 
 #include <algorithm>
 
-namespace defray {
+#include "opencl/launch_table.h"
 
-std::vector<Band> cut_into_bands(int height, std::int64_t reach, int step, std::size_t row_bytes,
-                                 std::size_t memory_bytes) {
+namespace defray {
+namespace {
+
+/// For four arguments of one to four channels.
+template <typename Channel>
+std::array<cl::Buffer, 4> four(std::size_t count, const Channel& channel) {
+  std::array<cl::Buffer, 4> buffers;
+  for (std::size_t c = 0; c < 4; ++c) buffers[c] = c < count ? channel(c) : buffers[c - 1];
+  return buffers;
+}
+
+}  // namespace
+
+std::vector<BandRows> cut_into_bands(int height, std::int64_t reach, int step,
+                                     std::size_t row_bytes, std::size_t memory_bytes) {
   const std::int64_t end = height;
   // Windows begin up to a step earlier than they need to.
   const std::int64_t affordable =
       static_cast<std::int64_t>(memory_bytes / std::max<std::size_t>(1, row_bytes)) - 2 * reach -
       step;
   const std::int64_t rows = std::max<std::int64_t>(affordable / step, 1) * step;
-  std::vector<Band> bands;
+  std::vector<BandRows> bands;
   for (std::int64_t y = 0; y < end; y += rows) {
     const std::int64_t window_y = std::max<std::int64_t>(0, y - reach) / step * step;
     const std::int64_t window_end = std::min(end, y + rows + reach);
@@ -22,24 +35,48 @@ std::vector<Band> cut_into_bands(int height, std::int64_t reach, int step, std::
   return bands;
 }
 
-cl::Buffer BandOnDevice::copy(const std::vector<Plane>& channels) const {
-  std::vector<cl_float4> colours(count_);
-  for (std::size_t c = 0; c < 4; ++c) {
-    const Plane& plane = channels[std::min(c, channels.size() - 1)];
-    for (std::size_t i = 0; i < count_; ++i) colours[i].s[c] = plane[first_ + i];
-  }
-  const cl::Buffer buffer = made<cl_float4>();
-  session_.write(buffer, colours.data(), count_ * sizeof(cl_float4));
-  return buffer;
+Band::Band(Session& session, const std::string& kernel, const Frame& frame, const BandRows& rows)
+    : session_(session),
+      kernel_(kernel),
+      frame_(frame),
+      rows_(rows),
+      is_whole_(rows.rows == frame.height),
+      stride_(size(frame.width) * size(frame.layers)),
+      first_(size(rows.window_y) * stride_),
+      count_(size(rows.window_rows) * stride_),
+      total_(size(frame.height) * stride_) {}
+
+std::array<cl::Buffer, 4> Band::in(const Planes& channels) {
+  return four(channels.size(), [&](std::size_t c) { return in(channels[c]); });
 }
 
-void BandOnDevice::read(const cl::Buffer& buffer, std::vector<Plane>& planes) const {
-  std::vector<cl_float4> colours(size(band_.rows) * stride_);
-  session_.read(buffer, colours.data(), colours.size() * sizeof(cl_float4),
-                size(band_.y - band_.window_y) * stride_ * sizeof(cl_float4));
-  const std::size_t first = size(band_.y) * stride_;
-  for (std::size_t c = 0; c < planes.size(); ++c) {
-    for (std::size_t i = 0; i < colours.size(); ++i) planes[c][first + i] = colours[i].s[c];
+std::array<cl::Buffer, 4> Band::out(Planes& channels, std::size_t count) {
+  channels.resize(count);
+  return four(count, [&](std::size_t c) { return out(channels[c]); });
+}
+
+std::array<cl::Buffer, 4> Band::in_out(Planes& channels) {
+  return four(channels.size(), [&](std::size_t c) { return in_out(channels[c]); });
+}
+
+bool holds_planes(const Session& session, const char* kernel, const Frame& frame) {
+  if (frame.surfaces() * sizeof(float) > session.info().max_buffer_bytes) return false;
+  const std::size_t bytes = frame.surfaces() * launch_of(kernel).bytes_a_surface;
+  return session.works_in_host_memory() || bytes <= session.memory_bytes();
+}
+
+void for_each_band(Session& session, const char* kernel, const Frame& frame, std::int64_t reach_px,
+                   const std::function<void(Band&)>& work, int step) {
+  std::vector<BandRows> bands{{0, frame.height, 0, frame.height}};
+  if (!holds_planes(session, kernel, frame)) {
+    const Launch& launch = launch_of(kernel);
+    const std::size_t row_bytes = size(frame.width) * size(frame.layers) * launch.bytes_a_surface;
+    bands = cut_into_bands(frame.height, reach_px + launch.reach_px, step, row_bytes,
+                           session.memory_bytes());
+  }
+  for (const BandRows& rows : bands) {
+    Band band(session, kernel, frame, rows);
+    work(band);
   }
 }
 

@@ -1,16 +1,21 @@
 #pragma once
-// Rows of a frame that are worked out together, so that a device holds no more than a budget.
+// Rows of a frame that are worked out together. A device that works in host memory, or has room for
+// whole planes, takes the frame in one band, and planes stay where they are; else bands go there
+// with the rows that they depend on.
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
-#include "lens/coc.h"
+#include "frame/frame.h"
 #include "opencl/session.h"
 
 namespace defray {
 
 /// Rows that are worked out, and those that they depend on, themselves among them.
-struct Band {
+struct BandRows {
   int y, rows;
   int window_y, window_rows;
 };
@@ -18,74 +23,86 @@ struct Band {
 /// Bands from the top with windows of `reach` rows more on each side that take at most
 /// `memory_bytes`. Bands and windows begin at multiples of `step` rows: no band has fewer, whatever
 /// the budget.
-std::vector<Band> cut_into_bands(int height, std::int64_t reach, int step, std::size_t row_bytes,
-                                 std::size_t memory_bytes);
+std::vector<BandRows> cut_into_bands(int height, std::int64_t reach, int step,
+                                     std::size_t row_bytes, std::size_t memory_bytes);
 
-/// A band on a device. Planes are [height][stride] on the host, [window_rows][stride] there;
-/// kernels run over the band's rows alone.
-class BandOnDevice {
+/// One band at work. Planes are [height][stride], or [window_rows][stride] of them on the device;
+/// the kernel runs over the band's rows alone.
+class Band {
  public:
-  BandOnDevice(Session& session, const Band& band, std::size_t stride)
-      : session_(session),
-        band_(band),
-        stride_(stride),
-        first_(size(band.window_y) * stride),
-        count_(size(band.window_rows) * stride) {}
+  Band(Session& session, const std::string& kernel, const Frame& frame, const BandRows& rows);
 
-  std::size_t stride() const { return stride_; }
-  std::size_t first() const { return first_; }  ///< Index of the window's first value.
+  const BandRows& rows() const { return rows_; }
+
+  /// Index of the window's first value in a plane.
+  std::size_t first() const { return first_; }
 
   template <typename T>
-  cl::Buffer view(const std::vector<T>& plane) const {
+  cl::Buffer in(const Values<T>& plane) {
+    if (is_whole_ || plane.empty()) return session_.in(plane);
     return session_.view(&plane[first_], count_ * sizeof(T));
   }
-  cl::Buffer picture(const Plane& plane) const { return session_.picture(&plane[first_], count_); }
 
+  /// Four channels: a missing one repeats the last.
+  std::array<cl::Buffer, 4> in(const Planes& channels);
+
+  /// The band's rows of a plane of the frame, to be written.
   template <typename T>
-  cl::Buffer made() const {
-    return session_.buffer(count_ * sizeof(T));
+  cl::Buffer out(Values<T>& plane) {
+    if (is_whole_) return session_.out(plane, count_);
+    if (plane.empty()) plane = Values<T>(total_);
+    const cl::Buffer made = session_.buffer(count_ * sizeof(T));
+    read_back(made, plane);
+    return made;
   }
+  std::array<cl::Buffer, 4> out(Planes& channels, std::size_t count);
+
+  /// The band's rows of a plane, to be changed.
   template <typename T>
-  cl::Buffer copy(const std::vector<T>& plane) const {
-    const cl::Buffer buffer = made<T>();
-    session_.write(buffer, &plane[first_], count_ * sizeof(T));
-    return buffer;
+  cl::Buffer in_out(Values<T>& plane) {
+    if (is_whole_) return session_.in_out(plane);
+    const cl::Buffer made = session_.buffer(count_ * sizeof(T));
+    session_.write(made, &plane[first_], count_ * sizeof(T));
+    read_back(made, plane);
+    return made;
   }
+  std::array<cl::Buffer, 4> in_out(Planes& channels);
 
-  /// float4 of 1 to 4 channels; a missing one repeats the last.
-  cl::Buffer copy(const std::vector<Plane>& channels) const;
-
-  /// Runs a kernel over the band; `layers` of its rows are one of the picture's.
+  /// Runs the kernel over the band's rows; those of a frame of layers are [row][layer].
   template <typename... Args>
-  void launch(const char* kernel, int layers, const Args&... args) {
-    const std::size_t first = size(band_.y - band_.window_y) * size(layers);
-    session_.launch_from({0, first}, kernel, DEFRAY_STAGE_GROUP,
-                         {stride_ / size(layers), size(band_.rows) * size(layers)}, args...);
+  void launch(const Args&... args) {
+    const std::size_t layers = size(frame_.layers);
+    const std::size_t first = size(rows_.y - rows_.window_y) * layers;
+    session_.launch_from({0, first}, kernel_.c_str(),
+                         {size(frame_.width), size(rows_.rows) * layers}, args...);
+    for (const auto& read : reads_) read();
   }
-
-  /// The band's rows, in their place in a plane of the frame.
-  template <typename T>
-  void read(const cl::Buffer& buffer, std::vector<T>& plane) const {
-    session_.read(buffer, &plane[size(band_.y) * stride_], size(band_.rows) * stride_ * sizeof(T),
-                  size(band_.y - band_.window_y) * stride_ * sizeof(T));
-  }
-  /// The same from float4, as many channels as there are planes.
-  void read(const cl::Buffer& buffer, std::vector<Plane>& planes) const;
 
  private:
+  template <typename T>
+  void read_back(const cl::Buffer& buffer, Values<T>& plane) {
+    reads_.push_back([this, buffer, &plane] {
+      const std::size_t at = size(rows_.y) * stride_, before = size(rows_.y - rows_.window_y);
+      session_.read(buffer, &plane.edit()[at], size(rows_.rows) * stride_ * sizeof(T),
+                    before * stride_ * sizeof(T));
+    });
+  }
+
   Session& session_;
-  Band band_;
-  std::size_t stride_, first_, count_;
+  std::string kernel_;
+  const Frame& frame_;
+  BandRows rows_;
+  bool is_whole_;
+  std::size_t stride_, first_, count_, total_;
+  std::vector<std::function<void()>> reads_;  ///< After the launch.
 };
 
-/// Four channels of a band: a missing one repeats the last.
-struct ChannelsOnDevice {
-  cl::Buffer of[4];
-  ChannelsOnDevice(const BandOnDevice& band, const std::vector<Plane>& planes) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      of[c] = c < planes.size() ? band.picture(planes[c]) : of[c - 1];
-    }
-  }
-};
+/// Whether the device holds the kernel's planes of a whole frame: in one band, where they stay.
+bool holds_planes(const Session& session, const char* kernel, const Frame& frame);
+
+/// A kernel over a frame: `work` launches it once a band. `reach_px` rows around a band count
+/// beside those of the launch table, and bands begin at multiples of `step` rows.
+void for_each_band(Session& session, const char* kernel, const Frame& frame, std::int64_t reach_px,
+                   const std::function<void(Band&)>& work, int step = 1);
 
 }  // namespace defray

@@ -1,13 +1,14 @@
 #include "opencl/session.h"
 
-#include <Imath/half.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <thread>
 
 #include "base/error.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
@@ -68,7 +69,6 @@ std::string build_options(const DeviceInfo& info, const SessionOptions& options,
 Session::Session(const DeviceInfo& info, const SessionOptions& options)
     : info_(info),
       int64_atomics_(options.use_int64_atomics && info.has_int64_atomics),
-      half_planes_(options.half_planes),
       measures_(options.measures) {
   context_ = checked(info_, "clCreateContext", [&] { return cl::Context(info.device); });
   queue_ = checked(info_, "clCreateCommandQueue", [&] {
@@ -78,6 +78,7 @@ Session::Session(const DeviceInfo& info, const SessionOptions& options)
   program_ = checked(info_, "clCreateProgramWithSource", [&] {
     return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
   });
+  nothing_ = buffer(sizeof(cl_float4));
 }
 
 std::vector<std::string> Session::kernel_names() const {
@@ -107,19 +108,25 @@ std::map<std::string, double> Session::take_kernel_seconds() {
 }
 
 void Session::set_work_group(std::size_t x, std::size_t y) {
+  for (const Launch& launch : launch_table()) set_work_group(launch.kernel, x, y);
+}
+
+void Session::set_work_group(const std::string& kernel, std::size_t x, std::size_t y) {
   if (x * y > info_.max_work_group) {
     fail(ErrorKind::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
          info_.name, info_.max_work_group);
   }
-  group_x_ = x;
-  group_y_ = y;
+  if (x * y == 0) {
+    groups_.erase(kernel);
+  } else {
+    groups_[kernel] = {x, y};
+  }
 }
 
 cl::Buffer Session::buffer(std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
-    fail(ErrorKind::device,
-         "a buffer of {} MiB is needed: {} allows at most {} MiB; lower --memory", bytes >> 20,
-         info_.name, info_.max_buffer_bytes >> 20);
+    fail(ErrorKind::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower {}",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20, field("memory"));
   }
   return checked(info_, "clCreateBuffer", [&] {
     cl::Buffer made(context_, CL_MEM_READ_WRITE, bytes);
@@ -132,33 +139,53 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
     fail(ErrorKind::device,
          "{} MiB of one image plane are within reach of a band: {} allows at most {} MiB a buffer; "
-         "lower --max-coc",
-         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20);
+         "lower {}",
+         bytes >> 20, info_.name, info_.max_buffer_bytes >> 20, field("max_coc_px"));
   }
   // A CPU works in host memory itself; anything else gets its copy once, here.
-  const cl_mem_flags how = info_.shares_host_memory ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+  const cl_mem_flags how = works_in_host_memory() ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR;
+  if (!works_in_host_memory()) {
+    ++traffic_->uploads;
+    traffic_->bytes += bytes;
+  }
   return checked(info_, "clCreateBuffer", [&] {
-    // OpenCL's signature has no const; the flag makes it read-only to kernels.
-    return cl::Buffer(context_, CL_MEM_READ_ONLY | how, bytes, const_cast<void*>(data));
+    // OpenCL's signature has no const; kernels only read it.
+    return cl::Buffer(context_, CL_MEM_READ_WRITE | how, bytes, const_cast<void*>(data));
   });
 }
 
-cl::Buffer Session::picture(const float* data, std::size_t count) {
-  if (!half_planes_) return view(data, count * sizeof(float));
-  std::vector<Imath::half> halves(data, data + count);
-  const cl::Buffer copy = buffer(count * sizeof(Imath::half));
-  write(copy, halves.data(), count * sizeof(Imath::half));
-  return copy;
+DeviceBuffer* Session::here(DeviceValues* values) const {
+  auto* const buffer = dynamic_cast<DeviceBuffer*>(values);
+  return buffer && buffer->is_of(context_) ? buffer : nullptr;
+}
+
+std::unique_ptr<DeviceBuffer> Session::device_buffer(const cl::Buffer& buffer, std::size_t bytes) {
+  return std::make_unique<DeviceBuffer>(context_, queue_, buffer, bytes, works_in_host_memory(),
+                                        traffic_);
+}
+
+std::unique_ptr<DeviceBuffer> Session::hold(void* host, std::size_t bytes) {
+  return device_buffer(view(host, bytes), bytes);
+}
+
+std::unique_ptr<DeviceBuffer> Session::room(void* host, std::size_t bytes) {
+  if (!host) return device_buffer(buffer(bytes), bytes);
+  if (fill_) std::memset(host, *fill_, bytes);
+  return device_buffer(view(host, bytes), bytes);
 }
 
 void Session::read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
   checked(info_, "clEnqueueReadBuffer",
           [&] { queue_.enqueueReadBuffer(buffer, CL_TRUE, offset, bytes, data); });
+  ++traffic_->downloads;
+  traffic_->bytes += bytes;
 }
 
 void Session::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) {
   checked(info_, "clEnqueueWriteBuffer",
           [&] { queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data); });
+  ++traffic_->uploads;
+  traffic_->bytes += bytes;
 }
 
 void Session::finish() {
@@ -178,12 +205,16 @@ void Session::fail_argument(const char* name, cl_uint index, int code) const {
        opencl_error_name(code));
 }
 
-void Session::enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
-                      const std::vector<std::size_t>& global,
+void Session::enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
                       const std::vector<std::size_t>& first) {
-  const bool is_set = group_x_ != 0;
-  const std::size_t group[3] = {is_set ? group_x_ : default_group_x,
-                                is_set && global.size() > 1 ? group_y_ : 1, 1};
+  const Launch& launch = launch_of(name);
+  const auto set = groups_.find(name);
+  const bool is_set = set != groups_.end();
+  const std::size_t group[3] = {is_set ? set->second[0] : launch.group_x,
+                                global.size() < 2 ? 1
+                                : is_set          ? set->second[1]
+                                                  : launch.group_y,
+                                1};
   std::size_t padded[3] = {1, 1, 1}, offset[3] = {0, 0, 0};
   std::copy(first.begin(), first.end(), offset);
   for (std::size_t d = 0; d < global.size(); ++d) {

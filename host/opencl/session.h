@@ -1,12 +1,16 @@
 #pragma once
 // One device, made ready: context, queue and the kernels, built once.
+#include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "frame/frame.h"
 #include "opencl/device.h"
+#include "opencl/device_values.h"
 #include "opencl/kernel_source.h"
 
 namespace defray {
@@ -26,8 +30,7 @@ struct SessionOptions {
   std::string build_options = {};  ///< More options for the OpenCL compiler.
   std::vector<Substitution> substitutions = {};
   std::vector<std::string> files = {};  ///< Names of the .cl files to build; empty: all.
-  bool half_planes = false;  ///< `picture` hands kernels half floats: they must be told to read so.
-  bool measures = false;     ///< Keep each kernel's time on the device.
+  bool measures = false;                ///< Keep each kernel's time on the device.
 };
 
 /// Runs kernels on one device. Every failure is an Error(device) that names the call and the
@@ -45,45 +48,90 @@ class Session {
   /// Seconds that each kernel has run since the last call. Needs SessionOptions::measures.
   std::map<std::string, double> take_kernel_seconds();
 
-  /// Work-group for every kernel, {x, y}; {0, 0}: each kernel's own default.
+  /// Work-group {x, y} of every kernel, or of one; {0, 0}: as the launch table has it.
   void set_work_group(std::size_t x, std::size_t y);
+  void set_work_group(const std::string& kernel, std::size_t x, std::size_t y);
+
+  /// What is made on the device for a stage fits so much, unless a row with the rows that it looks
+  /// at is more already.
+  void set_memory(std::size_t bytes) { memory_bytes_ = bytes; }
+  std::size_t memory_bytes() const { return std::min(memory_bytes_, info_.max_buffer_bytes); }
+
+  /// Whether kernels work in host memory itself, as on a CPU; else on copies.
+  bool works_in_host_memory() const { return info_.shares_host_memory && !copies_; }
+
+  /// Work on copies, in bands that fit the memory, as on a device with memory of its own.
+  void set_copies(bool copies) { copies_ = copies; }
+
+  /// From here on what kernels are to write is filled with this byte, where OpenCL leaves it
+  /// undefined: what a kernel reads before anyone wrote it shows in its result.
+  void fill_buffers(unsigned char byte) { fill_ = byte; }
+
+  const Traffic& traffic() const { return *traffic_; }
 
   cl::Buffer buffer(std::size_t bytes);
 
-  /// From here on new buffers are filled with this byte, where OpenCL leaves them undefined: what a
-  /// kernel reads before anyone wrote it shows in its result.
-  void fill_buffers(unsigned char byte) { fill_ = byte; }
-
-  /// A read-only view of host memory; no copy where the device shares it. The memory must stay
-  /// alive and unchanged as long as the buffer.
+  /// A read-only view of host memory; a copy where the device has memory of its own. The memory
+  /// must stay alive and unchanged as long as the buffer.
   cl::Buffer view(const void* data, std::size_t bytes);
   template <typename T>
   cl::Buffer view(const std::vector<T>& plane) {
     return view(plane.data(), plane.size() * sizeof(T));
   }
 
-  /// A read-only view of colour or depth: `view`, or a copy in half floats where so asked.
-  cl::Buffer picture(const float* data, std::size_t count);
+  /// Values for kernels to read, on the device from now on; they may not be changed meanwhile.
+  template <typename T>
+  cl::Buffer in(const Values<T>& values) {
+    if (values.empty()) return nothing_;
+    if (DeviceBuffer* there = here(values.device())) return there->use();
+    void* host = const_cast<T*>(values.host().data());  // OpenCL's signature has no const
+    auto made = hold(host, values.size() * sizeof(T));
+    const cl::Buffer buffer = made->use();
+    values.share(std::move(made));
+    return buffer;
+  }
+
+  /// Room for `count` values that kernels write.
+  template <typename T>
+  cl::Buffer out(Values<T>& values, std::size_t count) {
+    values = works_in_host_memory() ? Values<T>::room(count) : Values<T>();
+    void* host = const_cast<T*>(values.empty() ? nullptr : values.host().data());
+    auto made = room(host, count * sizeof(T));
+    const cl::Buffer buffer = made->use();
+    if (host) {
+      values.put(std::move(made));
+    } else {
+      values = Values<T>::on(std::move(made), count);
+    }
+    return buffer;
+  }
+
+  /// Values for kernels to change.
+  template <typename T>
+  cl::Buffer in_out(Values<T>& values) {
+    if (!values.is_own()) values.edit();
+    const cl::Buffer buffer = in(values);
+    values.written_by_device();
+    return buffer;
+  }
 
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);
 
   /// Enqueues kernel `name` over at least `global` work-items (kernels test their bounds).
   template <typename... Args>
-  void launch(const char* name, std::size_t default_group_x, const std::vector<std::size_t>& global,
-              const Args&... args) {
-    launch_from({}, name, default_group_x, global, args...);
+  void launch(const char* name, const std::vector<std::size_t>& global, const Args&... args) {
+    launch_from({}, name, global, args...);
   }
 
   /// The same for work-items whose global ids begin at `first`; empty: at 0.
   template <typename... Args>
   void launch_from(const std::vector<std::size_t>& first, const char* name,
-                   std::size_t default_group_x, const std::vector<std::size_t>& global,
-                   const Args&... args) {
+                   const std::vector<std::size_t>& global, const Args&... args) {
     cl::Kernel& kernel = kernel_of(name);
-    cl_uint index = 0;
-    (set_argument(kernel, name, index++, args), ...);
-    enqueue(kernel, name, default_group_x, global, first);
+    [[maybe_unused]] cl_uint index = 0;
+    (set_arguments(kernel, name, index, args), ...);
+    enqueue(kernel, name, global, first);
   }
 
   void finish();
@@ -91,27 +139,42 @@ class Session {
  private:
   cl::Kernel& kernel_of(const char* name);
   template <typename T>
-  void set_argument(cl::Kernel& kernel, const char* name, cl_uint index, const T& value) {
+  void set_arguments(cl::Kernel& kernel, const char* name, cl_uint& index, const T& value) {
     try {
       kernel.setArg(index, value);
     } catch (const cl::Error& error) {
       fail_argument(name, index, error.err());
     }
+    ++index;
+  }
+  /// Channels are one argument after the other.
+  void set_arguments(cl::Kernel& kernel, const char* name, cl_uint& index,
+                     const std::array<cl::Buffer, 4>& channels) {
+    for (const cl::Buffer& channel : channels) set_arguments(kernel, name, index, channel);
   }
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
-  void enqueue(cl::Kernel& kernel, const char* name, std::size_t default_group_x,
-               const std::vector<std::size_t>& global, const std::vector<std::size_t>& first);
+  void enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
+               const std::vector<std::size_t>& first);
+
+  /// The device's side of values if it is on this device.
+  DeviceBuffer* here(DeviceValues* values) const;
+  /// Values of host memory; room for values, in host memory where this device works there.
+  std::unique_ptr<DeviceBuffer> hold(void* host, std::size_t bytes);
+  std::unique_ptr<DeviceBuffer> room(void* host, std::size_t bytes);
+  std::unique_ptr<DeviceBuffer> device_buffer(const cl::Buffer& buffer, std::size_t bytes);
 
   DeviceInfo info_;
-  bool int64_atomics_, half_planes_, measures_;
+  bool int64_atomics_, measures_, copies_ = false;
+  std::size_t memory_bytes_ = default_memory_bytes;
   std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;
-  std::size_t group_x_ = 0;
-  std::size_t group_y_ = 0;
+  std::map<std::string, std::array<std::size_t, 2>> groups_;  ///< Other than the launch table's.
   cl::Context context_;
   cl::CommandQueue queue_;
   cl::Program program_;
+  cl::Buffer nothing_;                         ///< For planes that are empty.
   std::map<std::string, cl::Kernel> kernels_;  ///< Kept: Mesa compiles each new one anew.
+  std::shared_ptr<Traffic> traffic_ = std::make_shared<Traffic>();
 };
 
 /// "CL_INVALID_VALUE" for -30, and so on; "OpenCL error N" for codes outside OpenCL 1.2.

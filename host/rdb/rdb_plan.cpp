@@ -28,10 +28,10 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const std::size_t row_bytes =
       static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
   if (memory_bytes < row_bytes) {
-    fail(
-        ErrorKind::usage,
-        "--memory is {:.4g} MiB: one row of {} pixels with {} lens cells needs at least {:.3f} MiB",
-        mib(memory_bytes), width, fewest, std::ceil(mib(row_bytes) * 1000) / 1000);
+    fail(ErrorKind::usage,
+         "{} is {:.4g} MiB: one row of {} pixels with {} lens cells needs at least {:.3f} MiB",
+         field("memory"), mib(memory_bytes), width, fewest,
+         std::ceil(mib(row_bytes) * 1000) / 1000);
   }
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "reference/stage_frame.h"
-#include "reference/stages.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 namespace {
@@ -45,9 +45,8 @@ std::optional<std::size_t> end_of_ramp(const CocFrame& frame, Place at) {
 
 }  // namespace
 
-std::vector<std::uint32_t> repair(int width, int height,
-                                  const std::vector<std::int32_t>& coc_quanta) {
-  const CocFrame frame{width, height, coc_quanta};
+Words TwinStages::repair(const Frame& f) {
+  const CocFrame frame(f);
   std::vector<std::uint32_t> source;
   frame.for_each_place([&](Place at) {
     const std::size_t pixel = end_of_ramp(frame, at).value_or(frame.index(at));
@@ -56,9 +55,8 @@ std::vector<std::uint32_t> repair(int width, int height,
   return source;
 }
 
-std::vector<std::uint32_t> edges(int width, int height,
-                                 const std::vector<std::int32_t>& coc_quanta) {
-  const CocFrame frame{width, height, coc_quanta};
+Words TwinStages::edges(const Frame& f) {
+  const CocFrame frame(f);
   std::vector<std::uint32_t> mixed;
   frame.for_each_place([&](Place at) {
     bool is_mixed = false;

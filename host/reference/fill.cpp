@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "reference/stage_frame.h"
-#include "reference/stages.h"
 
 namespace defray::reference {
 namespace {
@@ -44,12 +43,10 @@ float sum_of_squares(const Colour& c) { return c[0] * c[0] + c[1] * c[1] + c[2] 
 
 class Filler {
  public:
-  Filler(const FrameView& f, const std::vector<std::uint32_t>& mixed)
-      : view_(f), frame_{f.width, f.height, f.coc_quanta}, mixed_(mixed) {
+  Filler(const Frame& f, const Words& mixed)
+      : frame_(f), inverse_(f.inverse.host()), channels_(f.channels), mixed_(mixed.host()) {
     farthest_ = -DEFRAY_TAME_QUANTA;
-    for (std::size_t i = 0; i < f.coc_quanta.size(); ++i) {
-      farthest_ = std::max(farthest_, frame_.coc(i));
-    }
+    for (std::size_t i = 0; i < f.pixels(); ++i) farthest_ = std::max(farthest_, frame_.coc(i));
   }
 
   /// What lies behind the surface in front at a place, in each direction.
@@ -67,11 +64,11 @@ class Filler {
   std::pair<int, float> in_front(Place at) const {
     const std::size_t pixel = frame_.index(at);
     int coc = frame_.coc(pixel);
-    float inverse = view_.inverse[pixel];
+    float inverse = inverse_[pixel];
     if (!mixed_[pixel]) return {coc, inverse};
     for_each_around(at, 1, [&](Place q) {
       coc = std::min(coc, frame_.coc(q));
-      inverse = std::max(inverse, view_.inverse[frame_.index(q)]);
+      inverse = std::max(inverse, inverse_[frame_.index(q)]);
     });
     return {coc, inverse};
   }
@@ -108,7 +105,7 @@ class Filler {
     const Place back = way.steps(t), on = way.steps(4), beyond = way.start + back + on;
     const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
-    Found found{q, static_cast<float>(t), static_cast<float>(coc), view_.inverse[q], 0};
+    Found found{q, static_cast<float>(t), static_cast<float>(coc), inverse_[q], 0};
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
     const auto slant = static_cast<float>(coc - frame_.coc(b));  // over four pixels
@@ -120,7 +117,7 @@ class Filler {
     const float kept = std::clamp(change, -most, most);
     const float share = change != 0 ? kept / change : 0;
     found.coc += kept;
-    const float inverse = found.inverse + (view_.inverse[q] - view_.inverse[b]) * steps * share;
+    const float inverse = found.inverse + (inverse_[q] - inverse_[b]) * steps * share;
     found.inverse = inverse > 0 ? inverse : 0;
     return found;
   }
@@ -129,14 +126,14 @@ class Filler {
   /// the very edge gives its place to the brightest of them.
   Found looked_further(const Way& way, Found found) const {
     const int coc = frame_.coc(found.source), t = static_cast<int>(found.distance);
-    const Colour colour = colour_at(view_.channels, found.source);
+    const Colour colour = colour_at(channels_, found.source);
     float change = 0, size = sum_of_squares(colour), brightest = -1;
     std::size_t source = found.source;
     found.weight = 1 / (found.distance * found.distance);
     for (int i = 1; i <= 4 && frame_.contains(way.after(t + 4 * i)); ++i) {
       const std::size_t q = frame_.index(way.after(t + 4 * i));
       if (mixed_[q] || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
-      const Colour c = colour_at(view_.channels, q);
+      const Colour c = colour_at(channels_, q);
       Colour difference = c;
       add(difference, -1, colour);
       change += sum_of_squares(difference);
@@ -154,9 +151,10 @@ class Filler {
     return found;
   }
 
-  const FrameView& view_;
   CocFrame frame_;
-  const std::vector<std::uint32_t>& mixed_;
+  std::span<const float> inverse_;
+  const Planes& channels_;
+  std::span<const std::uint32_t> mixed_;
   std::int32_t farthest_;
 };
 
@@ -172,7 +170,7 @@ struct Mean {
   Colour colour;
 };
 
-Mean mean_of(std::vector<Found> all, const std::vector<Plane>& channels, int own) {
+Mean mean_of(std::vector<Found> all, const Planes& channels, int own) {
   const Found nearest = *std::min_element(all.begin(), all.end(),
                                           [](auto& a, auto& b) { return a.distance < b.distance; });
   const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (nearest.coc - static_cast<float>(own));
@@ -196,21 +194,26 @@ Mean mean_of(std::vector<Found> all, const std::vector<Plane>& channels, int own
 
 }  // namespace
 
-Surface fill(const FrameView& f, const std::vector<std::uint32_t>& mixed) {
-  const std::size_t pixels = f.coc_quanta.size();
-  Surface out{f.coc_quanta, Plane(pixels, -1), {f.channels.size(), Plane(pixels)}, {}};
+Frame TwinStages::fill(const Frame& f, const Words& mixed) {
+  std::vector<std::int32_t> coc = copy_of(f.coc_quanta);
+  Plane inverse(f.pixels(), -1);
+  std::vector<Plane> channels(f.channels.size(), Plane(f.pixels()));
   const Filler filler(f, mixed);
-  const CocFrame frame{f.width, f.height, f.coc_quanta};
+  const CocFrame frame(f);
   frame.for_each_place([&](Place at) {
     const auto [own, own_inverse] = filler.in_front(at);
     const std::vector<Found> all = filler.look_behind(at, own);
     if (all.empty()) return;
     const Mean mean = mean_of(all, f.channels, own);
     const std::size_t pixel = frame.index(at);
-    out.coc_quanta[pixel] = static_cast<std::int32_t>(std::nearbyint(mean.coc));
-    out.inverse[pixel] = std::min(own_inverse * 0.99999f, mean.inverse);  // behind
-    set_colour(out.channels, pixel, mean.colour);
+    coc[pixel] = static_cast<std::int32_t>(std::nearbyint(mean.coc));
+    inverse[pixel] = std::min(own_inverse * 0.99999f, mean.inverse);  // behind
+    set_colour(channels, pixel, mean.colour);
   });
+  Frame out = f.without_planes();
+  out.coc_quanta = std::move(coc);
+  out.inverse = std::move(inverse);
+  out.channels = channels;
   return out;
 }
 

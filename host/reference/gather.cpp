@@ -2,19 +2,19 @@
 #include "methods/gather.h"
 
 #include "reference/reference.h"
+#include "reference/stage_frame.h"
 
 namespace defray::reference {
 
-std::vector<Plane> render_gather(int width, int height, const std::vector<std::int32_t>& coc_quanta,
-                                 const std::vector<Plane>& channels,
-                                 const GatherSettings& settings) {
+std::vector<Plane> TwinStages::gather(const Frame& f, const GatherSettings& settings,
+                                      const Progress&) {
   validate(settings);
   const GatherSamples samples = make_gather_samples(settings);
-  std::vector<Plane> result = channels;
+  std::vector<Plane> result = planes_of(f.channels);
   for (int pass = 0; pass < settings.passes; ++pass) {
-    const DefrayGatherParams p = gather_params(settings, width, height, pass);
-    result = settings.kind == GatherKind::literal ? gather_literal(p, samples, coc_quanta, result)
-                                                  : gather_aware(p, samples, coc_quanta, result);
+    const DefrayGatherParams p = gather_params(settings, f.width, f.height, pass);
+    result = settings.kind == GatherKind::literal ? gather_literal(p, samples, result, f)
+                                                  : gather_aware(p, samples, result, f);
   }
   return result;
 }

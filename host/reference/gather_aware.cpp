@@ -52,7 +52,7 @@ struct WeighedSource {
 /// Sources of a layer with their weights, those without weight left out.
 /// weight(own CoC, their CoC, distance).
 template <typename Weight>
-std::vector<WeighedSource> weigh(const GatherFrame& frame, const std::vector<std::int32_t>& coc,
+std::vector<WeighedSource> weigh(const GatherFrame& frame, std::span<const std::int32_t> coc,
                                  float quantum, int x, int y, const Layer& layer,
                                  const Weight& weight) {
   std::vector<WeighedSource> sources;
@@ -85,8 +85,8 @@ float covers(float coc, float distance) {
   return std::clamp(std::fabs(coc) + 0.5f - distance, 0.0f, 1.0f);
 }
 
-void aware_pixel(const GatherFrame& frame, const std::vector<std::int32_t>& coc, float quantum,
-                 int x, int y, float search, const std::vector<std::array<float, 2>>& samples,
+void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, float quantum, int x,
+                 int y, float search, const std::vector<std::array<float, 2>>& samples,
                  std::vector<Plane>& out) {
   const std::size_t at = frame.index(x, y);
   const float own_radius = std::fabs(static_cast<float>(coc[at]) * quantum);
@@ -114,11 +114,11 @@ void aware_pixel(const GatherFrame& frame, const std::vector<std::int32_t>& coc,
 }  // namespace
 
 std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples& samples,
-                                const std::vector<std::int32_t>& coc_quanta,
-                                const std::vector<Plane>& channels) {
+                                const std::vector<Plane>& channels, const Frame& f) {
+  const auto coc_quanta = f.coc_quanta.host();
   const GatherFrame frame{static_cast<int>(p.width), static_cast<int>(p.height), channels};
   const float quantum = std::ldexp(1.0f, -DEFRAY_COC_FRACTION_BITS) * p.radius_scale;
-  const auto reach = gather_reach(frame.width, frame.height, coc_quanta);
+  const auto reach = gather_reach(f);
   const int across = (frame.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
   std::vector<Plane> out(channels);
   for (int y = 0; y < frame.height; ++y) {

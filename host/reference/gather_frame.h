@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/plane.h"
 #include "methods/gather.h"
 #include "reference/pcg3d.h"
 

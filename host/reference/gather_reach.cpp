@@ -11,27 +11,25 @@ constexpr int tile = DEFRAY_GATHER_TILE;
 
 int tiles_across(int pixels) { return (pixels + tile - 1) / tile; }
 
-std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
-std::vector<std::int32_t> gather_tiles(int width, int height,
-                                       const std::vector<std::int32_t>& coc_quanta) {
+std::vector<std::int32_t> gather_tiles(const Frame& f) {
+  const int width = f.width, height = f.height;
+  const auto coc_quanta = f.coc_quanta.host();
   const int across = tiles_across(width);
-  std::vector<std::int32_t> largest(as_size(across) * as_size(tiles_across(height)));
+  std::vector<std::int32_t> largest(size(across) * size(tiles_across(height)));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      std::int32_t& most = largest[as_size(y / tile) * as_size(across) + as_size(x / tile)];
-      most = std::max(most, std::abs(coc_quanta[as_size(y) * as_size(width) + as_size(x)]));
+      std::int32_t& most = largest[size(y / tile) * size(across) + size(x / tile)];
+      most = std::max(most, std::abs(coc_quanta[size(y) * size(width) + size(x)]));
     }
   }
   return largest;
 }
 
-std::vector<std::int32_t> gather_reach(int width, int height,
-                                       const std::vector<std::int32_t>& coc_quanta) {
-  const int across = tiles_across(width);
-  const std::vector<std::int32_t> largest = gather_tiles(width, height, coc_quanta);
+std::vector<std::int32_t> gather_reach(const Frame& f) {
+  const int across = tiles_across(f.width);
+  const std::vector<std::int32_t> largest = gather_tiles(f);
   std::vector<std::int32_t> reach(largest.size());
   for (std::size_t i = 0; i < reach.size(); ++i) {
     const int x = static_cast<int>(i) % across, y = static_cast<int>(i) / across;

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "lens/aperture_table.h"
 #include "lens/cats_eye.h"
+#include "lens/coc.h"
 #include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 namespace {
 
-float light_of(const Fragments& f, std::size_t at, int light_channels) {
+float light_of(const Frame& f, std::size_t at, int light_channels) {
   float most = f.channels[0][at];
   for (int c = 1; c < light_channels; ++c) {
     most = std::fmax(most, f.channels[static_cast<std::size_t>(c)][at]);
@@ -19,8 +22,7 @@ float light_of(const Fragments& f, std::size_t at, int light_channels) {
 }
 
 /// Light of the front fragments at 32 points around a disc, those within the frame and seen.
-std::vector<float> light_around(const Fragments& f, int x, int y, float radius,
-                                int light_channels) {
+std::vector<float> light_around(const Frame& f, int x, int y, float radius, int light_channels) {
   std::vector<float> light;
   for (int i = 0; i < 32; ++i) {
     const double angle = i % 16 * std::numbers::pi / 8;
@@ -88,20 +90,20 @@ std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int3
 }
 
 /// Share of the pixel that a sharp edge in front of a source with this CoC covers; 0: no such edge.
-float sharp_edge(const FragmentView& f, std::size_t front, std::int32_t coc) {
-  if (!f.coverage || (*f.coverage)[front] >= DEFRAY_WHOLE) return 0;
+float sharp_edge(const Frame& f, std::size_t front, std::int32_t coc) {
+  if (f.coverage.empty() || f.coverage[front] >= DEFRAY_WHOLE) return 0;
   const std::int32_t own = tame(f.coc_quanta[front]);
   if (std::abs(own) >= DEFRAY_SHARP_QUANTA || own >= coc - DEFRAY_JUMP_QUANTA) return 0;
-  return static_cast<float>((*f.coverage)[front]) * (1.0f / DEFRAY_WHOLE);
+  return static_cast<float>(f.coverage[front]) * (1.0f / DEFRAY_WHOLE);
 }
 
-RimCentre rim_at(const RdbSettings& settings, int x, int y) {
-  return {settings.rim_x[static_cast<std::size_t>(x)], settings.rim_y[static_cast<std::size_t>(y)]};
+RimCentre rim_at(const RayPlan& plan, int x, int y) {
+  return {plan.rim_x[static_cast<std::size_t>(x)], plan.rim_y[static_cast<std::size_t>(y)]};
 }
 
 }  // namespace
 
-Plane highlights(const Fragments& f, int light_channels) {
+Values<float> TwinStages::highlights(const Frame& f, int light_channels) {
   Plane kept(f.depth.size(), 1.0f);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const int x = static_cast<int>(i % static_cast<std::size_t>(f.width));
@@ -133,10 +135,10 @@ Plane highlights(const Fragments& f, int light_channels) {
   return kept;
 }
 
-void add_light(const LightSources& lights, const FragmentView& f, const RdbSettings& settings,
+void add_light(const LightSources& lights, const Frame& f, const RayPlan& plan,
                const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means) {
   const ApertureTable table{lights.table};
-  const bool has_rim = !settings.rim_x.empty();
+  const bool has_rim = !plan.rim_x.empty();
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
     const auto& [sx, sy, coc, depth_bits] = lights.where[s];
@@ -147,7 +149,7 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
         const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
         const Box box = box_between(x - sx, y - sy, coc);
         const std::uint64_t arrives =
-            has_rim ? light_through(table, box, rim_at(settings, x, y))
+            has_rim ? light_through(table, box, rim_at(plan, x, y))
                     : light_in_box(table, box.left, box.top, box.right, box.bottom);
         if (arrives == 0) continue;
         const auto own =
@@ -183,8 +185,7 @@ void add_light(const LightSources& lights, const FragmentView& f, const RdbSetti
   Plane open(has_rim ? means[0].size() : 0);  // what the rim leaves counts as all light
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto width = static_cast<std::size_t>(f.width);
-    const RimCentre rim =
-        rim_at(settings, static_cast<int>(i % width), static_cast<int>(i / width));
+    const RimCentre rim = rim_at(plan, static_cast<int>(i % width), static_cast<int>(i / width));
     const std::uint64_t passes = light_through(table, {}, rim);
     open[i] = std::fmax(static_cast<float>(passes) * lights.share_of_light, 1e-6f);
   }

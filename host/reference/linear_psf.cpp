@@ -4,6 +4,7 @@
 
 #include "methods/linear.h"
 #include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 namespace {
@@ -27,9 +28,10 @@ double disc_sum(double radius) {
 }  // namespace
 
 template <typename Real>
-std::vector<std::vector<Real>> render_linear(int width, int height,
-                                             const std::vector<std::int32_t>& coc_quanta,
-                                             const std::vector<Plane>& channels) {
+std::vector<std::vector<Real>> linear(const Frame& f) {
+  const int width = f.width, height = f.height;
+  const auto coc_quanta = f.coc_quanta.host();
+  const Planes& channels = f.channels;
   const int reach = linear_reach(coc_quanta);
   std::vector<Real> radius(coc_quanta.size());
   std::vector<std::vector<Real>> scaled(channels.size(), std::vector<Real>(radius.size()));
@@ -60,11 +62,11 @@ std::vector<std::vector<Real>> render_linear(int width, int height,
   return out;
 }
 
-template std::vector<std::vector<float>> render_linear<float>(int, int,
-                                                              const std::vector<std::int32_t>&,
-                                                              const std::vector<Plane>&);
-template std::vector<std::vector<double>> render_linear<double>(int, int,
-                                                                const std::vector<std::int32_t>&,
-                                                                const std::vector<Plane>&);
+template std::vector<std::vector<float>> linear<float>(const Frame&);
+template std::vector<std::vector<double>> linear<double>(const Frame&);
+
+std::vector<Plane> TwinStages::linear(const Frame& f, const Progress&) {
+  return reference::linear<float>(f);
+}
 
 }  // namespace defray::reference

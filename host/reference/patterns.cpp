@@ -3,20 +3,21 @@
 
 #include "base/parallel.h"
 #include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 namespace {
 
 std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
 
-class Frame {
+class Grid {
  public:
-  explicit Frame(const PatternFrame& frame) : frame_(frame) {}
+  explicit Grid(const Frame& frame) : frame_(frame) {}
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < frame_.width && y < frame_.height; }
   std::size_t at(int x, int y) const { return as_size(y) * as_size(frame_.width) + as_size(x); }
 
  private:
-  const PatternFrame& frame_;
+  const Frame& frame_;
 };
 
 bool close(std::int32_t a, std::int32_t b, std::int32_t tolerance) {
@@ -55,27 +56,26 @@ struct Weight {
   float w, square_w;
 };
 
-void add_shift(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
-               const std::vector<Plane>& channels, const std::vector<Plane>& behind,
-               PatternShift shift, const PatternSettings& settings, PatternSums& out) {
-  const Frame f(frame);
+void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, PatternShift shift,
+               const PatternSettings& settings, PatternSums& out) {
+  const Grid f(frame);
   const std::vector<std::uint64_t> columns = pattern_columns(frame, pixels, shift, settings);
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t here = f.at(x, y);
-      const PatternShift s = shift_at(shift, frame.behind_inverse[here]);
-      if (!frame.behind[here] || !f.has(x + s.x, y + s.y)) continue;
+      const PatternShift s = shift_at(shift, behind.inverse[here]);
+      if (!(pixels[here] & DEFRAY_PATTERN_BEHIND) || !f.has(x + s.x, y + s.y)) continue;
       const std::size_t there = f.at(x + s.x, y + s.y);
       if (!(pixels[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (!close(frame.coc_quanta[there], frame.behind_coc[here], settings.tolerance_quanta)) {
+      if (!close(frame.coc_quanta[there], behind.coc_quanta[here], settings.tolerance_quanta)) {
         continue;
       }
       const std::uint64_t sum = line_sum(
           settings.window_px, [&](int j) { return f.has(x + j, y) ? columns[f.at(x + j, y)] : 0; });
       if (sum >> DEFRAY_PATTERN_COUNT_BIT < least_pairs(settings.window_px)) continue;
       const Weight weight(sum);
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        out.difference[c][here] += weight.w * (channels[c][there] - behind[c][here]);
+      for (std::size_t c = 0; c < out.difference.size(); ++c) {
+        out.difference[c][here] += weight.w * (frame.channels[c][there] - behind.channels[c][here]);
       }
       out.weight[here] += weight.w;
       out.weighted_square[here] += weight.square_w;
@@ -85,10 +85,9 @@ void add_shift(const PatternFrame& frame, const std::vector<std::uint32_t>& pixe
 
 }  // namespace
 
-std::vector<std::uint32_t> pattern_difference(const PatternFrame& frame,
-                                              const std::vector<std::uint32_t>& pixels,
+std::vector<std::uint32_t> pattern_difference(const Frame& frame, const Words& pixels,
                                               PatternShift shift, const PatternSettings& settings) {
-  const Frame f(frame);
+  const Grid f(frame);
   std::vector<std::uint32_t> out(pixels.size());
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
@@ -109,10 +108,9 @@ std::vector<std::uint32_t> pattern_difference(const PatternFrame& frame,
   return out;
 }
 
-std::vector<std::uint64_t> pattern_columns(const PatternFrame& frame,
-                                           const std::vector<std::uint32_t>& pixels,
+std::vector<std::uint64_t> pattern_columns(const Frame& frame, const Words& pixels,
                                            PatternShift shift, const PatternSettings& settings) {
-  const Frame f(frame);
+  const Grid f(frame);
   const std::vector<std::uint32_t> difference = pattern_difference(frame, pixels, shift, settings);
   std::vector<std::uint64_t> out(pixels.size());
   parallel_for(frame.height, [&](int y) {
@@ -127,25 +125,12 @@ std::vector<std::uint64_t> pattern_columns(const PatternFrame& frame,
   return out;
 }
 
-PatternSums match_patterns(const PatternFrame& frame, const std::vector<std::uint32_t>& pixels,
-                           const std::vector<Plane>& channels, const std::vector<Plane>& behind,
-                           const std::vector<PatternShift>& shifts,
-                           const PatternSettings& settings) {
-  PatternSums out{std::vector<Plane>(channels.size(), Plane(pixels.size())), Plane(pixels.size()),
-                  Plane(pixels.size())};
-  for (const PatternShift& shift : shifts) {
-    add_shift(frame, pixels, channels, behind, shift, settings, out);
-  }
+PatternSums TwinStages::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
+                                 const std::vector<PatternShift>& shifts,
+                                 const PatternSettings& settings) {
+  PatternSums out(frame.channels.size(), pixels.size());
+  for (const PatternShift& shift : shifts) add_shift(frame, behind, pixels, shift, settings, out);
   return out;
-}
-
-void improve_by_patterns(const PatternFrame& frame, const std::vector<Plane>& channels,
-                         const PatternSettings& settings, std::vector<Plane>& behind) {
-  defray::improve_by_patterns(
-      frame, channels, settings, behind,
-      [&](const std::vector<std::uint32_t>& pixels, const std::vector<PatternShift>& shifts) {
-        return match_patterns(frame, pixels, channels, behind, shifts, settings);
-      });
 }
 
 }  // namespace defray::reference

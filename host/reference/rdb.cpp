@@ -9,6 +9,7 @@
 #include "lens/cats_eye.h"
 #include "reference/pcg3d.h"
 #include "reference/reference.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 namespace {
@@ -30,25 +31,20 @@ Offset jitter_offset(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::
 /// A ray displaced by `ray` pixels arrives at a pixel `step` away if the step is in its square.
 bool arrives(double step, double ray) { return step - ray >= -0.5 && step - ray < 0.5; }
 
-std::size_t pixel_count(const FragmentView& f) {
-  return static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height);
-}
-
 /// One lens cell's scatter over a frame.
 class CellScatter {
  public:
-  CellScatter(const FragmentView& f, const RdbSettings& settings, const LensCells& cells,
-              std::size_t cell)
+  CellScatter(const Frame& f, const RayPlan& plan, std::size_t cell)
       : width_(f.width),
         height_(f.height),
-        jitter_(cells.jitter),
-        seed_(settings.seed),
-        origin_x_(settings.origin_x),
-        origin_y_(settings.origin_y),
+        jitter_(plan.cells.jitter),
+        seed_(plan.seed),
+        origin_x_(plan.origin_x),
+        origin_y_(plan.origin_y),
         cell_(cell) {
-    u_ = std::ldexp(static_cast<double>(cells.centres[cell][0]), -DEFRAY_LENS_FRACTION_BITS);
-    v_ = std::ldexp(static_cast<double>(cells.centres[cell][1]), -DEFRAY_LENS_FRACTION_BITS);
-    half_ = std::ldexp(static_cast<double>(cells.jitter), -DEFRAY_LENS_FRACTION_BITS);
+    u_ = std::ldexp(static_cast<double>(plan.cells.centres[cell][0]), -DEFRAY_LENS_FRACTION_BITS);
+    v_ = std::ldexp(static_cast<double>(plan.cells.centres[cell][1]), -DEFRAY_LENS_FRACTION_BITS);
+    half_ = std::ldexp(static_cast<double>(plan.cells.jitter), -DEFRAY_LENS_FRACTION_BITS);
   }
 
   /// Calls visit(target index) for each target pixel that source (px, py) of radius r reaches.
@@ -101,24 +97,24 @@ class CellScatter {
 
 }  // namespace
 
-std::vector<std::int64_t> rdb_scatter(const FragmentView& f, const RdbSettings& settings,
-                                      const LensCells& cells, std::size_t cell) {
-  const CellScatter scatter(f, settings, cells, cell);
-  std::vector<std::int64_t> winner(pixel_count(f), -1);
-  for (std::size_t source = 0; source < f.depth.size(); ++source) {
-    if (!is_fragment(f.depth[source])) continue;
-    const auto width = static_cast<std::size_t>(f.width);
-    const int x = static_cast<int>(source % width);
-    const int y = static_cast<int>(source / width / static_cast<std::size_t>(f.layers));
-    if (f.coverage && !scatter.sends(x, y, ((*f.coverage)[source] & 0x7fffffffu) / 65536.0)) {
+std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::size_t cell) {
+  const CellScatter scatter(f, plan, cell);
+  std::vector<std::int64_t> winner(f.pixels(), -1);
+  const auto depth = f.depth.host();
+  const auto coc = f.coc_quanta.host();
+  const auto coverage = f.coverage.host();
+  for (std::size_t source = 0; source < depth.size(); ++source) {
+    if (!is_fragment(depth[source])) continue;
+    const int x = static_cast<int>(source % size(f.width));
+    const int y = static_cast<int>(source / size(f.width) / size(f.layers));
+    if (!coverage.empty() && !scatter.sends(x, y, (coverage[source] & 0x7fffffffu) / 65536.0)) {
       continue;
     }
-    const double r =
-        std::ldexp(static_cast<double>(f.coc_quanta[source]), -DEFRAY_COC_FRACTION_BITS);
+    const double r = std::ldexp(static_cast<double>(coc[source]), -DEFRAY_COC_FRACTION_BITS);
     scatter.for_each_target(x, y, r, [&](std::size_t target) {
       // Sources come in index order: an equal depth never replaces an earlier one.
       const std::int64_t held = winner[target];
-      if (held < 0 || f.depth[source] < f.depth[static_cast<std::size_t>(held)]) {
+      if (held < 0 || depth[source] < depth[static_cast<std::size_t>(held)]) {
         winner[target] = static_cast<std::int64_t>(source);
       }
     });
@@ -128,26 +124,18 @@ std::vector<std::int64_t> rdb_scatter(const FragmentView& f, const RdbSettings& 
 
 namespace {
 
-/// The fragment in front at a pixel.
-std::size_t front(const FragmentView& f, std::size_t pixel) {
-  const auto width = static_cast<std::size_t>(f.width);
-  return pixel / width * static_cast<std::size_t>(f.layers) * width + pixel % width;
-}
-
 /// What shows through where no ray arrives: the farthest fragment behind a pixel and those around
 /// it, two columns and one row to each side. -1: none.
-std::int64_t farthest_behind(const FragmentView& f, std::size_t pixel) {
-  if (f.layers < 2 || !f.coverage) return -1;
+std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
+  if (f.layers < 2 || f.coverage.empty()) return -1;
   const int x0 = static_cast<int>(pixel % static_cast<std::size_t>(f.width));
   const int y0 = static_cast<int>(pixel / static_cast<std::size_t>(f.width));
   const auto bits = [&](std::size_t k) { return std::bit_cast<std::uint32_t>(f.depth[k]); };
   std::int64_t found = -1;
   for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
     for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
-      const auto i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(f.layers) + 1) *
-                         static_cast<std::size_t>(f.width) +
-                     static_cast<std::size_t>(x);
-      if ((*f.coverage)[i] == 0) continue;
+      const std::size_t i = f.index(x, y, 1);
+      if (f.coverage[i] == 0) continue;
       if (found < 0 || bits(i) > bits(static_cast<std::size_t>(found))) {
         found = static_cast<std::int64_t>(i);
       }
@@ -159,12 +147,11 @@ std::int64_t farthest_behind(const FragmentView& f, std::size_t pixel) {
 /// Calls visit(target, source, arrived) for every cell that shows a source, cell by cell in lens
 /// order, and begin() before each cell.
 template <typename Begin, typename Visit>
-void for_each_winner(const FragmentView& f, const RdbSettings& settings, const Begin& begin,
-                     const Visit& visit, const std::function<void(double)>& progress) {
-  const LensCells cells = lens_cells(settings);
-  const std::size_t count = cells.centres.size();
+void for_each_winner(const Frame& f, const RayPlan& plan, const Begin& begin, const Visit& visit,
+                     const Progress& progress) {
+  const std::size_t count = plan.cells.centres.size();
   for (std::size_t cell = 0; cell < count; ++cell) {
-    const auto winner = rdb_scatter(f, settings, cells, cell);
+    const auto winner = rdb_scatter(f, plan, cell);
     begin();
     for (std::size_t i = 0; i < winner.size(); ++i) {
       const std::int64_t shown = winner[i] >= 0 ? winner[i] : farthest_behind(f, i);
@@ -175,16 +162,15 @@ void for_each_winner(const FragmentView& f, const RdbSettings& settings, const B
 }
 
 /// Whether the lens's rim keeps a cell's light from a pixel.
-bool is_cut_off(const RdbSettings& settings, int width, std::size_t pixel,
+bool is_cut_off(const RayPlan& plan, int width, std::size_t pixel,
                 const std::array<std::int32_t, 2>& u) {
-  if (settings.rim_x.empty()) return false;
+  if (plan.rim_x.empty()) return false;
   const auto columns = static_cast<std::size_t>(width);
-  return !passes_rim({settings.rim_x[pixel % columns], settings.rim_y[pixel / columns]}, u[0],
-                     u[1]);
+  return !passes_rim({plan.rim_x[pixel % columns], plan.rim_y[pixel / columns]}, u[0], u[1]);
 }
 
 /// The nearer of two fragments, of equal depths the first; -1: none yet.
-void keep_nearer(const FragmentView& f, std::int64_t source, std::int64_t& held) {
+void keep_nearer(const Frame& f, std::int64_t source, std::int64_t& held) {
   const auto depth = [&](std::int64_t i) { return f.depth[static_cast<std::size_t>(i)]; };
   const bool is_nearer =
       held < 0 || depth(source) < depth(held) || (depth(source) == depth(held) && source < held);
@@ -193,17 +179,16 @@ void keep_nearer(const FragmentView& f, std::int64_t source, std::int64_t& held)
 
 }  // namespace
 
-RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
-                          const LightSources* lights, const std::function<void(double)>& progress) {
-  const std::size_t pixels = pixel_count(f), channels = f.channels.size();
+RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSources* lights,
+                           const Progress& progress) {
+  const std::size_t pixels = f.pixels(), channels = f.channels.size();
   std::vector<Plane> sum(channels, Plane(pixels));
   std::vector<std::vector<bool>> varies(channels, std::vector<bool>(pixels));
   std::vector<std::size_t> first(pixels), filled(pixels);
-  RdbResult out{sum, std::vector<std::uint32_t>(pixels)};
+  RayResult out{sum, std::vector<std::uint32_t>(pixels)};
   const bool has_light = lights && !lights->empty();
   std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
-  std::vector<std::int64_t> nearest(settings.wants_nearest ? pixels : 0, -1);
-  const LensCells cells = lens_cells(settings);
+  std::vector<std::int64_t> nearest(plan.wants_nearest ? pixels : 0, -1);
   std::size_t cell = 0;  // counts from 1 while its winners come
   const auto begin = [&] {
     ++cell;
@@ -211,10 +196,10 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
   };
   const auto add = [&](std::size_t target, std::size_t source, bool arrived) {
     if (has_light && arrived) winner.back()[target] = static_cast<std::int32_t>(source);
-    if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
+    if (is_cut_off(plan, f.width, target, plan.cells.centres[cell - 1])) return;
     if (filled[target]++ == 0) first[target] = source;
-    if (!f.coverage || (*f.coverage)[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
-    if (settings.wants_nearest && arrived && f.data_pixel(source) != DEFRAY_EMPTY) {
+    if (f.coverage.empty() || f.coverage[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
+    if (plan.wants_nearest && arrived && f.data_pixel(source) != DEFRAY_EMPTY) {
       keep_nearer(f, static_cast<std::int64_t>(source), nearest[target]);
     }
     for (std::size_t c = 0; c < channels; ++c) {
@@ -224,46 +209,37 @@ RdbResult distribute_rays(const FragmentView& f, const RdbSettings& settings,
       }
     }
   };
-  for_each_winner(f, settings, begin, add, progress);
+  for_each_winner(f, plan, begin, add, progress);
   for (std::size_t c = 0; c < channels; ++c) {
     for (std::size_t i = 0; i < pixels; ++i) {
-      const std::size_t one = filled[i] == 0 ? front(f, i) : first[i];  // without a ray: its own
+      const std::size_t one = filled[i] == 0 ? f.front_of(i) : first[i];  // without a ray: its own
       out.means[c][i] =
           varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][one];
     }
   }
-  if (has_light) add_light(*lights, f, settings, winner, out.means);
+  if (has_light) add_light(*lights, f, plan, winner, out.means);
   for (const std::int64_t n : nearest) {
     out.nearest.push_back(n < 0 ? DEFRAY_EMPTY : f.data_pixel(static_cast<std::size_t>(n)));
   }
   return out;
 }
 
-std::vector<Plane> render_rdb(int width, int height, const std::vector<std::int32_t>& coc_quanta,
-                              const Plane& depth, const std::vector<Plane>& channels,
-                              const RdbSettings& settings,
-                              const std::function<void(double)>& progress) {
-  const FragmentView pixels(width, height, coc_quanta, depth, channels);
-  return distribute_rays(pixels, settings, nullptr, progress).means;
-}
-
-std::vector<std::vector<double>> exact_rdb(const FragmentView& f, const RdbSettings& settings) {
-  std::vector<std::vector<double>> mean(f.channels.size(), std::vector<double>(pixel_count(f)));
-  std::vector<int> filled(pixel_count(f));
-  const LensCells cells = lens_cells(settings);
+std::vector<std::vector<double>> exact_rays(const Frame& f, const RayPlan& plan) {
+  std::vector<std::vector<double>> mean(f.channels.size(), std::vector<double>(f.pixels()));
+  std::vector<int> filled(f.pixels());
   std::size_t cell = 0;
   const auto add = [&](std::size_t target, std::size_t source, bool) {
-    if (is_cut_off(settings, f.width, target, cells.centres[cell - 1])) return;
+    if (is_cut_off(plan, f.width, target, plan.cells.centres[cell - 1])) return;
     ++filled[target];
     for (std::size_t c = 0; c < mean.size(); ++c) {
       mean[c][target] += static_cast<double>(f.channels[c][source]);
     }
   };
-  for_each_winner(f, settings, [&] { ++cell; }, add, {});
+  for_each_winner(f, plan, [&] { ++cell; }, add, {});
   for (std::size_t c = 0; c < mean.size(); ++c) {
     for (std::size_t i = 0; i < filled.size(); ++i) {
-      mean[c][i] =
-          filled[i] == 0 ? static_cast<double>(f.channels[c][front(f, i)]) : mean[c][i] / filled[i];
+      mean[c][i] = filled[i] == 0 ? static_cast<double>(f.channels[c][f.front_of(i)])
+                                  : mean[c][i] / filled[i];
     }
   }
   return mean;

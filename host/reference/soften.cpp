@@ -1,8 +1,8 @@
 // Twin of kernels/soften.cl.
 #include <cstdlib>
 
+#include "chain/lens_grid.h"
 #include "reference/stage_frame.h"
-#include "reference/stages.h"
 
 namespace defray::reference {
 namespace {
@@ -23,12 +23,12 @@ struct Square {
   }
 };
 
-std::uint32_t share_of(const Fragments& f, std::size_t i) {
+std::uint32_t share_of(const Frame& f, std::size_t i) {
   return f.coverage.empty() ? DEFRAY_WHOLE : f.coverage[i] & ~DEFRAY_SYNTHESISED;
 }
 
 /// Mean difference of the fragments around to the fragment at (x, y), weighed.
-Colour mean_difference(const Fragments& f, int x, int y, int layer, float side) {
+Colour mean_difference(const Frame& f, int x, int y, int layer, float side) {
   const std::size_t own_at = f.index(x, y, layer);
   const Colour own = colour_at(f.channels, own_at);
   const auto own_coc = static_cast<float>(f.coc_quanta[own_at]);
@@ -56,8 +56,8 @@ Colour mean_difference(const Fragments& f, int x, int y, int layer, float side) 
 
 }  // namespace
 
-std::vector<Plane> soften(const Fragments& f, int samples) {
-  std::vector<Plane> out = f.channels;
+Planes TwinStages::soften(const Frame& f, int samples) {
+  std::vector<Plane> out = planes_of(f.channels);
   for (int y = 0; y < f.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {
       for (int x = 0; x < f.width; ++x) {

@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "reference/stage_frame.h"
-#include "reference/stages.h"
 
 namespace defray::reference {
 namespace {
@@ -25,8 +24,8 @@ Colour minus(Colour a, const Colour& b) {
 
 class Splitter {
  public:
-  Splitter(const FrameView& f, const std::vector<std::uint32_t>& mixed)
-      : view_(f), frame_{f.width, f.height, f.coc_quanta}, mixed_(mixed) {}
+  Splitter(const Frame& f, const Words& mixed)
+      : frame_(f), channels_(f.channels), mixed_(mixed.host()) {}
 
   /// CoC of the nearest and the farthest pixel around.
   std::pair<int, int> range(Place at) const {
@@ -49,7 +48,7 @@ class Splitter {
       const Place d = place - at;
       const int distance2 = d.x * d.x + d.y * d.y;
       const float weight = 1.0f / static_cast<float>(distance2 * distance2);
-      add(found.colour, weight, colour_at(view_.channels, q));
+      add(found.colour, weight, colour_at(channels_, q));
       weights += weight;
       if (weight > largest) found.source = q;
       largest = std::max(largest, weight);
@@ -66,7 +65,7 @@ class Splitter {
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
       if (frame_.coc(q) >= middle) return;
-      const Colour colour = colour_at(view_.channels, q), d = minus(colour, behind);
+      const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(dot(d, d) > farthest)) return;
       farthest = dot(d, d);
       front = {colour, q};
@@ -75,9 +74,9 @@ class Splitter {
   }
 
  private:
-  const FrameView& view_;
   CocFrame frame_;
-  const std::vector<std::uint32_t>& mixed_;
+  const Planes& channels_;
+  std::span<const std::uint32_t> mixed_;
 };
 
 /// Share a of the front F that makes a F + (1 - a) B most like C, drawn towards what is likely
@@ -116,20 +115,42 @@ std::uint32_t stored(float share) {
 }
 float share_of(std::uint32_t coverage) { return static_cast<float>(coverage) / DEFRAY_WHOLE; }
 
+/// One surface of each pixel, to work on.
+struct Layer {
+  std::vector<std::int32_t> coc_quanta;
+  Plane inverse;
+  std::vector<Plane> channels;
+  std::vector<std::uint32_t> coverage;
+  Planes before;  ///< Its colours as they came.
+
+  Layer(const Frame& f, std::uint32_t covers)
+      : coc_quanta(copy_of(f.coc_quanta)),
+        inverse(copy_of(f.inverse)),
+        channels(planes_of(f.channels)),
+        coverage(f.pixels(), covers),
+        before(f.channels) {}
+
+  Frame in(Frame f) {
+    f.coc_quanta = std::move(coc_quanta);
+    f.inverse = std::move(inverse);
+    f.channels = channels;
+    f.coverage = std::move(coverage);
+    return f;
+  }
+};
+
 }  // namespace
 
-Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surface behind) {
-  const std::size_t pixels = f.coc_quanta.size();
-  Surface front{f.coc_quanta, f.inverse, f.channels,
-                std::vector<std::uint32_t>(pixels, DEFRAY_WHOLE)};
-  behind.coverage.assign(pixels, DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
-  const Splitter splitter(f, mixed);
-  const CocFrame frame{f.width, f.height, f.coc_quanta};
+Surfaces TwinStages::split(const Frame& f, const Words& mixed_pixels, Frame frame_behind) {
+  Layer front(f, DEFRAY_WHOLE), behind(frame_behind, DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
+  const Splitter splitter(f, mixed_pixels);
+  const auto mixed = mixed_pixels.host();
+  const CocFrame frame(f);
   frame.for_each_place([&](Place at) {
     const std::size_t pixel = frame.index(at);
     if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
     const Colour c = colour_at(f.channels, pixel);
-    Colour b = colour_at(behind.channels, pixel);
+    Colour b = colour_at(behind.before, pixel);
     const auto [nearest, farthest] = splitter.range(at);
     const int middle = nearest + (farthest - nearest) / 2;
     const bool saw_front = frame.coc(at) < middle;
@@ -160,7 +181,36 @@ Surfaces split(const FrameView& f, const std::vector<std::uint32_t>& mixed, Surf
                  rest_of(c, found->colour, share_of(front.coverage[pixel])));
     }
   });
-  return {front, behind};
+  return {front.in(f.without_planes()), behind.in(f.without_planes())};
+}
+
+Frame TwinStages::assemble(const Surfaces& s) {
+  Frame f = s.front.without_planes();
+  f.layers = 2;
+  std::vector<std::int32_t> coc(f.surfaces());
+  Plane depth(f.surfaces());
+  std::vector<std::uint32_t> coverage(f.surfaces());
+  std::vector<Plane> channels(s.front.channels.size(), Plane(f.surfaces()));
+  for (const int layer : {0, 1}) {
+    const Frame& from = layer == 0 ? s.front : s.behind;
+    for (std::size_t pixel = 0; pixel < f.pixels(); ++pixel) {
+      const std::size_t to = f.front_of(pixel) + size(layer) * size(f.width);
+      const float inverse = from.inverse[pixel];
+      coc[to] = from.coc_quanta[pixel];
+      depth[to] = inverse < 0 ? no_fragment() : 1 / std::fabs(inverse);  // inf before nothing
+      if (!(inverse < 0)) {
+        coverage[to] = from.coverage[pixel] | (f.is_in_margin(pixel) ? DEFRAY_SYNTHESISED : 0);
+      }
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        channels[c][to] = from.channels[c][pixel];
+      }
+    }
+  }
+  f.coc_quanta = std::move(coc);
+  f.depth = std::move(depth);
+  f.coverage = std::move(coverage);
+  f.channels = channels;
+  return f;
 }
 
 }  // namespace defray::reference

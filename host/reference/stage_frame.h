@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "reference/stages.h"
+#include "lens/coc.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 
@@ -16,10 +17,12 @@ inline Place operator+(Place a, Place b) { return {a.x + b.x, a.y + b.y}; }
 inline Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
 inline Place operator*(int n, Place a) { return {n * a.x, n * a.y}; }
 
-/// A frame's CoC, which goes on beyond its edges.
+/// The CoC of a frame of one layer, which goes on beyond its edges.
 struct CocFrame {
+  explicit CocFrame(const Frame& f)
+      : width(f.width), height(f.height), coc_quanta(f.coc_quanta.host()) {}
   int width, height;
-  const std::vector<std::int32_t>& coc_quanta;
+  std::span<const std::int32_t> coc_quanta;
 
   bool contains(Place at) const { return at.x >= 0 && at.y >= 0 && at.x < width && at.y < height; }
   std::size_t index(Place at) const {
@@ -50,7 +53,7 @@ void for_each_around(Place at, int reach, const Visit& visit) {
 /// Four channels; a missing one repeats the last.
 using Colour = std::array<float, 4>;
 
-inline Colour colour_at(const std::vector<Plane>& channels, std::size_t pixel) {
+inline Colour colour_at(const Planes& channels, std::size_t pixel) {
   Colour colour;
   for (std::size_t c = 0; c < 4; ++c) colour[c] = channels[std::min(c, channels.size() - 1)][pixel];
   return colour;
@@ -58,6 +61,18 @@ inline Colour colour_at(const std::vector<Plane>& channels, std::size_t pixel) {
 
 inline void set_colour(std::vector<Plane>& channels, std::size_t pixel, const Colour& colour) {
   for (std::size_t c = 0; c < channels.size(); ++c) channels[c][pixel] = colour[c];
+}
+
+/// Copies to work on.
+inline std::vector<Plane> planes_of(const Planes& channels) {
+  std::vector<Plane> planes;
+  for (const Values<float>& channel : channels) planes.emplace_back(channel.begin(), channel.end());
+  return planes;
+}
+
+template <typename T>
+std::vector<T> copy_of(const Values<T>& values) {
+  return {values.begin(), values.end()};
 }
 
 /// sum += weight * colour

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/reference.h"
+#include "kernels/params.h"
+#include "reference/twin_stages.h"
 
 namespace defray::reference {
 
-std::vector<std::int32_t> tiltshift(const DefrayTiltshiftParams& p) {
+Quanta TwinStages::tiltshift(const DefrayTiltshiftParams& p) {
   std::vector<std::int32_t> coc;
   coc.reserve(std::size_t{p.width} * p.rows);
   for (std::uint32_t row = 0; row < p.rows; ++row) {

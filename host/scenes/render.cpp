@@ -67,15 +67,15 @@ std::ptrdiff_t sort_and_split(std::vector<Hit>& hits, double step) {
 
 }  // namespace
 
-void check_samples(const std::string& option, int samples) {
+void check_samples(const std::string& name, int samples) {
   if (samples < 1 || samples > 65536) {
-    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 65536", option, samples);
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 65536", field(name), samples);
   }
 }
 
 ScenePicture render_pinhole(const Scene& scene, const PinholeSampling& sampling) {
   const int n = sampling.samples;
-  check_samples("--pinhole-samples", n);
+  check_samples("pinhole_samples", n);
   const Tracer tracer(scene);
   ScenePicture picture = empty_picture(scene);
   for_each_pixel(scene, {}, [&](int x, int y, std::size_t at) {

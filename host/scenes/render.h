@@ -68,7 +68,7 @@ struct Coverage {
 Coverage render_coverage(const Scene& scene, int samples, double step = 0.1);
 
 /// Throws Error(usage) naming the option unless 1 <= samples <= 65536.
-void check_samples(const std::string& option, int samples);
+void check_samples(const std::string& name, int samples);
 
 /// What the lens gives: the scene traced through `samples` stratified points of the aperture and
 /// of the pixel's square, for each pixel. Throws Error(usage) unless 1 <= samples <= 65536.

@@ -41,9 +41,9 @@ const std::vector<Builtin>& builtins() {
        still<make_lines>},
       {{"highlights", "small lights up to 5000 times white, CoC 0.3 to 128 px, some half hidden"},
        still<make_highlights>},
-      {{"cutout", "flat shapes at many depths before nothing: what alpha does (--alpha)"},
+      {{"cutout", "flat shapes at many depths before nothing: what alpha does"},
        still<make_cutout>},
-      {{"drift", "a fence drifting before a portrait (--frames 1-24)", drift_frames}, make_drift},
+      {{"drift", "a fence drifting before a portrait", drift_frames}, make_drift},
   };
   return all;
 }

@@ -14,17 +14,15 @@ struct Subject {
   Scene scene;
   Lens lens;
   ScenePicture pinhole;  ///< Depth as methods take it: +inf where nothing is hit.
-  std::vector<std::int32_t> coc;
+  Quanta coc;
 
-  PinholeFrame frame() const {
-    return {scene.width, scene.height, coc, pinhole.depth, pinhole.colour};
-  }
+  Frame frame() const { return {scene.width, scene.height, coc, pinhole.depth, pinhole.colour}; }
 };
 
 /// Throws Error(usage) where the scene has no such focus setting.
-Subject make_subject(Session& session, Scene scene, const std::string& setting);
+Subject make_subject(Stages& stages, Scene scene, const std::string& setting);
 
 /// The CoC kernel and the method, as `defray render` runs them.
-std::vector<Plane> render(Session& session, const Subject& subject, const MethodSettings& settings);
+std::vector<Plane> render(Stages& stages, const Subject& subject, const MethodSettings& settings);
 
 }  // namespace defray

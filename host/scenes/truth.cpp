@@ -94,7 +94,7 @@ void add_alpha_noise(const Plane halves[2], Truth& truth) {
 
 Truth render_truth(const Scene& scene, const Lens& lens, int samples, std::uint32_t seed,
                    const Progress& progress) {
-  check_samples("--truth-samples", samples);
+  check_samples("truth_samples", samples);
   const LensSampler sampler(scene, lens);
   const std::optional<LineSampler> lines = LineSampler::of(scene, lens);
   const int counts[2] = {samples - samples / 2, samples / 2};

@@ -1,54 +1,22 @@
 #include "validation/arithmetic.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
+#include "device/device_stages.h"
 #include "scenes/subject.h"
 
 namespace defray::validation {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr const char* no_pragma = "-DDEFRAY_FAST_MATH";  // lets the compiler contract a * b + c
 
-std::vector<Substitution> half_reads() {
-  return {
-      {"__global const float* restrict name##", "__global const half* restrict name##", true},
-      {"(float4)(channel0[at], channel1[at], channel2[at], channel3[at])",
-       "(float4)(vload_half(at, channel0), vload_half(at, channel1), "
-       "vload_half(at, channel2), vload_half(at, channel3))"},
-      {"vload16(0, channel", "vload_half16(0, channel", true},
-      {"__global const float* restrict depth_units", "__global const half* restrict depth_units"},
-      {"depth_units[i]", "vload_half(i, depth_units)"},
-      {"return depth_bits[at]",
-       "return as_uint(vload_half(at, (__global const half*)depth_bits))"}};
-}
-
-/// Divisions of OpenCL's native_ kind; its roots come by a build option.
-std::vector<Substitution> native_divisions() {
-  return {
-      {"-p.infinite_focus_scale / z", "native_divide(-p.infinite_focus_scale, z)"},
-      {"(from_focus / z)", "native_divide(from_focus, z)"},
-      {"total / (float)max(count, 1u)", "native_divide(total, (float4)((float)max(count, 1u)))"},
-      {"sum / (float)p.sample_count", "native_divide(sum, (float4)((float)p.sample_count))"},
-      {"near_sum / fmax(near_weight, 1.0f)",
-       "native_divide(near_sum, (float4)(fmax(near_weight, 1.0f)))"},
-      {"(base_sum / base_weight)", "native_divide(base_sum, (float4)(base_weight))"},
-      {"near_area / disc_area(fabs(coc))", "native_divide(near_area, disc_area(fabs(coc)))"},
-      {"(float)squares / pairs", "native_divide((float)squares, pairs)"},
-      {"650.25f / d", "native_divide(650.25f, d)"}};
-}
-
-SessionOptions with(const std::string& build_options, std::vector<Substitution> substitutions = {},
-                    bool half_planes = false) {
+SessionOptions with(const std::string& build_options) {
   SessionOptions options;
   options.build_options = build_options;
-  options.substitutions = std::move(substitutions);
-  options.half_planes = half_planes;
   options.measures = true;
   return options;
 }
@@ -91,7 +59,8 @@ bool is_stable(Session& session, const Subject& subject, const MethodSettings& s
   bool same = true;
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{16, 1}, {7, 3}, {0, 0}}) {
     session.set_work_group(x, y);
-    same = same && render(session, subject, settings) == expected;
+    DeviceStages stages(session);
+    same = same && render(stages, subject, settings) == expected;
   }
   return same;
 }
@@ -124,10 +93,10 @@ void time_round(std::vector<Trial>& trials, const Subject& subject,
     for (Trial& trial : trials) {
       if (!trial.session) continue;
       trial.method_seconds.resize(all.size());
-      const auto start = Clock::now();
-      render(*trial.session, subject, all[m].settings);
-      trial.method_seconds[m].push_back(
-          std::chrono::duration<double>(Clock::now() - start).count());
+      DeviceStages stages(*trial.session);
+      const Stopwatch watch;
+      render(stages, subject, all[m].settings);
+      trial.method_seconds[m].push_back(watch.seconds());
     }
   }
   for (Trial& trial : trials) {
@@ -148,7 +117,8 @@ MethodFigures figures_of(Trial& trial, const Subject& subject, const NamedMethod
                          const std::vector<Plane>& strict) {
   MethodFigures f;
   f.method = method.name;
-  const auto picture = render(*trial.session, subject, method.settings);
+  DeviceStages stages(*trial.session);
+  const auto picture = render(stages, subject, method.settings);
   const Comparison c = defray::compare(picture, strict, subject.scene.width);
   f.psnr_db = c.psnr_srgb_db;
   f.worst = c.worst;
@@ -182,12 +152,8 @@ const std::vector<Variant>& variants() {
       {"strict", "as written: contraction off, divisions and roots correctly rounded", with("")},
       {"mad", "-cl-mad-enable: a * b + c in one, contraction on",
        with(std::string("-cl-mad-enable ") + no_pragma)},
-      {"fast", "-cl-fast-relaxed-math, contraction on (--math fast)", fast()},
-      {"denormals flushed", "-cl-denorms-are-zero", with("-cl-denorms-are-zero")},
-      {"native", "native_divide and native_sqrt",
-       with("-w -Dsqrt=native_sqrt", native_divisions())},
-      {"half storage", "colour and depth kept as half floats, computed in float",
-       with("-w", half_reads(), true)}};
+      {"fast", "-cl-fast-relaxed-math, contraction on (math fast)", fast()},
+      {"denormals flushed", "-cl-denorms-are-zero", with("-cl-denorms-are-zero")}};
   return all;
 }
 
@@ -205,12 +171,11 @@ std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width,
     results.push_back(open_trial(info, variants()[i], level, trials[i]));
   }
   if (!trials[0].session) fail(ErrorKind::device, "{}", results[0].error);
-  const Subject subject =
-      make_subject(*trials[0].session, make_scene("fence", width, height), "bg");
+  DeviceStages stages(*trials[0].session);
+  const Subject subject = make_subject(stages, make_scene("fence", width, height), "bg");
   const std::vector<NamedMethod> all = methods();
   std::vector<std::vector<Plane>> strict;
-  for (const NamedMethod& m : all)
-    strict.push_back(render(*trials[0].session, subject, m.settings));
+  for (const NamedMethod& m : all) strict.push_back(render(stages, subject, m.settings));
   for (std::size_t i = 0; i < trials.size(); ++i, step()) {
     if (!trials[i].session) continue;
     for (std::size_t m = 0; m < all.size(); ++m) {

@@ -39,8 +39,8 @@ T number(const std::string& word, const std::string& text, double least, double 
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (!is_number || !(static_cast<double>(value) >= least && static_cast<double>(value) <= most)) {
-    fail(ErrorKind::usage, "--case: '{}' is not valid: '{}' must be a number from {} to {}", word,
-         text, least, most);
+    fail(ErrorKind::usage, "{}: '{}' is not valid: '{}' must be a number from {} to {}",
+         defray::field("case"), word, text, least, most);
   }
   return value;
 }
@@ -49,7 +49,8 @@ T number(const std::string& word, const std::string& text, double least, double 
 void read_pair(const std::string& word, const std::string& text, int most, int& a, int& b) {
   const std::vector<std::string> parts = split(text, 'x');
   if (parts.size() != 2) {
-    fail(ErrorKind::usage, "--case: '{}' is not valid: write two numbers as 64x48", word);
+    fail(ErrorKind::usage, "{}: '{}' is not valid: write two numbers as 64x48",
+         defray::field("case"), word);
   }
   a = number<int>(word, parts[0], 1, most);
   b = number<int>(word, parts[1], 1, most);
@@ -94,11 +95,13 @@ void read_word(Case& c, const std::string& word) {
     for (const auto& [name, kind] : colours) known.push_back(name);
     for (const auto& [name, read] : fields) known.push_back(name);
     const std::string name = word.substr(0, equals);
-    if (fields.count(word)) fail(ErrorKind::usage, "--case: '{0}' needs a value: {0}=...", word);
+    if (fields.count(word))
+      fail(ErrorKind::usage, "{0}: '{1}' needs a value: {1}=...", defray::field("case"), word);
     if (name == "jitter")
-      fail(ErrorKind::usage, "--case: jitter takes no value, '{}' has one", word);
-    fail(ErrorKind::usage, "--case: '{}' is not known.{} Known are WIDTHxHEIGHT and {}", word,
-         did_you_mean(name, known), join(known, " "));
+      fail(ErrorKind::usage, "{}: jitter takes no value, '{}' has one", defray::field("case"),
+           word);
+    fail(ErrorKind::usage, "{}: '{}' is not known.{} Known are WIDTHxHEIGHT and {}",
+         defray::field("case"), word, did_you_mean(name, known), join(known, " "));
   }
 }
 
@@ -132,23 +135,23 @@ std::string to_string(const Case& c) {
 }
 
 Case parse_case(const std::string& text) {
-  if (text.empty()) fail(ErrorKind::usage, "--case is empty");
+  if (text.empty()) fail(ErrorKind::usage, "{} is empty", defray::field("case"));
   Case c;
   std::set<std::string> said;
   for (const std::string& word : split(text, ',')) {
     read_word(c, word);
     if (!said.insert(subject_of(word)).second) {
-      fail(ErrorKind::usage, "--case: '{}' says {} for the second time", word, subject_of(word));
+      fail(ErrorKind::usage, "{}: '{}' says {} for the second time", defray::field("case"), word,
+           subject_of(word));
     }
   }
   if (std::int64_t{c.width} * c.height > 1 << 22) {
-    fail(ErrorKind::usage, "--case: {}x{} has more than 2^22 pixels: the twins would take too long",
-         c.width, c.height);
+    fail(ErrorKind::usage, "{}: {}x{} has more than 2^22 pixels: the twins would take too long",
+         defray::field("case"), c.width, c.height);
   }
   if (std::int64_t{c.width} * c.height * c.cells * c.cells > 1 << 26) {
-    fail(ErrorKind::usage,
-         "--case: {}x{} with {}x{} cells has more than 2^26 of them: too much memory", c.width,
-         c.height, c.cells, c.cells);
+    fail(ErrorKind::usage, "{}: {}x{} with {}x{} cells has more than 2^26 of them: too much memory",
+         defray::field("case"), c.width, c.height, c.cells, c.cells);
   }
   return c;
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "chain/highlights.h"
-#include "rdb/rdb.h"
-#include "reference/reference.h"
+#include "rdb/rdb_plan.h"
+#include "reference/twin_stages.h"
 #include "validation/kernel_checks.h"
 
 namespace defray::validation {
@@ -14,26 +14,25 @@ double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 
 /// The case's fragments, every thirteenth far brighter; coverage is always there, and 0 where there
 /// is no fragment, as the stages leave it.
-Fragments bright_fragments(const Input& in) {
-  Fragments f = in.fragments;
-  if (f.coverage.empty()) f.coverage.assign(f.depth.size(), DEFRAY_WHOLE);
-  for (std::size_t i = 0; i < f.depth.size(); ++i) {
-    if (!is_fragment(f.depth[i])) f.coverage[i] = 0;
+Frame bright_fragments(const Input& in) {
+  Frame f = in.fragments;
+  if (f.coverage.empty()) f.coverage = Words(f.surfaces(), DEFRAY_WHOLE);
+  const auto coverage = f.coverage.edit();
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    if (!is_fragment(f.depth[i])) coverage[i] = 0;
   }
-  for (std::size_t i = 5; i < f.depth.size(); i += 13) {
-    for (Plane& plane : f.channels) plane[i] *= 500;
+  for (auto& channel : f.channels) {
+    const auto plane = channel.edit();
+    for (std::size_t i = 5; i < plane.size(); i += 13) plane[i] *= 500;
   }
   return f;
 }
 
 int light_channels(const Case& c) { return std::max(1, c.channels - static_cast<int>(c.seed % 2)); }
 
-Values run_highlights(Session& session, const Case& c, const Input& in) {
-  return {{}, {highlights(session, bright_fragments(in), light_channels(c), stage_memory(c))}};
-}
-
-Values twin_highlights(const Case& c, const Input& in) {
-  return {{}, {reference::highlights(bright_fragments(in), light_channels(c))}};
+Outcome run_highlights(Stages& stages, const Case& c, const Input& in) {
+  const auto kept = stages.highlights(bright_fragments(in), light_channels(c));
+  return {{}, {Plane(kept.begin(), kept.end())}};
 }
 
 double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8 + band_work(c); }
@@ -53,33 +52,19 @@ const ApertureTable& aperture_table() {
 }
 
 /// Fragments without their highlights, and these.
-struct Parts {
-  Fragments fragments;
-  LightSources lights;
-  RdbSettings settings;
-
-  Parts(const Case& c, const Input& in)
-      : fragments(bright_fragments(in)), settings(rdb_settings(c)) {
-    const int light = light_channels(c);
-    const Plane kept = reference::highlights(fragments, light);
-    const LensCells cells = lens_cells(settings);
-    lights = take_light(fragments, kept, light, aperture_table(), cells);
-    const std::size_t a_pixel = cells.centres.size() * rdb_bytes_a_cell + rdb_bytes_a_sum;
-    if (c.band_rows > 0) {
-      settings.memory_bytes =
-          static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) * a_pixel;
-    }
-  }
-};
-
-Values run_add(Session& session, const Case& c, const Input& in) {
-  const Parts p(c, in);
-  return {{}, distribute_rays(session, FragmentView(p.fragments), p.settings, &p.lights).means};
+Outcome run_add(Stages& stages, const Case& c, const Input& in) {
+  Frame f = bright_fragments(in);
+  const int light = light_channels(c);
+  const RayPlan plan = ray_plan(c);
+  const auto kept = reference::TwinStages().highlights(f, light);
+  const LightSources lights = take_light(f, kept, light, aperture_table(), plan.cells);
+  return {{}, stages.rays(f, plan, &lights).means};
 }
 
-Values twin_add(const Case& c, const Input& in) {
-  const Parts p(c, in);
-  return {{}, reference::distribute_rays(FragmentView(p.fragments), p.settings, &p.lights).means};
+/// All cells of so many rows in one pass.
+std::size_t add_memory(const Case& c, const Input&) {
+  const std::size_t a_pixel = ray_plan(c).cells.centres.size() * rdb_bytes_a_cell + rdb_bytes_a_sum;
+  return size(c.band_rows) * size(c.width) * a_pixel;
 }
 
 double add_work(const Case& c) {
@@ -92,8 +77,8 @@ constexpr const char* rule = "equal bits: + - x / sqrt in one order";
 }  // namespace
 
 std::vector<KernelCheck> highlight_checks() {
-  return {{"highlights", rule, run_highlights, twin_highlights, highlights_work},
-          {"highlights_add", rule, run_add, twin_add, add_work}};
+  return {{"highlights", rule, run_highlights, highlights_work},
+          {"highlights_add", rule, run_add, add_work, nullptr, nullptr, add_memory}};
 }
 
 }  // namespace defray::validation

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "chain/pattern_window.h"
+#include "device/device_stages.h"
 #include "reference/reference.h"
 
 namespace defray::validation {
@@ -20,22 +21,23 @@ class PatternCase {
  public:
   /// `hides_everything`: a fragment behind every pixel, so that all of a kernel's output counts.
   PatternCase(const Case& c, const Input& in, bool hides_everything)
-      : coc_(in.coc_quanta), frame{c.width, c.height, encoded_, in.coc_quanta,
-                                   coc_,    behind_,  inverse_, behind_inverse_} {
-    std::reverse(coc_.begin(), coc_.end());
+      : frame(frame_of(c, in)), behind(frame.without_planes()) {
+    std::vector<std::int32_t> coc = in.coc_quanta;
+    std::reverse(coc.begin(), coc.end());
+    behind.coc_quanta = std::move(coc);
     for (int y = 0; y < c.height; ++y) {
       for (int x = 0; x < c.width; ++x) add_pixel(Random(x, y, c.seed + 1), in, hides_everything);
     }
-    for (const Plane& plane : in.channels) smooth.emplace_back(plane.rbegin(), plane.rend());
+    frame.inverse = std::move(inverse_);
+    behind.inverse = std::move(behind_inverse_);
+    for (const Plane& plane : in.channels) {
+      behind.channels.emplace_back(Plane(plane.rbegin(), plane.rend()));
+    }
     settings.window_px = window_of(c);
     // Some pairs are of one surface, some are not.
     settings.tolerance_quanta = 256 + static_cast<std::int32_t>(128 * c.coc_px);
     add_shifts(c);
-    if (c.band_rows > 0) {
-      settings.memory_bytes =
-          pattern_band_bytes(c.width, PatternMargins(shifts, settings.window_px), c.band_rows);
-    }
-    pixels = pattern_pixels(frame, in.channels);
+    pixels = pattern_pixels(std::move(encoded_), frame.channels, behind_);
   }
 
  private:
@@ -69,62 +71,52 @@ class PatternCase {
     (c.seed % 3 == 0 ? parallel.x : parallel.y) = 0;
   }
 
-  std::vector<std::uint32_t> encoded_, behind_;
-  std::vector<std::int32_t> coc_;
+  std::vector<std::uint32_t> encoded_;
+  std::vector<bool> behind_;
   Plane inverse_, behind_inverse_;
 
  public:
-  PatternFrame frame;
+  Frame frame, behind;
   PatternSettings settings;
   std::vector<PatternShift> shifts;
-  std::vector<Plane> smooth;
-  std::vector<std::uint32_t> pixels;
+  Words pixels;
 };
 
 template <typename T>
-Values integers(const std::vector<T>& values) {
+Outcome integers(const std::vector<T>& values) {
   return {{values.begin(), values.end()}, {}};
 }
 
-Values run_difference(Session& session, const Case& c, const Input& in) {
+Outcome run_difference(Stages& stages, const Case& c, const Input& in) {
   const PatternCase p(c, in, true);
-  return integers(
-      pattern_difference_on_device(session, p.frame, p.pixels, p.shifts[0], p.settings));
+  auto* const device = dynamic_cast<DeviceStages*>(&stages);
+  return integers(device
+                      ? device->pattern_difference(p.frame, p.pixels, p.shifts[0], p.settings)
+                      : reference::pattern_difference(p.frame, p.pixels, p.shifts[0], p.settings));
 }
 
-Values twin_difference(const Case& c, const Input& in) {
+Outcome run_columns(Stages& stages, const Case& c, const Input& in) {
   const PatternCase p(c, in, true);
-  return integers(reference::pattern_difference(p.frame, p.pixels, p.shifts[0], p.settings));
-}
-
-Values run_columns(Session& session, const Case& c, const Input& in) {
-  const PatternCase p(c, in, true);
-  return integers(pattern_columns_on_device(session, p.frame, p.pixels, p.shifts[0], p.settings));
-}
-
-Values twin_columns(const Case& c, const Input& in) {
-  const PatternCase p(c, in, true);
-  return integers(reference::pattern_columns(p.frame, p.pixels, p.shifts[0], p.settings));
+  auto* const device = dynamic_cast<DeviceStages*>(&stages);
+  return integers(device ? device->pattern_columns(p.frame, p.pixels, p.shifts[0], p.settings)
+                         : reference::pattern_columns(p.frame, p.pixels, p.shifts[0], p.settings));
 }
 
 /// Blended: one value from all sums of a pixel. With this variance gains are well inside 0...1.
-Values blended(const PatternCase& p, const PatternSums& sums) {
+Outcome run_match(Stages& stages, const Case& c, const Input& in) {
+  const PatternCase p(c, in, false);
+  const PatternSums sums = stages.patterns(p.frame, p.behind, p.pixels, p.shifts, p.settings);
   constexpr float variance = 6 * 255 * 255 / 12.0f;  // twice that of random colours
-  std::vector<Plane> behind = p.smooth;
-  blend_patterns(p.frame, sums, Plane(p.pixels.size(), variance), behind);
-  return {{}, behind};
+  Planes behind = p.behind.channels;
+  blend_patterns(p.pixels, sums, Plane(p.pixels.size(), variance), behind);
+  Outcome v;
+  for (const auto& channel : behind) v.planes.emplace_back(channel.begin(), channel.end());
+  return v;
 }
 
-Values run_match(Session& session, const Case& c, const Input& in) {
+std::size_t match_memory(const Case& c, const Input& in) {
   const PatternCase p(c, in, false);
-  return blended(
-      p, match_patterns(session, p.frame, p.pixels, in.channels, p.smooth, p.shifts, p.settings));
-}
-
-Values twin_match(const Case& c, const Input& in) {
-  const PatternCase p(c, in, false);
-  return blended(
-      p, reference::match_patterns(p.frame, p.pixels, in.channels, p.smooth, p.shifts, p.settings));
+  return pattern_band_bytes(c.width, PatternMargins(p.shifts, p.settings.window_px), c.band_rows);
 }
 
 double pixels_of(const Case& c) { return static_cast<double>(c.width) * c.height; }
@@ -148,9 +140,10 @@ constexpr const char* bits_rule = "equal bits: + - x / in one order";
 }  // namespace
 
 std::vector<KernelCheck> pattern_checks() {
-  return {{"patterns_columns", integer_rule, run_columns, twin_columns, columns_work},
-          {"patterns_difference", integer_rule, run_difference, twin_difference, difference_work},
-          {"patterns_match", bits_rule, run_match, twin_match, match_work, match_roundings}};
+  return {
+      {"patterns_columns", integer_rule, run_columns, columns_work},
+      {"patterns_difference", integer_rule, run_difference, difference_work},
+      {"patterns_match", bits_rule, run_match, match_work, match_roundings, nullptr, match_memory}};
 }
 
 }  // namespace defray::validation

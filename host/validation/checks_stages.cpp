@@ -1,9 +1,10 @@
 // The table's entries for the stages before the RDB. What one stage needs of another is made by the
 // twins, so that each kernel is tried alone.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "reference/stages.h"
+#include "reference/twin_stages.h"
 #include "validation/kernel_checks.h"
 
 namespace defray::validation {
@@ -15,14 +16,13 @@ double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 /// pixels with thin columns between them, two seeds of three slant all surfaces, and depth is
 /// 1/depth with the background at 0.
 struct StageFrame {
-  int width, height;
-  std::vector<std::int32_t> coc_quanta;
-  Plane inverse;
-  const std::vector<Plane>& channels;
-  std::vector<std::uint32_t> mixed;
+  Frame frame;
+  Words mixed;
 
-  StageFrame(const Case& c, const Input& in)
-      : width(c.width), height(c.height), channels(in.channels) {
+  StageFrame(const Case& c, const Input& in) : frame(frame_of(c, in)) {
+    std::vector<std::int32_t> coc_quanta;
+    Plane inverse;
+    const int width = c.width, height = c.height;
     const bool has_blocks =
         c.seed % 4 != 0 && (c.pattern == Pattern::random || c.pattern == Pattern::ties ||
                             c.pattern == Pattern::checker || c.pattern == Pattern::converging);
@@ -42,14 +42,14 @@ struct StageFrame {
         inverse.push_back(background + (std::isfinite(depth) ? 1 / depth : 0));
       }
     }
-    mixed = reference::edges(width, height, coc_quanta);
+    frame.coc_quanta = std::move(coc_quanta);
+    frame.inverse = std::move(inverse);
+    mixed = reference::TwinStages().edges(frame);
   }
-
-  FrameView view() const { return {width, height, coc_quanta, inverse, channels}; }
 };
 
 /// The frame's CoC with anti-aliased steps: means of two or three pixels along a direction.
-std::vector<std::int32_t> blurred(const Case& c, const StageFrame& frame) {
+Frame blurred(const Case& c, Frame frame) {
   const auto seed = static_cast<int>(c.seed % 8);
   const int along_x = seed % 4 != 1, along_y = seed % 4 == 0 ? 0 : seed % 4 == 3 ? -1 : 1;
   const int count = 2 + seed / 4;
@@ -67,53 +67,43 @@ std::vector<std::int32_t> blurred(const Case& c, const StageFrame& frame) {
       out.push_back(static_cast<std::int32_t>(sum / count));
     }
   }
-  return out;
+  frame.coc_quanta = std::move(out);
+  return frame;
 }
 
-Values words(const std::vector<std::uint32_t>& values) {
-  return {{values.begin(), values.end()}, {}};
+Outcome words(const Words& values) { return {{values.begin(), values.end()}, {}}; }
+
+void add_plane(Outcome& v, std::span<const float> plane) {
+  v.planes.emplace_back(plane.begin(), plane.end());
 }
 
 /// Surfaces one after the other: whole numbers, then colours and 1/depth.
-Values values_of(const std::vector<Surface>& surfaces) {
-  Values v;
-  for (const Surface& s : surfaces) {
+Outcome values_of(const std::vector<Frame>& surfaces) {
+  Outcome v;
+  for (const Frame& s : surfaces) {
     v.integers.insert(v.integers.end(), s.coc_quanta.begin(), s.coc_quanta.end());
     v.integers.insert(v.integers.end(), s.coverage.begin(), s.coverage.end());
-    v.planes.insert(v.planes.end(), s.channels.begin(), s.channels.end());
-    v.planes.push_back(s.inverse);
+    for (const auto& channel : s.channels) add_plane(v, channel.host());
+    add_plane(v, s.inverse.host());
   }
   return v;
 }
 
-Values run_repair(Session& session, const Case& c, const Input& in) {
-  return words(repair(session, c.width, c.height, blurred(c, StageFrame(c, in)), stage_memory(c)));
-}
-
-Values twin_repair(const Case& c, const Input& in) {
-  return words(reference::repair(c.width, c.height, blurred(c, StageFrame(c, in))));
+Outcome run_repair(Stages& stages, const Case& c, const Input& in) {
+  return words(stages.repair(blurred(c, StageFrame(c, in).frame)));
 }
 
 double repair_work(const Case& c) { return 100 * pixels(c) + band_work(c); }
 
-Values run_edges(Session& session, const Case& c, const Input& in) {
-  return words(edges(session, c.width, c.height, StageFrame(c, in).coc_quanta, stage_memory(c)));
-}
-
-Values twin_edges(const Case& c, const Input& in) {
-  return words(reference::edges(c.width, c.height, StageFrame(c, in).coc_quanta));
+Outcome run_edges(Stages& stages, const Case& c, const Input& in) {
+  return words(stages.edges(StageFrame(c, in).frame));
 }
 
 double edges_work(const Case& c) { return 20 * pixels(c) + band_work(c); }
 
-Values run_fill(Session& session, const Case& c, const Input& in) {
-  const StageFrame frame(c, in);
-  return values_of({fill(session, frame.view(), frame.mixed, stage_memory(c))});
-}
-
-Values twin_fill(const Case& c, const Input& in) {
-  const StageFrame frame(c, in);
-  return values_of({reference::fill(frame.view(), frame.mixed)});
+Outcome run_fill(Stages& stages, const Case& c, const Input& in) {
+  const StageFrame f(c, in);
+  return values_of({stages.fill(f.frame, f.mixed)});
 }
 
 /// Steps of all ways over the picture: each grows by a 16th of the distance.
@@ -123,35 +113,38 @@ double fill_work(const Case& c) {
   return pixels(c) * DEFRAY_FILL_DIRECTIONS * (2 + 16 * std::log1p(steps)) + band_work(c);
 }
 
-Values run_split(Session& session, const Case& c, const Input& in) {
-  const StageFrame frame(c, in);
-  const auto [front, behind] = split(session, frame.view(), frame.mixed,
-                                     reference::fill(frame.view(), frame.mixed), stage_memory(c));
+Outcome run_split(Stages& stages, const Case& c, const Input& in) {
+  const StageFrame f(c, in);
+  const auto [front, behind] =
+      stages.split(f.frame, f.mixed, reference::TwinStages().fill(f.frame, f.mixed));
   return values_of({front, behind});
 }
 
-Values twin_split(const Case& c, const Input& in) {
-  const StageFrame frame(c, in);
-  const auto [front, behind] =
-      reference::split(frame.view(), frame.mixed, reference::fill(frame.view(), frame.mixed));
-  return values_of({front, behind});
+/// What `fill` and `split` left, with a margin.
+Outcome run_assemble(Stages& stages, const Case& c, const Input& in) {
+  reference::TwinStages twins;
+  StageFrame f(c, in);
+  f.frame.margin = static_cast<int>(c.seed % 4);
+  const Frame both = stages.assemble(twins.split(f.frame, f.mixed, twins.fill(f.frame, f.mixed)));
+  Outcome v = values_of({both});
+  for (std::size_t i = 0; i < both.depth.size(); ++i) {
+    v.integers.push_back(std::bit_cast<std::int32_t>(both.depth[i]));
+  }
+  return v;
 }
 
 double split_work(const Case& c) { return 200 * pixels(c) + 2 * fill_work(c); }
 
 /// The case's fragments with CoC radii that lie together.
-Fragments soft_fragments(const Case& c, const Input& in) {
-  const StageFrame frame(c, in);
-  Fragments f = in.fragments;
+Frame soft_fragments(const Case& c, const Input& in) {
+  const StageFrame stage(c, in);
+  Frame f = in.fragments;
+  const auto coc = f.coc_quanta.edit();
   for (int y = 0; y < c.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {
       for (int x = 0; x < c.width; ++x) {
-        const std::size_t at = f.index(x, y, layer);
-        if (layer == 0 || c.seed % 2 == 0) {
-          f.coc_quanta[at] =
-              frame.coc_quanta[static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) +
-                               static_cast<std::size_t>(x)];
-        }
+        if (layer > 0 && c.seed % 2 != 0) continue;
+        coc[f.index(x, y, layer)] = stage.frame.coc_quanta[stage.frame.index(x, y)];
       }
     }
   }
@@ -159,10 +152,10 @@ Fragments soft_fragments(const Case& c, const Input& in) {
 }
 
 /// Each layer of each channel as a picture.
-Values layers_of(const Fragments& f, const std::vector<Plane>& channels) {
-  Values v;
+Outcome layers_of(const Frame& f, const Planes& channels) {
+  Outcome v;
   for (int layer = 0; layer < f.layers; ++layer) {
-    for (const Plane& channel : channels) {
+    for (const auto& channel : channels) {
       Plane& plane = v.planes.emplace_back();
       for (int y = 0; y < f.height; ++y) {
         for (int x = 0; x < f.width; ++x) plane.push_back(channel[f.index(x, y, layer)]);
@@ -172,14 +165,9 @@ Values layers_of(const Fragments& f, const std::vector<Plane>& channels) {
   return v;
 }
 
-Values run_soften(Session& session, const Case& c, const Input& in) {
-  const Fragments f = soft_fragments(c, in);
-  return layers_of(f, soften(session, f, c.cells * c.cells, stage_memory(c)));
-}
-
-Values twin_soften(const Case& c, const Input& in) {
-  const Fragments f = soft_fragments(c, in);
-  return layers_of(f, reference::soften(f, c.cells * c.cells));
+Outcome run_soften(Stages& stages, const Case& c, const Input& in) {
+  const Frame f = soft_fragments(c, in);
+  return layers_of(f, stages.soften(f, c.cells * c.cells));
 }
 
 double soften_work(const Case& c) { return 300 * pixels(c) + band_work(c); }
@@ -189,16 +177,15 @@ constexpr const char* bits_rule = "equal bits: + - x / in one order";
 
 }  // namespace
 
-std::size_t stage_memory(const Case& c) { return c.band_rows > 0 ? 1 : default_memory_bytes; }
-
 double band_work(const Case& c) { return c.band_rows > 0 ? 1e4 * c.height : 0; }
 
 std::vector<KernelCheck> stage_checks() {
-  return {{"edges", integer_rule, run_edges, twin_edges, edges_work},
-          {"fill", bits_rule, run_fill, twin_fill, fill_work},
-          {"repair", integer_rule, run_repair, twin_repair, repair_work},
-          {"soften", bits_rule, run_soften, twin_soften, soften_work},
-          {"split", bits_rule, run_split, twin_split, split_work}};
+  return {{"assemble", bits_rule, run_assemble, split_work},
+          {"edges", integer_rule, run_edges, edges_work},
+          {"fill", bits_rule, run_fill, fill_work},
+          {"repair", integer_rule, run_repair, repair_work},
+          {"soften", bits_rule, run_soften, soften_work},
+          {"split", bits_rule, run_split, split_work}};
 }
 
 }  // namespace defray::validation

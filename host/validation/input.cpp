@@ -105,26 +105,35 @@ std::uint32_t any_coverage(Random& random) {
 }
 
 /// Behind each pixel one of its neighbours along the row, further away, or nothing.
-Fragments make_fragments(const Case& c, const Input& in) {
-  Fragments f{c.width, c.height, c.seed % 3 == 0 ? 1 : 2, {}, {}, {}, {}};
-  f.channels.resize(in.channels.size());
+Frame make_fragments(const Case& c, const Input& in) {
+  Frame f;
+  f.width = c.width;
+  f.height = c.height;
+  f.layers = c.seed % 3 == 0 ? 1 : 2;
+  std::vector<std::int32_t> coc;
+  Plane depth;
+  std::vector<std::uint32_t> coverage;
+  std::vector<Plane> channels(in.channels.size());
   for (int y = 0; y < c.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {
       for (int x = 0; x < c.width; ++x) {
         Random random(x, y + layer * c.height, c.seed);
         const int from = layer == 0 ? x : static_cast<int>(random.next() * c.width);
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) +
-                               static_cast<std::size_t>(from);
+        const std::size_t at = size(y) * size(c.width) + size(from);
         const bool is_there = layer == 0 || random.next() < 0.5;
-        f.coc_quanta.push_back(in.coc_quanta[at]);
-        f.depth.push_back(is_there ? in.depth[at] : no_fragment());
-        if (f.layers > 1) f.coverage.push_back(any_coverage(random));
-        for (std::size_t k = 0; k < f.channels.size(); ++k) {
-          f.channels[k].push_back(in.channels[k][at]);
+        coc.push_back(in.coc_quanta[at]);
+        depth.push_back(is_there ? in.depth[at] : no_fragment());
+        if (f.layers > 1) coverage.push_back(any_coverage(random));
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+          channels[k].push_back(in.channels[k][at]);
         }
       }
     }
   }
+  f.coc_quanta = std::move(coc);
+  f.depth = std::move(depth);
+  f.coverage = std::move(coverage);
+  f.channels = channels;
   return f;
 }
 
@@ -146,6 +155,16 @@ Input make_input(const Case& c) {
   }
   in.fragments = make_fragments(c, in);
   return in;
+}
+
+Frame frame_of(const Case& c, const Input& in) {
+  Frame f;
+  f.width = c.width;
+  f.height = c.height;
+  f.coc_quanta = Quanta::view(in.coc_quanta.data(), in.coc_quanta.size());
+  f.depth = Values<float>::view(in.depth.data(), in.depth.size());
+  f.channels = Planes::view(in.channels);
+  return f;
 }
 
 }  // namespace defray::validation

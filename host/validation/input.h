@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/frame.h"
 #include "lens/lens.h"
-#include "rdb/fragments.h"
 #include "validation/case.h"
 
 namespace defray::validation {
@@ -17,10 +17,13 @@ struct Input {
   std::vector<Plane> channels;
   /// The same, with a second surface behind some pixels and shares of them in others; whole pixels
   /// only for every third seed.
-  Fragments fragments;
+  Frame fragments;
   Lens lens;  ///< Its background CoC is the case's largest (for focus at infinity: at depth 1).
 };
 
 Input make_input(const Case& c);
+
+/// The input's planes as a frame, which must not outlive it.
+Frame frame_of(const Case& c, const Input& in);
 
 }  // namespace defray::validation

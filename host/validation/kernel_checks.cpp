@@ -5,10 +5,12 @@
 #include <string_view>
 
 #include "base/random.h"
+#include "device/device_stages.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
 #include "methods/tiltshift.h"
 #include "rdb/rdb.h"
+#include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "validation/checks_patterns.h"
 #include "validation/rdb_winners.h"
@@ -18,8 +20,8 @@ namespace {
 
 double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 
-template <typename T>
-Values integers(const std::vector<T>& values) {
+template <typename Range>
+Outcome integers(const Range& values) {
   return {{values.begin(), values.end()}, {}};
 }
 
@@ -27,12 +29,8 @@ double square(double x) { return x * x; }
 
 // coc ---------------------------------------------------------------------------------------------
 
-Values run_coc(Session& session, const Case& c, const Input& in) {
-  return integers(coc_on_device(session, in.lens, c.width, in.depth));
-}
-
-Values twin_coc(const Case& c, const Input& in) {
-  return integers(reference::coc(in.lens, c.width, in.depth));
+Outcome run_coc(Stages& stages, const Case& c, const Input& in) {
+  return integers(stages.coc(in.lens, c.width, in.depth));
 }
 
 /// The radius before it is rounded to quanta: 4 ulp = 8 u (tests/coc_accuracy_test.cpp).
@@ -49,22 +47,29 @@ Exact exact_coc(const Case& c, const Input& in) {
 
 // RDB ---------------------------------------------------------------------------------------------
 
-Values run_rdb_clear(Session& session, const Case& c, const Input&) {
-  return integers(cleared_on_device(session, c.width, c.height, c.cells));
+/// Kernels that no stage shows by itself: the device's own, or else the twin's.
+template <typename OnDevice, typename ByTwin>
+auto either(Stages& stages, const OnDevice& on_device, const ByTwin& by_twin) {
+  auto* const device = dynamic_cast<DeviceStages*>(&stages);
+  return device ? on_device(*device) : by_twin();
 }
 
-Values twin_rdb_clear(const Case& c, const Input&) {
-  return integers(cleared_twin(c.width, c.height, c.cells));
+Outcome run_rdb_clear(Stages& stages, const Case& c, const Input&) {
+  return integers(either(
+      stages,
+      [&](DeviceStages& d) { return cleared_on_device(d.session(), c.width, c.height, c.cells); },
+      [&] { return cleared_twin(c.width, c.height, c.cells); }));
 }
 
 double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
 
-Values run_rdb_scatter(Session& session, const Case& c, const Input& in) {
-  return {winners_on_device(session, FragmentView(in.fragments), rdb_settings(c)), {}};
-}
-
-Values twin_rdb_scatter(const Case& c, const Input& in) {
-  return {winners_of_twin(FragmentView(in.fragments), rdb_settings(c)), {}};
+Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
+  const RayPlan plan = ray_plan(c);
+  return {either(
+              stages,
+              [&](DeviceStages& d) { return winners_on_device(d.session(), in.fragments, plan); },
+              [&] { return winners_of_twin(in.fragments, plan); }),
+          {}};
 }
 
 double rdb_work(const Case& c) {
@@ -75,48 +80,38 @@ double rdb_work(const Case& c) {
   return 4 * rays * (1 + std::min(square(side), pixels(c))) + 1e4 * passes * c.cells * c.cells;
 }
 
-Values run_rdb_merge(Session& session, const Case& c, const Input& in) {
-  return {{}, distribute_rays(session, FragmentView(in.fragments), rdb_settings(c)).means};
+/// A pass of so many rows with one cell.
+std::size_t rdb_memory(const Case& c, const Input&) {
+  return size(c.band_rows) * size(c.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
 }
 
-Values twin_rdb_merge(const Case& c, const Input& in) {
-  return {{}, reference::distribute_rays(FragmentView(in.fragments), rdb_settings(c)).means};
+Outcome run_rdb_merge(Stages& stages, const Case& c, const Input& in) {
+  return {{}, stages.rays(in.fragments, ray_plan(c)).means};
 }
 
-Values run_rdb_seen(Session& session, const Case& c, const Input& in) {
-  return integers(distribute_rays(session, FragmentView(in.fragments), rdb_settings(c)).seen);
-}
-
-Values twin_rdb_seen(const Case& c, const Input& in) {
-  return integers(reference::distribute_rays(FragmentView(in.fragments), rdb_settings(c)).seen);
+Outcome run_rdb_seen(Stages& stages, const Case& c, const Input& in) {
+  return integers(stages.rays(in.fragments, ray_plan(c)).seen);
 }
 
 /// The case's fragments; those that were made up have no data, and others that of any pixel.
-RdbResult nearest_hits(Session* session, const Case& c, const Input& in) {
-  Fragments f = in.fragments;
+Outcome run_rdb_nearest(Stages& stages, const Case& c, const Input& in) {
+  Frame f = in.fragments;
+  std::vector<std::uint32_t> data;
   for (std::size_t i = 0; i < f.coverage.size(); ++i) {
     const bool is_made_up = (f.coverage[i] & DEFRAY_SYNTHESISED) != 0;
-    f.data_of.push_back(is_made_up ? DEFRAY_EMPTY : static_cast<std::uint32_t>(i));
+    data.push_back(is_made_up ? DEFRAY_EMPTY : static_cast<std::uint32_t>(i));
   }
-  RdbSettings s = rdb_settings(c);
-  s.wants_nearest = true;
-  const FragmentView view(f);
-  return session ? distribute_rays(*session, view, s) : reference::distribute_rays(view, s);
-}
-
-Values run_rdb_nearest(Session& session, const Case& c, const Input& in) {
-  return integers(nearest_hits(&session, c, in).nearest);
-}
-
-Values twin_rdb_nearest(const Case& c, const Input& in) {
-  return integers(nearest_hits(nullptr, c, in).nearest);
+  f.data_of = std::move(data);
+  RayPlan plan = ray_plan(c);
+  plan.wants_nearest = true;
+  return integers(stages.rays(f, plan).nearest);
 }
 
 /// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
 /// (n n L u) / n + 5 L u.
 Exact exact_rdb(const Case& c, const Input& in) {
   const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
-  return {reference::exact_rdb(FragmentView(in.fragments), rdb_settings(c)), cells + 5};
+  return {reference::exact_rays(in.fragments, ray_plan(c)), cells + 5};
 }
 
 /// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
@@ -132,17 +127,12 @@ double linear_work(const Case& c) {
   return pixels(c) * square(side_px(c)) * (1 + c.channels);
 }
 
-Values run_linear(Session& session, const Case& c, const Input& in) {
-  LinearSettings s;
-  if (c.band_rows > 0) {
-    const int reach = linear_reach(in.coc_quanta);
-    s.memory_bytes = linear_band_bytes(c.width, reach, c.band_rows);
-  }
-  return {{}, render_linear(session, c.width, c.height, in.coc_quanta, in.channels, s)};
+std::size_t linear_memory(const Case& c, const Input& in) {
+  return linear_band_bytes(c.width, linear_reach(in.coc_quanta), c.band_rows);
 }
 
-Values twin_linear(const Case& c, const Input& in) {
-  return {{}, reference::render_linear<float>(c.width, c.height, in.coc_quanta, in.channels)};
+Outcome run_linear(Stages& stages, const Case& c, const Input& in) {
+  return {{}, stages.linear(frame_of(c, in))};
 }
 
 /// A term carries the roundings of its root, its subtraction (both of numbers up to the reach + 1
@@ -150,8 +140,7 @@ Values twin_linear(const Case& c, const Input& in) {
 /// rounded. Terms are below L (the disc's sum is at least 1), partial sums below n L.
 Exact exact_linear(const Case& c, const Input& in) {
   const double n = square(side_px(c));
-  return {reference::render_linear<double>(c.width, c.height, in.coc_quanta, in.channels),
-          n * (2 * (reach_px(c) + 1) + 3 + n)};
+  return {reference::linear<double>(frame_of(c, in)), n * (2 * (reach_px(c) + 1) + 3 + n)};
 }
 
 /// n weights, each from a root 3 ulp = 6 u off, of numbers up to the reach + 1.
@@ -169,12 +158,8 @@ DefrayTiltshiftParams tiltshift_case(const Case& c) {
   return tiltshift_params(s, c.width, c.height, first_row, c.height + 5);
 }
 
-Values run_tiltshift(Session& session, const Case& c, const Input&) {
-  return integers(tiltshift_on_device(session, tiltshift_case(c)));
-}
-
-Values twin_tiltshift(const Case& c, const Input&) {
-  return integers(reference::tiltshift(tiltshift_case(c)));
+Outcome run_tiltshift(Stages& stages, const Case& c, const Input&) {
+  return integers(stages.tiltshift(tiltshift_case(c)));
 }
 
 // gather ------------------------------------------------------------------------------------------
@@ -191,17 +176,8 @@ GatherSettings gather_settings(const Case& c) {
 }
 
 template <GatherKind kind>
-Values run_gather(Session& session, const Case& c, const Input& in) {
-  return {{},
-          render_gather(session, c.width, c.height, in.coc_quanta, in.channels,
-                        gather_settings<kind>(c))};
-}
-
-template <GatherKind kind>
-Values twin_gather(const Case& c, const Input& in) {
-  return {{},
-          reference::render_gather(c.width, c.height, in.coc_quanta, in.channels,
-                                   gather_settings<kind>(c))};
+Outcome run_gather(Stages& stages, const Case& c, const Input& in) {
+  return {{}, stages.gather(frame_of(c, in), gather_settings<kind>(c))};
 }
 
 double gather_work(const Case& c) { return pixels(c) * c.samples * (4 + 2.0 * c.channels); }
@@ -215,20 +191,18 @@ double aware_roundings(const Case& c) {
   return 4 * c.samples * (6 * search + 12) * std::max(1.0, 4 * square(search) / c.samples);
 }
 
-Values run_tiles(Session& session, const Case& c, const Input& in) {
-  return integers(gather_tiles_on_device(session, c.width, c.height, in.coc_quanta));
+Outcome run_tiles(Stages& stages, const Case& c, const Input& in) {
+  const Frame f = frame_of(c, in);
+  return integers(either(
+      stages, [&](DeviceStages& d) { return d.gather_tiles(f); },
+      [&] { return reference::gather_tiles(f); }));
 }
 
-Values twin_tiles(const Case& c, const Input& in) {
-  return integers(reference::gather_tiles(c.width, c.height, in.coc_quanta));
-}
-
-Values run_reach(Session& session, const Case& c, const Input& in) {
-  return integers(gather_reach_on_device(session, c.width, c.height, in.coc_quanta));
-}
-
-Values twin_reach(const Case& c, const Input& in) {
-  return integers(reference::gather_reach(c.width, c.height, in.coc_quanta));
+Outcome run_reach(Stages& stages, const Case& c, const Input& in) {
+  const Frame f = frame_of(c, in);
+  return integers(either(
+      stages, [&](DeviceStages& d) { return d.gather_reach(f); },
+      [&] { return reference::gather_reach(f); }));
 }
 
 /// The whole table, by name.
@@ -249,45 +223,36 @@ constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 }  // namespace
 
-RdbSettings rdb_settings(const Case& c) {
-  RdbSettings s;
-  s.cells_per_side = c.cells;
-  s.jitter = c.jitter;
-  s.seed = c.seed;
-  s.origin_x = static_cast<int>(c.seed % 5) - 2;
-  s.origin_y = static_cast<int>(c.seed % 3);
+RayPlan ray_plan(const Case& c) {
+  RayPlan plan = plan_rays({c.cells, c.jitter, c.seed});
+  plan.origin_x = static_cast<int>(c.seed % 5) - 2;
+  plan.origin_y = static_cast<int>(c.seed % 3);
   if (c.seed % 4 == 1) {
-    for (int x = 0; x < c.width; ++x) s.rim_x.push_back(2000 * (x - c.width / 2));
-    for (int y = 0; y < c.height; ++y) s.rim_y.push_back(-1500 * (y - c.height / 3));
+    for (int x = 0; x < c.width; ++x) plan.rim_x.push_back(2000 * (x - c.width / 2));
+    for (int y = 0; y < c.height; ++y) plan.rim_y.push_back(-1500 * (y - c.height / 3));
   }
-  if (c.band_rows > 0) {
-    s.memory_bytes = static_cast<std::size_t>(c.band_rows) * static_cast<std::size_t>(c.width) *
-                     (rdb_bytes_a_cell + rdb_bytes_a_sum);
-  }
-  return s;
+  return plan;
 }
 
 const std::vector<KernelCheck>& kernel_checks() {
   constexpr GatherKind literal = GatherKind::literal, aware = GatherKind::aware;
   static const std::vector<KernelCheck> checks = with_stages({
-      {"coc", "within 1/2 quantum + 4 ulp of the exact radius", run_coc, twin_coc, pixels, nullptr,
+      {"coc", "within 1/2 quantum + 4 ulp of the exact radius", run_coc, pixels, nullptr,
        exact_coc},
-      {"gather_aware", bits_rule, run_gather<aware>, twin_gather<aware>, gather_work,
-       aware_roundings},
-      {"gather_literal", bits_rule, run_gather<literal>, twin_gather<literal>, gather_work,
-       one_division},
-      {"gather_reach", integer_rule, run_reach, twin_reach, tiles_work},
-      {"gather_tiles", integer_rule, run_tiles, twin_tiles, tiles_work},
-      {"linear_psf", bits_rule, run_linear, twin_linear, linear_work, linear_roundings,
-       exact_linear},
-      {"rdb_clear", integer_rule, run_rdb_clear, twin_rdb_clear, clear_work},
-      {"rdb_merge", bits_rule, run_rdb_merge, twin_rdb_merge, rdb_work, one_division, exact_rdb},
-      {"rdb_merge_seen", integer_rule, run_rdb_seen, twin_rdb_seen, rdb_work},
-      {"rdb_nearest", integer_rule, run_rdb_nearest, twin_rdb_nearest, rdb_work},
-      {"rdb_scatter", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work},
-      {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, twin_rdb_scatter, rdb_work, nullptr,
-       nullptr, true},
-      {"tiltshift", bits_rule, run_tiltshift, twin_tiltshift, pixels},
+      {"gather_aware", bits_rule, run_gather<aware>, gather_work, aware_roundings},
+      {"gather_literal", bits_rule, run_gather<literal>, gather_work, one_division},
+      {"gather_reach", integer_rule, run_reach, tiles_work},
+      {"gather_tiles", integer_rule, run_tiles, tiles_work},
+      {"linear_psf", bits_rule, run_linear, linear_work, linear_roundings, exact_linear,
+       linear_memory},
+      {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
+      {"rdb_merge", bits_rule, run_rdb_merge, rdb_work, one_division, exact_rdb, rdb_memory},
+      {"rdb_merge_seen", integer_rule, run_rdb_seen, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_nearest", integer_rule, run_rdb_nearest, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_scatter", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr,
+       rdb_memory, true},
+      {"tiltshift", bits_rule, run_tiltshift, pixels},
   });
   return checks;
 }

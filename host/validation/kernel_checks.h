@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "opencl/session.h"
+#include "frame/stages.h"
 #include "rdb/rdb.h"
 #include "validation/case.h"
 #include "validation/input.h"
@@ -12,7 +12,7 @@
 namespace defray::validation {
 
 /// What a kernel or its twin gives: whole numbers, planes of floats, or both.
-struct Values {
+struct Outcome {
   std::vector<std::int64_t> integers = {};
   std::vector<Plane> planes = {};
 };
@@ -28,8 +28,8 @@ struct Exact {
 struct KernelCheck {
   const char* name;  ///< The kernel's, or with a way of running it behind.
   const char* rule;  ///< For people: how far kernel and twin may lie apart, and why.
-  Values (*run)(Session&, const Case&, const Input&);
-  Values (*twin)(const Case&, const Input&);
+  /// On a device, or by the twins.
+  Outcome (*run)(Stages&, const Case&, const Input&);
 
   /// Operations of the twin: a grid leaves out what takes too long.
   double (*work)(const Case&);
@@ -42,6 +42,10 @@ struct KernelCheck {
   /// twin's bits too.
   Exact (*exact)(const Case&, const Input&) = nullptr;
 
+  /// What a session may take where the case wants bands; null: the fewest rows that a stage works
+  /// with, one or a tile's.
+  std::size_t (*memory)(const Case&, const Input&) = nullptr;
+
   bool needs_two_passes = false;  ///< Runs without 64-bit atomics.
 };
 
@@ -49,14 +53,11 @@ struct KernelCheck {
 std::vector<KernelCheck> stage_checks();
 std::vector<KernelCheck> highlight_checks();
 
-/// For stages: where the case wants bands the fewest rows that they work with, one or a tile's.
-std::size_t stage_memory(const Case& c);
-
 /// What bands add to a stage's work: launches cost some devices most of a millisecond.
 double band_work(const Case& c);
 
-/// The case's way of running the RDB.
-RdbSettings rdb_settings(const Case& c);
+/// What the case's rays go through.
+RayPlan ray_plan(const Case& c);
 
 /// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "device/rdb_run.h"
 #include "reference/reference.h"
 
 namespace defray::validation {
@@ -15,7 +16,7 @@ std::size_t words(int width, int height, int cells) {
          static_cast<std::size_t>(cells * cells);
 }
 
-std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Plane& depth) {
+std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, std::span<const float> depth) {
   if (w.source == DEFRAY_EMPTY) return w.depth_bits == DEFRAY_EMPTY ? -1 : -2;
   const std::int64_t index = window + w.source;
   const bool is_there = index < static_cast<std::int64_t>(depth.size());
@@ -26,31 +27,30 @@ std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Plane
 
 }  // namespace
 
-std::vector<std::int64_t> winners_on_device(Session& session, const FragmentView& fragments,
-                                            const RdbSettings& settings) {
-  RdbRun run(session, fragments, settings);
-  const std::size_t pixels = fragments.depth.size() / static_cast<std::size_t>(fragments.layers);
-  std::vector<std::int64_t> all(lens_cells(settings).centres.size() * pixels, -2);
+std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame,
+                                            const RayPlan& plan) {
+  RdbRun run(session, frame, plan);
+  const std::size_t pixels = frame.pixels();
+  std::vector<std::int64_t> all(plan.cells.centres.size() * pixels, -2);
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     const std::vector<RdbWinner> winners = run.winners(pass);
-    const std::size_t band = winners.size() / static_cast<std::size_t>(pass.cell_count);
-    const std::int64_t window = std::int64_t{pass.window_y} * fragments.layers * fragments.width;
-    const auto first = static_cast<std::size_t>(std::int64_t{pass.band_y} * fragments.width);
+    const std::size_t band = winners.size() / size(pass.cell_count);
+    const auto window = static_cast<std::int64_t>(run.first_source(pass));
+    const std::size_t first = size(pass.band_y) * size(frame.width);
     for (std::size_t i = 0; i < winners.size(); ++i) {
-      const std::size_t cell = i / band + static_cast<std::size_t>(pass.first_cell);
-      all[cell * pixels + first + i % band] = index_in_frame(winners[i], window, fragments.depth);
+      const std::size_t cell = i / band + size(pass.first_cell);
+      all[cell * pixels + first + i % band] =
+          index_in_frame(winners[i], window, frame.depth.host());
     }
   }
   return all;
 }
 
-std::vector<std::int64_t> winners_of_twin(const FragmentView& fragments,
-                                          const RdbSettings& settings) {
-  const LensCells cells = lens_cells(settings);
+std::vector<std::int64_t> winners_of_twin(const Frame& frame, const RayPlan& plan) {
   std::vector<std::int64_t> all;
-  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const auto winners = reference::rdb_scatter(fragments, settings, cells, cell);
+  for (std::size_t cell = 0; cell < plan.cells.centres.size(); ++cell) {
+    const auto winners = reference::rdb_scatter(frame, plan, cell);
     all.insert(all.end(), winners.begin(), winners.end());
   }
   return all;
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> cleared_on_device(Session& session, int width, int he
   p.band_rows = static_cast<std::uint32_t>(height);
   p.cell_count = static_cast<std::uint32_t>(cells * cells);
   const std::size_t count = (content.size() - words_beyond) / 2;
-  session.launch("rdb_clear", DEFRAY_RDB_CLEAR_GROUP, {count}, p, buffer);
+  session.launch("rdb_clear", {count}, p, buffer);
   session.read(buffer, content.data(), bytes);
   return content;
 }

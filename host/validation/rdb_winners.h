@@ -3,16 +3,17 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/stages.h"
+#include "opencl/session.h"
 #include "rdb/rdb.h"
 
 namespace defray::validation {
 
 /// Every cell's winner, [cell][pixel]: the fragment's index in the frame, or -1 where no ray
 /// arrives. -2 where the depth beside a winner is not its own.
-std::vector<std::int64_t> winners_on_device(Session& session, const FragmentView& fragments,
-                                            const RdbSettings& settings);
-std::vector<std::int64_t> winners_of_twin(const FragmentView& fragments,
-                                          const RdbSettings& settings);
+std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame,
+                                            const RayPlan& plan);
+std::vector<std::int64_t> winners_of_twin(const Frame& frame, const RayPlan& plan);
 
 /// Words of a buffer of `cells`^2 cells a pixel that held 7s before kernel `rdb_clear`, and some
 /// beyond its end, which it must leave alone.

@@ -1,22 +1,22 @@
 #include "validation/validation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "base/text.h"
+#include "device/device_stages.h"
+#include "reference/twin_stages.h"
 #include "validation/oclgrind_log.h"
 #include "validation/worst_picture.h"
 
 namespace defray::validation {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// The shape of a result must be right before its values can be.
-void require_same_shape(const Values& kernel, const Values& twin) {
+void require_same_shape(const Outcome& kernel, const Outcome& twin) {
   bool same =
       kernel.integers.size() == twin.integers.size() && kernel.planes.size() == twin.planes.size();
   for (std::size_t p = 0; same && p < twin.planes.size(); ++p) {
@@ -46,7 +46,7 @@ class CheckRun {
     ++result_.cases;
     const std::uint64_t hash = hash_of(done.kernel);
     session_.fill_buffers(0xa5);  // other bits where a kernel reads what nobody wrote
-    if (hash_of(check_.run(session_, c, done.input)) != hash) ++result_.unstable;
+    if (hash_of(run_kernel(session_, check_, c, done.input)) != hash) ++result_.unstable;
     result_.hash = (result_.hash ^ hash) * 0x100000001b3u;
     if (verdict.wrong > 0 && result_.first_wrong.empty()) result_.first_wrong = text;
     if (result_.verdict.add(verdict)) result_.worst_case = text;
@@ -107,7 +107,7 @@ void add_picture(Session& session, const KernelCheck& check, const KernelResult&
 KernelResult run_check(Session& session, const KernelCheck& check, const Settings& settings,
                        Level level, OclgrindLog& log, DeviceResult& device,
                        const std::function<void(double)>& progress) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   std::vector<Case> cases = settings.only_case.empty()
                                 ? grid(level, check, session.info().max_work_group)
                                 : std::vector<Case>{parse_case(settings.only_case)};
@@ -130,7 +130,7 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
     if (settings.stops_at_first && run.has_failed()) break;
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(cases.size()));
   }
-  return run.finish(std::chrono::duration<double>(Clock::now() - start).count());
+  return run.finish(watch.seconds());
 }
 
 }  // namespace
@@ -146,17 +146,25 @@ const KernelCheck& find_check(const std::string& kernel) {
     if (kernel == check.name) return check;
     names.push_back(check.name);
   }
-  fail(ErrorKind::usage, "--kernel '{}' is not known.{} Known: {}", kernel,
+  fail(ErrorKind::usage, "{} '{}' is not known.{} Known: {}", field("kernel"), kernel,
        did_you_mean(kernel, names), join(names, " "));
 }
 
+Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, const Input& input) {
+  session.set_work_group(size(c.group_x), size(c.group_y));
+  const bool has_bands = c.band_rows > 0;
+  session.set_copies(has_bands);
+  session.set_memory(!has_bands ? default_memory_bytes : check.memory ? check.memory(c, input) : 1);
+  DeviceStages device(session);
+  return check.run(device, c, input);
+}
+
 Run run_case(Session& session, const KernelCheck& check, const Case& c) {
-  const auto group = [](int n) { return static_cast<std::size_t>(n); };
-  session.set_work_group(group(c.group_x), group(c.group_y));
   Run run;
   run.input = make_input(c);
-  run.kernel = check.run(session, c, run.input);
-  run.twin = check.twin(c, run.input);
+  run.kernel = run_kernel(session, check, c, run.input);
+  reference::TwinStages twins;
+  run.twin = check.run(twins, c, run.input);
   return run;
 }
 

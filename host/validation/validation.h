@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/display.h"
+#include "opencl/session.h"
 #include "validation/grid.h"
 #include "validation/verdict.h"
 
@@ -69,8 +70,12 @@ const KernelCheck& find_check(const std::string& kernel);
 /// What kernel and twin gave for one case.
 struct Run {
   Input input;
-  Values kernel, twin;
+  Outcome kernel, twin;
 };
+/// With the case's work-group and bands.
 Run run_case(Session& session, const KernelCheck& check, const Case& c);
+
+/// The kernel's part of it again.
+Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, const Input& input);
 
 }  // namespace defray::validation

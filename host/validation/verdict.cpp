@@ -35,7 +35,7 @@ bool is_within(float a, float b, double slack) {
   return slack >= std::numeric_limits<float>::max() * u;
 }
 
-void compare_integers(const KernelCheck& check, const Values& kernel, const Values& twin,
+void compare_integers(const KernelCheck& check, const Outcome& kernel, const Outcome& twin,
                       Verdict& v) {
   for (std::size_t i = 0; i < twin.integers.size(); ++i) {
     const std::int64_t difference = std::abs(kernel.integers[i] - twin.integers[i]);
@@ -99,8 +99,8 @@ bool Verdict::add(const Verdict& other) {
   return true;
 }
 
-Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const Values& kernel,
-                const Values& twin, bool keeps_denormals, bool rounds_divisions) {
+Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const Outcome& kernel,
+                const Outcome& twin, bool keeps_denormals, bool rounds_divisions) {
   Verdict v;
   v.compared = twin.integers.size();
   for (const Plane& plane : twin.planes) v.compared += plane.size();
@@ -119,7 +119,7 @@ Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const 
   return v;
 }
 
-void compare_exact(const Exact& exact, const Input& in, const Values& kernel, Verdict& verdict) {
+void compare_exact(const Exact& exact, const Input& in, const Outcome& kernel, Verdict& verdict) {
   const auto hold = [&](double value, double expected, double bound) {
     const double error = std::fabs(value - expected);
     if (!(error <= bound)) ++verdict.wrong;
@@ -145,7 +145,7 @@ void compare_exact(const Exact& exact, const Input& in, const Values& kernel, Ve
   }
 }
 
-std::uint64_t hash_of(const Values& values) {
+std::uint64_t hash_of(const Outcome& values) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto add = [&](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3u; };
   for (const std::int64_t i : values.integers) add(static_cast<std::uint64_t>(i));

@@ -19,7 +19,7 @@ std::uint32_t ulp_distance(float a, float b);
 std::size_t ulp_bin(std::uint32_t distance);
 std::string ulp_bin_name(std::size_t bin);
 
-/// Values of one case, or of many.
+/// Outcome of one case, or of many.
 struct Verdict {
   std::uint64_t compared = 0;
   std::uint64_t differing = 0;  ///< Not the same bits (numbers; NaN matches NaN).
@@ -38,14 +38,14 @@ struct Verdict {
 
 /// `keeps_denormals` and `rounds_divisions` as DeviceInfo has them: where a device does not promise
 /// them, the slack that OpenCL allows it.
-Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const Values& kernel,
-                const Values& twin, bool keeps_denormals, bool rounds_divisions);
+Verdict compare(const KernelCheck& check, const Case& c, const Input& in, const Outcome& kernel,
+                const Outcome& twin, bool keeps_denormals, bool rounds_divisions);
 
 /// Measures a kernel's values against exact ones, where the input is finite: fills exact_share and
 /// counts values beyond the bound as wrong.
-void compare_exact(const Exact& exact, const Input& in, const Values& kernel, Verdict& verdict);
+void compare_exact(const Exact& exact, const Input& in, const Outcome& kernel, Verdict& verdict);
 
 /// FNV-1a over all values.
-std::uint64_t hash_of(const Values& values);
+std::uint64_t hash_of(const Outcome& values);
 
 }  // namespace defray::validation

@@ -42,7 +42,7 @@ Plane picture_of(const std::vector<T>& values, std::size_t at, std::size_t pixel
 }
 
 /// The same among whole numbers, as floats, and planes after them.
-Plane plane_of(const Values& values, std::size_t at, std::size_t pixels) {
+Plane plane_of(const Outcome& values, std::size_t at, std::size_t pixels) {
   if (at < values.integers.size()) return picture_of(values.integers, at, pixels);
   at -= values.integers.size();
   for (const Plane& plane : values.planes) {

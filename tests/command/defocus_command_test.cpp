@@ -44,9 +44,10 @@ TEST_F(DefocusCommand, EveryOptionChangesThePicture) {
   std::map<std::uint64_t, std::string> seen;
   for (const std::string options :
        {"", "--literal", "--literal --jitter", "--quality draft", "--quality high", "--rdb 20",
-        "--hidden off", "--hidden smooth", "--edges keep", "--border black", "--border renormalise",
-        "--blades 5", "--blades 5 --blade-curvature 0.5", "--blades 5 --blade-rotation 20",
-        "--squeeze 2", "--cats-eye 1", "--aperture-image smooth/pinhole.exr"}) {
+        "--rdb 20 --quality draft", "--rdb 20 --hidden on --quality high", "--hidden off",
+        "--hidden smooth", "--edges keep", "--border black", "--border renormalise", "--blades 5",
+        "--blades 5 --blade-curvature 0.5", "--blades 5 --blade-rotation 20", "--squeeze 2",
+        "--cats-eye 1", "--aperture-image smooth/pinhole.exr"}) {
     const auto [place, is_new] = seen.emplace(rendered(bg + options), options);
     EXPECT_TRUE(is_new) << options << " gives the picture of " << place->second;
   }

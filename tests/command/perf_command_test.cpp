@@ -102,7 +102,7 @@ TEST_F(PerfCommand, RefusesWhatItCannotDo) {
   expect_refused("experiment plate1 -o /proc/none", 4, {"/proc/none"});
   expect_refused("experiment plate1", 2, {"--output"});
   expect_refused("experiment plate1 -o report --device nothing", 5, {"nothing"});
-  expect_refused("experimnt plate1 -o report", 2, {"ubcommand"});
+  expect_refused("experimnt plate1 -o out", 2, {"ubcommand"});
 }
 
 TEST_F(PerfCommand, HelpListsTheExperiments) {

@@ -58,7 +58,7 @@ TEST_F(PsfCommand, ACameraFileGivesTheLens) {
   EXPECT_EQ(measured("psf --depth 4 --camera camera.json --focus-setting b --fstop 2.8"), typed);
   EXPECT_NE(measured("psf --depth 4 --camera camera.json --focus-setting b"), typed);
   refuse("psf --depth 4 --camera camera.json", 3, {"--focus-setting"});
-  refuse("psf --depth 4 --focus-setting a", 2, {"--focus-setting requires --camera"});
+  refuse("psf --depth 4 --focus-setting a", 2, {"--focus-setting goes with --camera"});
   refuse("psf --depth 4 --camera camera.json --focus-setting a --csv ./camera.json", 2,
          {"input and output at once"});
 }

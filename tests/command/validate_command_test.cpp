@@ -122,6 +122,7 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
   expect_refused("-o none --arithmetic --kernel coc", 2, {"--arithmetic", "--kernel"});
   expect_refused("-o none --arithmetic --case 1x1", 2, {"--arithmetic", "--case"});
   expect_refused("-o none --arithmetic --math fast", 2, {"--arithmetic", "--math"});
+  expect_refused("-o none --case 64x48 --full", 2, {"--case", "--full"});
   expect_refused("-o none --case 64x48,group=4096x4096", 2, {"work-items", "allows at most"});
 }
 

@@ -12,9 +12,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::run_parser([&] { fuzz::require(cli::parse_unit(unit) > 0); });
   fuzz::run_parser([&] { fuzz::require(!std::isnan(cli::parse_background(background))); });
   fuzz::run_parser([&] {
-    const auto [x, y] = cli::parse_work_group(group);
-    fuzz::require(group.empty() ? x == 0 && y == 0 : x > 0 && y > 0);
-    fuzz::require(x < 1000000 && y < 1000000);
+    for (const auto& [kernel, x, y] : cli::parse_work_groups(group)) {
+      fuzz::require(x > 0 && y > 0 && x < 1000000 && y < 1000000);
+      fuzz::require(group.find(kernel) != std::string::npos);
+    }
   });
   return 0;
 }

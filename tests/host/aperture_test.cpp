@@ -144,18 +144,18 @@ TEST(Aperture, RefusesWhatIsNotAllowed) {
     expect_error(ErrorKind::usage, words, [&] { rasterise(a); });
   };
   for (const int count : {-1, 1, 2, 33}) {
-    refused(blades(count), {"--blades is " + std::to_string(count), "3 to 32"});
+    refused(blades(count), {"blades is " + std::to_string(count), "3 to 32"});
   }
-  refused(blades(5, 1.5), {"--blade-curvature is 1.5", "-1 to 1"});
-  refused(blades(5, nan), {"--blade-curvature is nan"});
-  refused(blades(3, -0.5), {"--blade-curvature is -0.5", "4 or more"});
-  refused(blades(5, 0, inf), {"--blade-rotation is inf", "finite"});
-  refused(blades(5, 0, 0, 0), {"--squeeze is 0", "0.125 to 8"});
-  refused(blades(0, 0, 0, nan), {"--squeeze is nan"});
-  refused({0, 0, 0, 1, "", 1.25}, {"--cats-eye is 1.25", "0 to 1"});
-  refused({6, 0, 0, 1, "a.png", 0}, {"--aperture-image", "--blades"});
-  refused(blades(0, 0.5), {"--blade-curvature", "--blades"});
-  refused({0, 0, 30, 1, "a.png", 0}, {"--blade-rotation", "--blades"});
+  refused(blades(5, 1.5), {"curvature is 1.5", "-1 to 1"});
+  refused(blades(5, nan), {"curvature is nan"});
+  refused(blades(3, -0.5), {"curvature is -0.5", "4 or more"});
+  refused(blades(5, 0, inf), {"rotation_deg is inf", "finite"});
+  refused(blades(5, 0, 0, 0), {"squeeze is 0", "0.125 to 8"});
+  refused(blades(0, 0, 0, nan), {"squeeze is nan"});
+  refused({0, 0, 0, 1, "", 1.25}, {"cats_eye is 1.25", "0 to 1"});
+  refused({6, 0, 0, 1, "a.png", 0}, {"aperture.image", "blades"});
+  refused(blades(0, 0.5), {"curvature", "blades"});
+  refused({0, 0, 30, 1, "a.png", 0}, {"rotation_deg", "blades"});
 }
 
 }  // namespace

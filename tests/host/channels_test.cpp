@@ -41,7 +41,7 @@ TEST(Channels, DepthOfTheColoursOwnViewLayer) {
   const std::vector<PartInfo> parts{
       part({"A.Combined.R", "A.Combined.G", "A.Combined.B", "A.Depth.Z", "B.Combined.R",
             "B.Combined.G", "B.Combined.B", "B.Depth.Z"})};
-  expect_error(ErrorKind::input, {"A.Combined", "B.Combined", "--layer"}, [&] { colour(parts); });
+  expect_error(ErrorKind::input, {"A.Combined", "B.Combined", "layer"}, [&] { colour(parts); });
   EXPECT_EQ(depth(parts, {"B", "", ""}), "B.Depth.Z");
   EXPECT_EQ(depth(parts, {"A.Combined", "", ""}), "A.Depth.Z");
 }
@@ -53,14 +53,14 @@ TEST(Channels, OtherNamesOfDepth) {
 }
 
 TEST(Channels, AVectorsZIsNoDepth) {
-  expect_error(ErrorKind::input, {"no depth", "N.Z", "--depth-channel"}, [] {
+  expect_error(ErrorKind::input, {"no depth", "N.Z", "depth_channel"}, [] {
     depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})});
   });
   EXPECT_EQ(depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z", "Z"})}), "Z");
 }
 
 TEST(Channels, SeveralDepthsAreAmbiguous) {
-  expect_error(ErrorKind::input, {"depth.Z", "zdepth.Z", "--depth-channel"}, [] {
+  expect_error(ErrorKind::input, {"depth.Z", "zdepth.Z", "depth_channel"}, [] {
     depth({part({"R", "G", "B", "depth.Z", "zdepth.Z"})});
   });
 }
@@ -81,7 +81,7 @@ TEST(Channels, MultiPartStereo) {
   const std::vector<PartInfo> parts{
       part({"R", "G", "B"}, "rgba_right", "right"), part({"Z"}, "depth_left", "left"),
       part({"R", "G", "B"}, "rgba_left", "left"), part({"Z"}, "depth_right", "right")};
-  expect_error(ErrorKind::input, {"view 'right'", "view 'left'", "--view"}, [&] { colour(parts); });
+  expect_error(ErrorKind::input, {"view 'right'", "view 'left'", "view"}, [&] { colour(parts); });
   const ChannelRequest left{"", "left", ""};
   EXPECT_EQ(colour(parts, left).part, 2);
   EXPECT_EQ(choose_depth("f.exr", parts, left, colour(parts, left)).part, 1);

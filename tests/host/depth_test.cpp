@@ -42,7 +42,7 @@ TEST(Depth, AnExplicitBackgroundIsTheOnlyOne) {
   DepthSettings settings;
   settings.background = 7;
   EXPECT_EQ(converted({2, 7, 65504, 3, 4}, settings), (Plane{2, inf, 65504, 3, 4}));
-  expect_error(ErrorKind::input, {"z.exr", "depth 0", "(3, 0)", "--background"}, [&] {
+  expect_error(ErrorKind::input, {"z.exr", "depth 0", "(3, 0)", "background"}, [&] {
     converted({2, 7, 3, 0, 4}, settings);
   });
   expect_error(ErrorKind::input, {"depth -1"}, [&] { converted({2, 7, 3, -1, 4}, settings); });
@@ -88,12 +88,12 @@ TEST(Depth, DistanceAlongTheRayKnowsThePixelsPlaceInTheDisplayWindow) {
 TEST(Depth, SettingsThatContradictEachOther) {
   DepthSettings settings;
   settings.invert = true;
-  expect_error(ErrorKind::usage, {"--invert", "normalized"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"invert", "normalized"}, [&] { validate(settings); });
   settings = {};
   settings.near_units = 1;
-  expect_error(ErrorKind::usage, {"--near", "normalized"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"near_units", "normalized"}, [&] { validate(settings); });
   settings.kind = DepthKind::normalized;
-  expect_error(ErrorKind::usage, {"--near < --far"}, [&] { validate(settings); });
+  expect_error(ErrorKind::usage, {"near_units < far_units"}, [&] { validate(settings); });
 }
 
 std::string write_text(const Folder& folder, const std::string& text) {
@@ -114,8 +114,7 @@ TEST(Camera, ReadsTheSharedShape) {
   EXPECT_DOUBLE_EQ(*a.aperture_diameter_mm, 20);
   EXPECT_FALSE(a.fstop);
   EXPECT_DOUBLE_EQ(*read_camera_json(path, "b", 1).fstop, 2);
-  expect_error(ErrorKind::input, {"a b", "--focus-setting"},
-               [&] { read_camera_json(path, "", 1); });
+  expect_error(ErrorKind::input, {"a b", "focus_setting"}, [&] { read_camera_json(path, "", 1); });
   expect_error(ErrorKind::input, {"'c'", "a b"}, [&] { read_camera_json(path, "c", 1); });
 }
 
@@ -132,7 +131,7 @@ TEST(Camera, BadFiles) {
   const CameraValues half =
       read_camera_json(write_text(folder, R"({"focal_length_mm": 50, "f_stop": 2})"), "", 1);
   EXPECT_DOUBLE_EQ(*half.fstop, 2);
-  expect_error(ErrorKind::usage, {"--focus", "camera.json"},
+  expect_error(ErrorKind::usage, {"focus_distance_units", "camera.json"},
                [&] { make_lens(half, 1, LensModel::cg, 0); });
 }
 
@@ -149,7 +148,7 @@ TEST(Camera, ExplicitValuesWin) {
 }
 
 TEST(Camera, SaysWhatIsMissing) {
-  expect_error(ErrorKind::usage, {"--focus", "--focal-length", "--fstop"},
+  expect_error(ErrorKind::usage, {"focus_distance_units", "focal_length_mm", "fstop"},
                [] { make_lens({}, 1, LensModel::cg, 0); });
   CameraValues both;
   both.focal_length_mm = 50;

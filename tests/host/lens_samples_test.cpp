@@ -168,7 +168,7 @@ TEST(LensSamples, RefuseAbsurdCounts) {
     expect_error(ErrorKind::usage, {std::to_string(count), "1 to 4096"},
                  [&] { make_lens_samples({}, count); });
   }
-  expect_error(ErrorKind::usage, {"--blades is 2"}, [&] {
+  expect_error(ErrorKind::usage, {"blades is 2"}, [&] {
     make_lens_samples({2, 0, 0, 1, "", 0}, 16);
   });
 }

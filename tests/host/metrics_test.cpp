@@ -197,8 +197,8 @@ TEST(EdgeBand, StepDecidesWhatIsAnEdge) {
   EXPECT_TRUE(is_edge(1e9f, infinite, 100));
   EXPECT_FALSE(is_edge(infinite, infinite, 0));
   EXPECT_FALSE(is_edge(3, 3, 0));
-  expect_error(ErrorKind::usage, {"--edge-step is -1"}, [&] { is_edge(1, 2, -1); });
-  expect_error(ErrorKind::usage, {"--edge-step is nan"}, [&] { is_edge(1, 2, NAN); });
+  expect_error(ErrorKind::usage, {"edge_step is -1"}, [&] { is_edge(1, 2, -1); });
+  expect_error(ErrorKind::usage, {"edge_step is nan"}, [&] { is_edge(1, 2, NAN); });
 }
 
 }  // namespace

@@ -76,9 +76,9 @@ TEST(Pinhole, AlphaIsTheShareThatHits) {
 
 TEST(Pinhole, SamplesHaveBounds) {
   const Scene scene = half_plane(0.5, 0);
-  expect_error(ErrorKind::usage, {"--pinhole-samples is 0", "1 to 65536"},
+  expect_error(ErrorKind::usage, {"pinhole_samples is 0", "1 to 65536"},
                [&] { render_pinhole(scene, {0}); });
-  expect_error(ErrorKind::usage, {"--pinhole-samples is 65537"},
+  expect_error(ErrorKind::usage, {"pinhole_samples is 65537"},
                [&] { render_pinhole(scene, {65537}); });
 }
 

@@ -216,11 +216,11 @@ TEST(PsfReport, ChartMarksThePixelAndLeavesOutAGeometricPoint) {
 }
 
 TEST(PsfReport, RefusesImpossibleWavelengths) {
-  expect_error(ErrorKind::usage, {"--wavelength is 99 nm", "100 to 20000"}, [] {
+  expect_error(ErrorKind::usage, {"wavelength is 99 nm", "100 to 20000"}, [] {
     report_of(4, {550, 99});
   });
-  expect_error(ErrorKind::usage, {"--wavelength is 20001 nm"}, [] { report_of(4, {20001}); });
-  expect_error(ErrorKind::usage, {"--wavelength is nan"}, [] { report_of(4, {NAN}); });
+  expect_error(ErrorKind::usage, {"wavelength is 20001 nm"}, [] { report_of(4, {20001}); });
+  expect_error(ErrorKind::usage, {"wavelength is nan"}, [] { report_of(4, {NAN}); });
   expect_error(ErrorKind::usage, {"no wavelength"}, [] { report_of(4, {}); });
 }
 
@@ -229,10 +229,10 @@ TEST(Psf, RefusesWhatHasNoPsf) {
   closed.aperture_diameter_mm = 0;
   expect_error(ErrorKind::usage, {"aperture diameter is 0", "no PSF"},
                [&] { image_of_point(closed, 4, 1920); });
-  expect_error(ErrorKind::usage, {"--depth is 0"}, [] { image_of(0); });
-  expect_error(ErrorKind::usage, {"--depth is nan"}, [] { image_of(NAN); });
+  expect_error(ErrorKind::usage, {"depth is 0"}, [] { image_of(0); });
+  expect_error(ErrorKind::usage, {"depth is nan"}, [] { image_of(NAN); });
   expect_error(ErrorKind::usage, {"focal length"}, [] { image_of(3, 0.04); });
-  expect_error(ErrorKind::usage, {"--width is 0"}, [] { image_of_point(lens_of(3, 2.8), 4, 0); });
+  expect_error(ErrorKind::usage, {"width is 0"}, [] { image_of_point(lens_of(3, 2.8), 4, 0); });
   expect_error(ErrorKind::usage, {"does not converge with 32768 nodes", "Fresnel zones"},
                [] { DiffractionPsf(image_of(0.1, 3, 0.5), green, 1e-3); });
   expect_error(ErrorKind::usage, {"does not converge"},

@@ -117,8 +117,8 @@ TEST(Scene, RefusesWhatIsUnknown) {
   expect_error(ErrorKind::usage,
                {"'fence' has no focus setting 'fance'", "Did you mean 'fence'?", "bg"},
                [&] { find_setting(scene, "fance"); });
-  expect_error(ErrorKind::usage, {"--truth-samples"}, [&] { default_truth(scene, 0); });
-  expect_error(ErrorKind::usage, {"--truth-samples"}, [&] { default_truth(scene, 65537); });
+  expect_error(ErrorKind::usage, {"truth_samples"}, [&] { default_truth(scene, 0); });
+  expect_error(ErrorKind::usage, {"truth_samples"}, [&] { default_truth(scene, 65537); });
   expect_error(ErrorKind::usage, {"complexity"}, [] { make_plate2(8, 8, 0); });
 }
 

@@ -19,7 +19,7 @@ TEST(Sequence, Ranges) {
   EXPECT_EQ(parse_frames("1-999999999x500000000"), (std::vector<int>{1, 500000001}));
   EXPECT_EQ(parse_frames("1,1,3-1"), (std::vector<int>{1, 3, 2}));
   for (const char* bad : {"", "a", "1-", "-", "1..3", "1-3x0", "1,,2", "1-3;4", "1e3"}) {
-    expect_error(ErrorKind::usage, {"--frames"}, [bad] { parse_frames(bad); });
+    expect_error(ErrorKind::usage, {"frames"}, [bad] { parse_frames(bad); });
   }
   for (const char* many : {"1-999999999", "1-999999999y1", "1-600000,600001-1200000"}) {
     expect_error(ErrorKind::usage, {"at most"}, [many] { parse_frames(many); });

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
 #include "lens/camera.h"
 #include "lens/lens.h"
 #include "methods/method.h"
@@ -19,7 +19,7 @@ struct Layer {
   std::vector<std::int32_t> coc;
   Plane depth;
   std::vector<Plane> channels;  ///< R G B A, premultiplied.
-  PinholeFrame frame() const { return {size.width, size.height, coc, depth, channels, true}; }
+  Frame frame() const { return {size.width, size.height, coc, depth, channels, true}; }
 };
 
 Layer blocks(Size size, std::uint32_t seed) {
@@ -41,8 +41,8 @@ Layer blocks(Size size, std::uint32_t seed) {
   return l;
 }
 
-std::vector<DefocusSettings> all_settings() {
-  std::vector<DefocusSettings> all(1);
+std::vector<ChainSettings> all_settings() {
+  std::vector<ChainSettings> all(1);
   for (const int cells : {9, 33}) all.emplace_back().cells_per_side = is_slow_device() ? 3 : cells;
   for (const Hidden h : {Hidden::off, Hidden::smooth}) all.emplace_back().hidden = h;
   for (const Border b : {Border::renormalise, Border::black}) all.emplace_back().border = b;
@@ -58,9 +58,9 @@ TEST(Alpha, AnOpaqueImageStaysOpaque) {
   for (std::uint32_t seed = 1; seed <= 2; ++seed) {
     const Layer l = blocks({83, 61}, seed);
     std::size_t split = 0, behind = 0, lights = 0;
-    for (const DefocusSettings& settings : all_settings()) {
+    for (const ChainSettings& settings : all_settings()) {
       if (settings.border == Border::black) continue;  // beyond the frame there is nothing
-      const DefocusResult r = defocus(l.frame(), settings, {}, &session());
+      const MethodResult r = run_chain(l.frame(), settings, device());
       split += r.report.split, behind += r.report.behind, lights += r.report.highlights;
       double worst = 0;
       for (const float a : r.colour[3]) worst = std::max(worst, std::fabs(a - 1.0));
@@ -74,9 +74,9 @@ TEST(Alpha, AnOpaqueImageStaysOpaque) {
 
 TEST(Alpha, OpaqueWithoutStagesTooAndInTheTwins) {
   const Layer l = blocks({47, 33}, 3);
-  for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
-    const auto literal = apply_method(l.frame(), {}, on);
-    const DefocusResult stages = defocus(l.frame(), {}, {}, on);
+  for (Stages* on : device_and_twins()) {
+    const auto literal = apply_method(l.frame(), {}, *on).colour;
+    const MethodResult stages = run_chain(l.frame(), {}, *on);
     for (const float a : literal[3]) EXPECT_NEAR(a, 1.0f, 1e-6f);
     for (const float a : stages.colour[3]) EXPECT_NEAR(a, 1.0f, 1e-6f);
   }
@@ -100,8 +100,8 @@ Layer block_before_nothing(float block_coc_px) {
 TEST(Alpha, NothingStaysNothingAndColourStaysPremultiplied) {
   for (const float coc_px : {0.0f, -5.0f, 4.0f}) {
     const Layer l = block_before_nothing(coc_px);
-    for (const DefocusSettings& settings : all_settings()) {
-      const auto out = defocus(l.frame(), settings, {}, &session()).colour;
+    for (const ChainSettings& settings : all_settings()) {
+      const auto out = run_chain(l.frame(), settings, device()).colour;
       for (int i = 0; i < 64 * 48; ++i) {
         const auto at = static_cast<std::size_t>(i);
         const float alpha = out[3][at];
@@ -136,10 +136,10 @@ Off cutout_off(const std::string& setting, int cells_per_side) {
   }
   std::vector<Plane> channels = pinhole.colour;
   channels.push_back(pinhole.alpha);
-  const auto coc = reference::coc(lens, 160, depth);
-  DefocusSettings settings;
+  const auto coc = twins().coc(lens, 160, depth);
+  ChainSettings settings;
   settings.cells_per_side = cells_per_side;
-  const DefocusResult r = defocus({160, 120, coc, depth, channels, true}, settings, {}, &session());
+  const MethodResult r = run_chain({160, 120, coc, depth, channels, true}, settings, device());
   Off off{0, 0, 0, truth.alpha_noise_rms};
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double d = static_cast<double>(r.colour[3][i]) - truth.alpha[i];

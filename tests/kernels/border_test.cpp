@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "chain/assemble.h"
-#include "chain/defocus.h"
+#include "chain/chain.h"
+#include "chain/layers.h"
 #include "methods/method.h"
 #include "support.h"
 
@@ -27,17 +27,17 @@ struct Scene {
     }
   }
 
-  DefocusResult through(Border border) const {
-    DefocusSettings settings;
+  MethodResult through(Border border) const {
+    ChainSettings settings;
     settings.border = border;
-    return defocus({size.width, size.height, coc, depth, channels}, settings, {}, &session());
+    return run_chain({size.width, size.height, coc, depth, channels}, settings, device());
   }
 };
 
 TEST(BorderPicture, WhatIsMadeUpBeyondTheFrameIsNotSeen) {
   const Scene scene;
-  const DefocusResult clamped = scene.through(Border::clamp),
-                      normalised = scene.through(Border::renormalise);
+  const MethodResult clamped = scene.through(Border::clamp),
+                     normalised = scene.through(Border::renormalise);
   EXPECT_EQ(clamped.report.border_px, 5);
   EXPECT_EQ(normalised.report.border_px, 0);
   std::size_t less = 0;
@@ -59,11 +59,10 @@ TEST(BorderPicture, FartherOutTheEdgeFadesToTheMeanOfItsSurface) {
     if (x >= 3 && x < 10) scene.coc[i] = 0;  // another surface
     if (i / 60 == 20) scene.channels[0][i] = std::numeric_limits<float>::quiet_NaN();
   }
-  DefocusReport report;
-  ExtendedFrame e =
-      extend({60, 40, scene.coc, scene.depth, scene.channels}, Border::clamp, false, report);
-  Fragments f = whole_pixels(e);
-  continue_colours(e, f);
+  ChainReport report;
+  Frame f = whole_pixels(
+      extended({60, 40, scene.coc, scene.depth, scene.channels}, Border::clamp, false, report));
+  continue_colours(f);
   const int m = report.border_px;
   ASSERT_EQ(m, 7);
   const auto at = [&](int x, int y) { return f.channels[0][f.index(x + m, y + m, 0)]; };
@@ -84,7 +83,7 @@ TEST(BorderPicture, ALampOnTheFramesEdgeIsOneLamp) {
     scene.depth.assign(scene.depth.size(), 5.0f);
     scene.channels[0][static_cast<std::size_t>(y) * 60] = 1000;
     // Of a disc on the edge half is inside, of one in the corner a quarter.
-    const DefocusResult result = scene.through(Border::clamp);
+    const MethodResult result = scene.through(Border::clamp);
     double light = 0;
     for (const float v : result.colour[0]) light += v - 0.25;
     EXPECT_EQ(result.report.highlights, 1u);
@@ -99,15 +98,16 @@ TEST(BorderPicture, BlackDoesNotMakeHighlightsOfTheEdge) {
   EXPECT_EQ(scene.through(Border::black).report.highlights, 0u);
 }
 
-TEST(Defocus, AFrameThatDoesNotFitTheHostIsRefused) {
+TEST(Chain, AFrameThatDoesNotFitTheHostIsRefused) {
   const Scene scene;
   DeviceInfo small = device_under_test();
   small.global_memory_bytes = 60 * 40 * 100;
   small.shares_host_memory = true;  // only then it is the host's
-  Session device(small);
-  const PinholeFrame frame{size.width, size.height, scene.coc, scene.depth, scene.channels};
+  Session session(small);
+  DeviceStages device(session);
+  const Frame frame{size.width, size.height, scene.coc, scene.depth, scene.channels};
   try {
-    defocus(frame, {}, {}, &device);
+    run_chain(frame, {}, device);
     FAIL() << "not refused";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::device);

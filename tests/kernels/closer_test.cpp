@@ -34,14 +34,14 @@ TEST_P(Closer, ThanTheLiteralRdb) {
   const auto [name, setting] = GetParam();
   if (name != "fence" && name != "spheres") SKIP_UNLESS_FULL();
   const int width = 160, height = 120;
-  Subject s = make_subject(session(), make_scene(name, width, height), setting);
+  Subject s = make_subject(device(), make_scene(name, width, height), setting);
   s.pinhole.colour = render_pinhole(s.scene, {64}).colour;  // as productions have it
   const Truth truth = render_truth(s.scene, s.lens, 144, 1);
   const auto rms = [&](const MethodSettings& settings) {
-    return rms_of(compare(render(session(), s, settings), truth.colour, width).psnr_srgb_db);
+    return rms_of(compare(render(device(), s, settings), truth.colour, width).psnr_srgb_db);
   };
   MethodSettings with_stages;
-  with_stages.defocus = DefocusSettings{};
+  with_stages.chain = ChainSettings{};
   const double literal = rms({}), whole = rms(with_stages);
   // The mean of the truth's two halves is twice as near the truth as they are to each other.
   const double noise = rms_of(truth.noise->psnr_srgb_db) / 2;

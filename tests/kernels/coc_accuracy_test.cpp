@@ -162,7 +162,7 @@ TEST(CocAccuracy, KernelIsWithinFourUlpOfTheExactRadius) {
       do z = random.depth(lens, exact);
       while (!(z > 0) || is_lost(z));
     }
-    const auto quanta = coc_on_device(session(), lens, width, depth);
+    const auto quanta = device().coc(lens, width, depth);
     for (std::size_t k = 0; k < depths; ++k) {
       check(quanta[k], lens, exact, depth[k], worst);
       if (HasFatalFailure()) return;

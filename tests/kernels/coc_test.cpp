@@ -52,8 +52,8 @@ Plane depths_for(const Lens& lens) {
 TEST(Coc, KernelEqualsTwinWithinHalfAQuantumAndFourUlp) {
   for (const Lens& lens : lenses()) {
     const Plane depth = depths_for(lens);
-    const auto kernel = coc_on_device(session(), lens, 1920, depth);
-    const auto twin = reference::coc(lens, 1920, depth);
+    const auto kernel = device().coc(lens, 1920, depth);
+    const auto twin = twins().coc(lens, 1920, depth);
     ASSERT_EQ(kernel.size(), twin.size());
     for (std::size_t i = 0; i < depth.size(); ++i) {
       // Three float operations and a rounded constant: under 4 ulp (2^-22) of the radius; where
@@ -69,7 +69,7 @@ TEST(Coc, KernelEqualsTwinWithinHalfAQuantumAndFourUlp) {
 TEST(Coc, QuantisationErrorIsHalfAQuantum) {
   const Lens lens = lens_of(3);
   const Plane depth = depths_for(lens);
-  const auto quanta = reference::coc(lens, 1920, depth);
+  const auto quanta = twins().coc(lens, 1920, depth);
   double worst = 0;
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double exact = reference::coc_px(lens, 1920, depth[i]);
@@ -88,7 +88,7 @@ TEST(Coc, KeepsItsDigitsNearFocus) {
   float z = static_cast<float>(1.0 / 3);
   for (int i = 0; i < 200; ++i) z = std::nextafter(z, infinite);
   const double exact = reference::coc_px(lens, 16384, z) * 256;
-  const double kernel = coc_on_device(session(), lens, 16384, {z}).front();
+  const double kernel = device().coc(lens, 16384, {z}).front();
   ASSERT_GT(std::fabs(exact), 1e4);
   EXPECT_NEAR(kernel, exact, 1 + std::fabs(exact) * 0x1p-22);
 }
@@ -121,15 +121,15 @@ TEST(Coc, EqualsPotmesilsFormula) {
 
 TEST(Coc, DepthInsideTheFocalLengthFollowsTheSameFormula) {
   const Lens lens = lens_of(3);
-  const auto coc = coc_on_device(session(), lens, 1920, {0.04f, 0.05f, 0.06f});
-  const auto twin = reference::coc(lens, 1920, {0.04f, 0.05f, 0.06f});
+  const auto coc = device().coc(lens, 1920, {0.04f, 0.05f, 0.06f});
+  const auto twin = twins().coc(lens, 1920, {0.04f, 0.05f, 0.06f});
   EXPECT_LT(coc[0], coc[1]);
   EXPECT_LT(coc[1], coc[2]);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(coc[i], twin[i], 1);
 }
 
 TEST(Coc, FocusAtInfinityLeavesTheBackgroundSharp) {
-  const auto coc = coc_on_device(session(), lens_of(HUGE_VAL), 1920, {infinite, 1.0f, 10.0f});
+  const auto coc = device().coc(lens_of(HUGE_VAL), 1920, {infinite, 1.0f, 10.0f});
   EXPECT_EQ(coc[0], 0);
   EXPECT_NEAR(coc[1] / 256.0, -0.5 * (0.05 / 2.8) * (1920 * 50.0 / 36), 0.002);
   EXPECT_NEAR(coc[2] / 256.0, -0.05 * (0.05 / 2.8) * (1920 * 50.0 / 36), 0.002);
@@ -139,14 +139,14 @@ TEST(Coc, ClosedApertureGivesZeroEverywhere) {
   for (const double focus : {3.0, HUGE_VAL}) {
     Lens lens = lens_of(focus);
     lens.aperture_diameter_mm = 0;
-    for (const auto q : coc_on_device(session(), lens, 1920, depths_for(lens))) ASSERT_EQ(q, 0);
+    for (const auto q : device().coc(lens, 1920, depths_for(lens))) ASSERT_EQ(q, 0);
   }
 }
 
 TEST(Coc, LimitIsAppliedBySign) {
   Lens lens = lens_of(3);
   lens.max_coc_px = 1.5;
-  const auto coc = coc_on_device(session(), lens, 1920, {0.1f, 3.0f, infinite});
+  const auto coc = device().coc(lens, 1920, {0.1f, 3.0f, infinite});
   EXPECT_EQ(coc, (std::vector<std::int32_t>{-384, 0, 384}));
 }
 
@@ -167,7 +167,7 @@ TEST(Lens, RefusesWhatNoLensHas) {
                with([](Lens& l) { l.aperture_diameter_mm = -1; }));
   expect_error(ErrorKind::usage, {"focus distance"},
                with([](Lens& l) { l.focus_distance_units = 0; }));
-  expect_error(ErrorKind::usage, {"inside the focal length", "--unit"},
+  expect_error(ErrorKind::usage, {"inside the focal length", "metres_per_unit"},
                with([](Lens& l) { l.focus_distance_units = 0.05; }));
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
 #include "scenes/subject.h"
 #include "stages_support.h"
 
@@ -33,7 +33,7 @@ bool is_close(int a, int b) { return std::abs(a - b) <= 1024 / 8; }
 
 /// Number of pixels that were on neither surface, and now are on one.
 int expect_ramp_repaired(const std::vector<std::int32_t>& coc) {
-  const Words source = repair(session(), side, side, coc);
+  const Words source = device().repair({side, side, coc});
   int ramps = 0;
   for (int y = 4; y < side - 4; ++y) {
     for (int x = 4; x < side - 4; ++x) {
@@ -69,9 +69,9 @@ TEST(Repair, AntiAliasedDepthIsPutOnOneOfTheTwoSurfaces) {
 
 TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
   const auto expect_untouched = [](const std::vector<std::int32_t>& coc) {
-    Words own(coc.size());
+    std::vector<std::uint32_t> own(coc.size());
     std::iota(own.begin(), own.end(), 0u);
-    EXPECT_EQ(repair(session(), side, side, coc), own);
+    EXPECT_EQ(device().repair({side, side, coc}), Words(own));
   };
   for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
     expect_untouched(step_along(dx, dy, 0, 0.25, 1));
@@ -82,7 +82,7 @@ TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
     for (int i = 0; i < side * side; ++i)
       slope.push_back(700 * (dx * (i % side) + dy * (i / side)));
     // At the frame's edge a slope's end cannot be told from a flat surface's.
-    const Words source = repair(session(), side, side, slope);
+    const Words source = device().repair({side, side, slope});
     for (int y = 4; y < side - 4; ++y) {
       for (int x = 4; x < side - 4; ++x) {
         EXPECT_EQ(source[static_cast<std::size_t>(y * side + x)],
@@ -94,15 +94,15 @@ TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
 
 /// Pixels that the chain repairs of a built-in scene's picture.
 std::size_t repaired(const std::string& scene, int width, int height, bool is_antialiased) {
-  Subject s = make_subject(session(), make_scene(scene, width, height),
+  Subject s = make_subject(device(), make_scene(scene, width, height),
                            make_scene(scene, 8, 8).settings[0].name);
   if (is_antialiased) s.pinhole.depth = render_pinhole(s.scene, {16, true}).depth;
-  s.coc = coc_on_device(session(), s.lens, width, s.pinhole.depth);
-  DefocusSettings settings;
+  s.coc = device().coc(s.lens, width, s.pinhole.depth);
+  ChainSettings settings;
   settings.hidden = Hidden::off;
   RdbSettings rdb;
   rdb.cells_per_side = 2;
-  return defocus(s.frame(), settings, rdb, &session()).report.repaired;
+  return run_chain(s.frame(), settings, device()).report.repaired;
 }
 
 TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {
@@ -115,7 +115,7 @@ TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {
 }
 
 TEST(Edges, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
-  Frame f(12, 6);
+  Canvas f(12, 6);
   f.add_bar(4, 8);
   const Words mixed = f.mixed();
   f.each([&](int x, int y) {

@@ -98,9 +98,9 @@ TEST(ExtremeColours, KernelsEqualTwins) {
     const auto coc = random_coc(size, is_slow_device() ? radius / 3 : radius, 6);
     for (const Case& c : cases()) {
       SCOPED_TRACE(c.name + ", CoC up to " + std::to_string(radius));
-      const PinholeFrame frame{size.width, size.height, coc, depth, colour};
-      expect_same(apply_method(frame, c.settings, &session()),
-                  apply_method(frame, c.settings, nullptr));
+      const Frame frame{size.width, size.height, coc, depth, colour};
+      expect_same(apply_method(frame, c.settings, device()).colour,
+                  apply_method(frame, c.settings, twins()).colour);
     }
   }
 }
@@ -112,9 +112,9 @@ TEST(ExtremeColours, ClosedApertureKeepsEveryBit) {
   colour[1] = drawn_from(size, {infinite, -infinite, nan, 2}, 7);
   const std::vector<std::int32_t> coc(depth.size());
   for (const Case& c : cases()) {
-    const PinholeFrame frame{size.width, size.height, coc, depth, colour};
-    for (Session* s : {&session(), static_cast<Session*>(nullptr)}) {
-      EXPECT_EQ(hash_of(apply_method(frame, c.settings, s)), hash_of(colour)) << c.name;
+    const Frame frame{size.width, size.height, coc, depth, colour};
+    for (Stages* s : device_and_twins()) {
+      EXPECT_EQ(hash_of(apply_method(frame, c.settings, *s).colour), hash_of(colour)) << c.name;
     }
   }
 }
@@ -128,8 +128,8 @@ TEST(ExtremeColours, UpToTenToThe30EverySumIsFinite) {
   const std::vector<Plane> colour{drawn_from(size, {1e30f, -1e30f, 1e30f, 0}, 3),
                                   drawn_from(size, {65504, -65504, 1e30f, 1e-30f}, 4)};
   for (const Case& c : cases()) {
-    const PinholeFrame frame{size.width, size.height, coc, depth, colour};
-    for (const Plane& plane : apply_method(frame, c.settings, &session())) {
+    const Frame frame{size.width, size.height, coc, depth, colour};
+    for (const Plane& plane : apply_method(frame, c.settings, device()).colour) {
       for (const float v : plane) ASSERT_TRUE(std::isfinite(v)) << c.name;
     }
   }
@@ -155,11 +155,11 @@ TEST(ExtremeColours, WhatIsNoNumberStaysWithinReach) {
   const auto radius = [&](std::size_t i) { return std::abs(coc[i]) / 256.0; };
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const PinholeFrame frame{size.width, size.height, coc, depth, {clean}};
-    const PinholeFrame bad{size.width, size.height, coc, depth, {poisoned}};
-    const Plane expected = apply_method(frame, c.settings, &session())[0];
-    const std::vector<Plane> out = apply_method(bad, c.settings, &session());
-    expect_same(out, apply_method(bad, c.settings, nullptr));
+    const Frame frame{size.width, size.height, coc, depth, {clean}};
+    const Frame bad{size.width, size.height, coc, depth, {poisoned}};
+    const Plane expected = apply_method(frame, c.settings, device()).colour[0];
+    const std::vector<Plane> out = apply_method(bad, c.settings, device()).colour;
+    expect_same(out, apply_method(bad, c.settings, twins()).colour);
     std::size_t spread = 0, untouched = 0;
     const int width = size.width;
     for (std::size_t i = 0; i < clean.size(); ++i) {

@@ -3,7 +3,9 @@
 #include <limits>
 
 #include "lens/lens_cells.h"
+#include "methods/linear.h"
 #include "methods/method.h"
+#include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -39,9 +41,9 @@ std::vector<std::pair<std::string, MethodSettings>> methods() {
 }
 
 /// Renders with the kernels, and expects the twin's bits.
-std::vector<Plane> render_both(const PinholeFrame& frame, const MethodSettings& settings) {
-  auto kernel = apply_method(frame, settings, &session());
-  EXPECT_EQ(hash_of(kernel), hash_of(apply_method(frame, settings, nullptr)));
+std::vector<Plane> render_both(const Frame& frame, const MethodSettings& settings) {
+  auto kernel = apply_method(frame, settings, device()).colour;
+  EXPECT_EQ(hash_of(kernel), hash_of(apply_method(frame, settings, twins()).colour));
   return kernel;
 }
 
@@ -52,16 +54,16 @@ TEST(ExtremeFrames, CocFromAMillionthOfAPixelToAMillion) {
   for (int exponent = -6; exponent <= 6; ++exponent) {
     const double radius_px = std::pow(10.0, exponent);
     const Lens lens = lens_of_background(radius_px);
-    EXPECT_NEAR(coc_on_device(session(), lens, width, {infinite})[0], 256 * radius_px,
+    EXPECT_NEAR(device().coc(lens, width, {infinite})[0], 256 * radius_px,
                 0.5 + 256 * radius_px * 0x1p-21);
-    const auto coc = coc_on_device(session(), lens, width, depth);
+    const auto coc = device().coc(lens, width, depth);
     for (const auto& method : methods()) {
       const MethodSettings& settings = method.second;
       SCOPED_TRACE(method.first + ", background CoC " + std::to_string(radius_px) + " px");
-      const PinholeFrame frame{size.width, size.height, coc, depth, colour};
+      const Frame frame{size.width, size.height, coc, depth, colour};
       if (settings.method == Method::linear && radius_px > linear_max_radius_px) {
         expect_error(ErrorKind::usage, {"1024"},
-                     [&] { apply_method(frame, settings, &session()); });
+                     [&] { apply_method(frame, settings, device()); });
       } else if (settings.method != Method::linear || radius_px <= (is_slow_device() ? 1 : 10)) {
         const auto out = render_both(frame, settings);
         // Depth 1.2 has twice the background's: all below half a quantum is a bit-exact copy.
@@ -117,8 +119,8 @@ TEST(ExtremeFrames, CheckerboardDepth) {
     for (const double limit_px : {0.4, 3.0, 12.0}) {
       Lens lens = lens_of_background(limit_px);
       lens.max_coc_px = limit_px;
-      const auto coc = coc_on_device(session(), lens, width, depth);
-      EXPECT_EQ(coc, reference::coc(lens, width, depth));
+      const auto coc = device().coc(lens, width, depth);
+      EXPECT_EQ(coc, twins().coc(lens, width, depth));
       EXPECT_EQ(coc[0], -std::lround(256 * limit_px));
       for (const auto& [name, settings] : methods()) {
         if (settings.method == Method::linear && is_slow_device() && limit_px > 1) continue;
@@ -130,14 +132,13 @@ TEST(ExtremeFrames, CheckerboardDepth) {
 }
 
 TEST(ExtremeFrames, OneCellIsThePinholePicture) {
-  RdbSettings settings;
-  settings.cells_per_side = 1;
   for (const Size size : awkward_sizes()) {
     if (is_slow_device() && size.width > 100) continue;
     const std::vector<Plane> colour{random_plane(size, 8)};
     for (const double radius : {0.0, 7.0, 4194303.0}) {
-      const auto out = render_rdb(session(), size.width, size.height, random_coc(size, radius, 9),
-                                  random_depth(size, 10), colour, settings);
+      const Frame frame{size.width, size.height, random_coc(size, radius, 9),
+                        random_depth(size, 10), colour};
+      const auto out = device().rays(frame, plan_rays({1})).means;
       EXPECT_EQ(hash_of(out), hash_of(colour)) << size.width << "x" << size.height;
     }
   }

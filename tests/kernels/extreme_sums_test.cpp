@@ -35,12 +35,12 @@ TEST(ExtremeSums, MeansOfLightAreWithinARoundingACell) {
       const auto coc = random_coc(size, 5, seed);
       const Plane depth = random_depth(size, seed + 10), colour = unequal_colours(size, seed + 20);
       const auto kernel =
-          render_rdb(session(), size.width, size.height, coc, depth, {colour}, settings);
+          device().rays({size.width, size.height, coc, depth, {colour}}, plan_rays(settings)).means;
       const auto twin =
-          reference::render_rdb(size.width, size.height, coc, depth, {colour}, settings);
+          twins().rays({size.width, size.height, coc, depth, {colour}}, plan_rays(settings)).means;
       EXPECT_EQ(hash_of(kernel), hash_of(twin));
-      const auto exact =
-          reference::exact_rdb({size.width, size.height, coc, depth, {colour}}, settings)[0];
+      const auto exact = reference::exact_rays({size.width, size.height, coc, depth, {colour}},
+                                               plan_rays(settings))[0];
       for (std::size_t i = 0; i < exact.size(); ++i) {
         const double error = std::fabs(kernel[0][i] - exact[i]) / exact[i];
         ASSERT_LE(error, (cells + division) * 0x1p-24) << "pixel " << i << ", seed " << seed;

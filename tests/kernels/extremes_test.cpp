@@ -54,8 +54,8 @@ std::vector<Lens> extreme_lenses() {
 TEST(ExtremeDepths, WhatIsNoDepthIsBackground) {
   const Plane none{infinite, nan, -nan, 0.0f, -0.0f, -denormal, -1.0f, -largest, -infinite};
   for (const Lens& lens : extreme_lenses()) {
-    const auto kernel = coc_on_device(session(), lens, width, none);
-    const auto twin = reference::coc(lens, width, none);
+    const auto kernel = device().coc(lens, width, none);
+    const auto twin = twins().coc(lens, width, none);
     for (std::size_t i = 0; i < none.size(); ++i) {
       EXPECT_EQ(kernel[i], kernel[0]) << none[i] << ", focus " << lens.focus_distance_units;
       EXPECT_EQ(twin[i], twin[0]) << none[i] << ", focus " << lens.focus_distance_units;
@@ -70,9 +70,9 @@ TEST(ExtremeDepths, NearAndFarOnesKeepTheirSide) {
   const Plane far{65504.0f, 1e9f, 1e10f, 1e12f, largest};
   for (const Lens& lens : extreme_lenses()) {
     const double focus = lens.focus_distance_units;
-    const auto in_front = coc_on_device(session(), lens, width, near);
-    const auto behind = coc_on_device(session(), lens, width, far);
-    const auto background = coc_on_device(session(), lens, width, {infinite})[0];
+    const auto in_front = device().coc(lens, width, near);
+    const auto behind = device().coc(lens, width, far);
+    const auto background = device().coc(lens, width, {infinite})[0];
     EXPECT_TRUE(std::is_sorted(in_front.begin(), in_front.end())) << focus;
     EXPECT_TRUE(std::is_sorted(behind.begin(), behind.end())) << focus;
     EXPECT_EQ(in_front[0], -limit) << "a denormal depth, focus " << focus;
@@ -81,7 +81,7 @@ TEST(ExtremeDepths, NearAndFarOnesKeepTheirSide) {
     if (focus < 65504) {
       EXPECT_GE(behind[0], 0) << focus;
     }
-    const auto twin = reference::coc(lens, width, near);
+    const auto twin = twins().coc(lens, width, near);
     for (std::size_t i = 0; i < near.size(); ++i) {
       EXPECT_LE(std::fabs(double(in_front[i]) - twin[i]), 1 + std::fabs(twin[i]) * 0x1p-21);
     }
@@ -93,7 +93,7 @@ TEST(ExtremeDepths, OneUlpFromFocusIsNotInFocus) {
     // Background CoC 2^29 px: one ulp of the depth is then 8 to 16 thousand quanta or more.
     const Lens lens = lens_of_background(0x1p29, focus);
     const float before = std::nextafter(focus, 0.0f), behind = std::nextafter(focus, infinite);
-    const auto coc = coc_on_device(session(), lens, width, {before, focus, behind});
+    const auto coc = device().coc(lens, width, {before, focus, behind});
     EXPECT_EQ(coc[1], 0);
     for (const int side : {0, 2}) {
       const double z = side == 0 ? before : behind;
@@ -110,8 +110,7 @@ TEST(ExtremeLenses, FocusedAtTheHyperfocalDistanceInfinityIsJustSharp) {
       const double focus = hyperfocal_units(fstop, sharp_mm);
       const Lens lens = lens_of(focus, fstop, LensModel::breathing);
       const double radius_px = 0.5 * sharp_mm / lens.sensor_width_mm * width;
-      const auto coc =
-          coc_on_device(session(), lens, width, {infinite, static_cast<float>(focus / 2)});
+      const auto coc = device().coc(lens, width, {infinite, static_cast<float>(focus / 2)});
       EXPECT_NEAR(coc[0], 256 * radius_px, 0.5 + 256 * radius_px * 0x1p-21);
       EXPECT_NEAR(coc[1], -256 * radius_px, 0.5 + 256 * radius_px * 0x1p-20);  // as sharp there
     }
@@ -129,7 +128,7 @@ TEST(ExtremeLenses, ValuesOutsideTheirRangeAreRefused) {
     refused(&Lens::sensor_width_mm, bad, "sensor width");
     refused(&Lens::metres_per_unit, bad, "scene unit");
     refused(&Lens::aperture_diameter_mm, bad, "aperture diameter");
-    refused(&Lens::pixels_per_metre, bad, "--pixel-scale");
+    refused(&Lens::pixels_per_metre, bad, "pixels_per_metre");
     if (bad < 1e30 || std::isnan(bad)) refused(&Lens::focus_distance_units, bad, "focus distance");
   }
   for (const Lens& lens : extreme_lenses()) EXPECT_NO_THROW(validate(lens));

@@ -12,13 +12,13 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Fill, BehindABarThePlaneGoesOn) {
-  Frame f(60, 40);
+  Canvas f(60, 40);
   f.each([&](int x, int y) { f.paint(x, y, 0.25f, 0.5f, 0.75f); });
   for (int y = 0; y < f.height; ++y) {
     for (int x = 27; x < 33; ++x) f.paint(x, y, 1, 0, 0);
   }
   f.add_bar(27, 33);
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   for (int y = 0; y < f.height; ++y) {
     for (int x = 28; x < 32; ++x) {  // the bar's pure pixels
       const std::size_t i = f.at(x, y);
@@ -36,7 +36,7 @@ TEST(Fill, BehindABarThePlaneGoesOn) {
 /// along which it is continued, where a plane without slant would be off by all the way back.
 TEST(Fill, BehindAnEdgeASlantedPlaneKeepsItsSlant) {
   for (const double slant : {12.0, -40.0}) {
-    Frame f(80, 60);
+    Canvas f(80, 60);
     f.each([&](int x, int y) {
       f.coc[f.at(x, y)] = static_cast<std::int32_t>(3000 + slant * (x - 40));
       f.inverse[f.at(x, y)] = static_cast<float>(0.2 - slant * 1e-4 * (x - 40));
@@ -44,7 +44,7 @@ TEST(Fill, BehindAnEdgeASlantedPlaneKeepsItsSlant) {
     const std::vector<std::int32_t> plane = f.coc;
     const Plane plane_inverse = f.inverse;
     f.add_bar(36, 80);
-    const Surface behind = f.filled();
+    const Frame behind = f.filled();
     for (int y = 25; y < 35; ++y) {
       for (int x = 37; x < 43; ++x) {
         const std::size_t i = f.at(x, y);
@@ -57,7 +57,7 @@ TEST(Fill, BehindAnEdgeASlantedPlaneKeepsItsSlant) {
 
 /// Rows alone: one way left and one right, both exact.
 TEST(Fill, BehindABarInARowTheSlantIsExact) {
-  Frame f(81, 1);
+  Canvas f(81, 1);
   f.each([&](int x, int y) {
     f.coc[f.at(x, y)] = 1536 + 16 * (x - 40);
     f.inverse[f.at(x, y)] = 0.2f - (x - 40) / 1024.0f;
@@ -65,7 +65,7 @@ TEST(Fill, BehindABarInARowTheSlantIsExact) {
   const std::vector<std::int32_t> plane = f.coc;
   const Plane plane_inverse = f.inverse;
   f.add_bar(37, 44);
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   for (int x = 37; x < 44; ++x) {
     EXPECT_EQ(behind.coc_quanta[f.at(x, 0)], plane[f.at(x, 0)]) << x;
     EXPECT_NEAR(behind.inverse[f.at(x, 0)], plane_inverse[f.at(x, 0)], 0x1p-22f) << x;
@@ -73,12 +73,12 @@ TEST(Fill, BehindABarInARowTheSlantIsExact) {
 }
 
 TEST(Fill, ReachesAsFarAsTheLensSeesPastTheEdgeAndNoFurther) {
-  Frame f(200, 3);
+  Canvas f(200, 3);
   f.add_bar(50, 200);
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 5; ++x) f.coc[f.at(x, y)] = 20000;  // so far that ways go on past the plane
   }
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   for (int x = 50; x < 200; ++x) {
     // 6 px of CoC, 2 more; the plane's last pixel is 49.
     const bool is_plane = behind.inverse[f.at(x, 1)] >= 0 && behind.coc_quanta[f.at(x, 1)] < 20000;
@@ -95,28 +95,28 @@ TEST(Fill, ReachesAsFarAsTheLensSeesPastTheEdgeAndNoFurther) {
 }
 
 TEST(Fill, NothingLiesBehindTheFarthestOrBesideItself) {
-  Frame f(60, 20);
+  Canvas f(60, 20);
   f.add_bar(20, 26);
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   // Mixed pixels of the plane have the bar in front of them; pure ones nothing.
   f.each([&](int x, int y) {
     if (x < 19 || x > 26) {
       EXPECT_EQ(behind.inverse[f.at(x, y)], -1.0f) << x << " " << y;
     }
   });
-  Frame slope(60, 20);  // steep, but one surface
+  Canvas slope(60, 20);  // steep, but one surface
   slope.each([&](int x, int y) { slope.coc[slope.at(x, y)] = 250 * x; });
   for (const float i : slope.filled().inverse) EXPECT_EQ(i, -1.0f);
 }
 
 TEST(Fill, ANearerSurfaceNeverFills) {
-  Frame f(60, 20);
+  Canvas f(60, 20);
   for (std::int32_t& c : f.coc) c = 0;
   f.each([&](int x, int y) {
     if (x >= 20 && x < 40) f.coc[f.at(x, y)] = -1536;
     f.paint(x, y, f.coc[f.at(x, y)] < 0 ? 1 : 0, 0, 0);
   });
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   f.each([&](int x, int y) {
     const std::size_t i = f.at(x, y);
     if (behind.inverse[i] < 0) return;
@@ -129,11 +129,11 @@ TEST(Fill, ANearerSurfaceNeverFills) {
 
 TEST(Fill, ALoneHighlightDoesNotSmear) {
   for (const float highlight : {1e4f, std::numeric_limits<float>::max(), infinite, nan}) {
-    Frame f(60, 40);
+    Canvas f(60, 40);
     f.each([&](int x, int y) { f.paint(x, y, 0.5f, 0.5f, 0.5f); });
     f.add_bar(27, 33);
     f.paint(34, 20, highlight, highlight, highlight);
-    const Surface behind = f.filled();
+    const Frame behind = f.filled();
     for (int y = 0; y < f.height; ++y) {
       for (int x = 28; x < 32; ++x) EXPECT_NEAR(behind.channels[0][f.at(x, y)], 0.5f, 0x1p-20f);
     }
@@ -142,11 +142,11 @@ TEST(Fill, ALoneHighlightDoesNotSmear) {
 
 TEST(Fill, ASmallHighlightIsNotAllThatLiesBehind) {
   // From the middle of a wide bar only the way to the left is short enough.
-  Frame f(80, 3);
+  Canvas f(80, 3);
   f.each([&](int x, int y) { f.paint(x, y, 0.5f, 0.5f, 0.5f); });
   f.add_bar(30, 80);
   for (int x = 26; x < 29; ++x) f.paint(x, 1, 50, 50, 50);
-  const Surface behind = f.filled();
+  const Frame behind = f.filled();
   ASSERT_GE(behind.inverse[f.at(34, 1)], 0);
   EXPECT_NEAR(behind.channels[0][f.at(34, 1)], 0.5f, 0x1p-20f);
 }
@@ -154,13 +154,13 @@ TEST(Fill, ASmallHighlightIsNotAllThatLiesBehind) {
 TEST(Fill, StripesGoOnInTheirDirection) {
   const auto stripe = [](int n) { return n / 4 % 2 ? 0.8f : 0.1f; };
   for (const bool along_rows : {true, false}) {
-    Frame f(64, 64);
+    Canvas f(64, 64);
     f.each([&](int x, int y) {
       const float v = stripe(along_rows ? y : x + y);
       f.paint(x, y, v, v, v);
     });
     f.add_bar(28, 36);
-    const Surface behind = f.filled();
+    const Frame behind = f.filled();
     double error = 0, plain = 0;
     for (int y = 20; y < 44; ++y) {
       for (int x = 29; x < 35; ++x) {
@@ -175,9 +175,11 @@ TEST(Fill, StripesGoOnInTheirDirection) {
 
 /// Something to fill in one tile alone: a band that took another's flags would leave it empty.
 TEST(Fill, BandsTakeTheFlagsOfTheirOwnTiles) {
-  Frame f(3 * DEFRAY_FILL_TILE, 400);
+  Canvas f(3 * DEFRAY_FILL_TILE, 400);
   for (int y = 330; y < 334; ++y) f.coc[f.at(20, y)] = 0, f.inverse[f.at(20, y)] = 0.5f;
-  const Surface whole = f.filled(), banded = fill(session(), f.view(), f.mixed(), 1);
+  const Frame whole = f.filled();
+  const InBands in_bands(session(), 1);
+  const Frame banded = f.filled();
   EXPECT_GT(whole.inverse[f.at(20, 331)], 0);
   expect_same_bits(whole.inverse, banded.inverse);
 }

@@ -21,7 +21,7 @@ std::vector<Plane> planes_of(Size size) {
 
 std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
                           const std::vector<Plane>& channels, const GatherSettings& settings) {
-  return render_gather(session(), size.width, size.height, coc, channels, settings);
+  return device().gather({size.width, size.height, coc, {}, channels}, settings);
 }
 
 GatherSettings settings_of(GatherKind kind, int samples, int passes, bool rotate) {
@@ -44,7 +44,7 @@ TEST(Gather, KernelsEqualTwinsBitForBit) {
         for (const GatherSettings& s :
              {settings_of(kind, 1, 1, false), settings_of(kind, 7, 2, true),
               settings_of(kind, 32, 3, false)}) {
-          const auto twin = reference::render_gather(size.width, size.height, coc, channels, s);
+          const auto twin = twins().gather({size.width, size.height, coc, {}, channels}, s);
           EXPECT_EQ(hash_of(render(size, coc, channels, s)), hash_of(twin))
               << size.width << "x" << size.height << ", CoC " << largest << ", " << s.samples
               << " samples, " << (kind == GatherKind::aware ? "aware" : "literal");
@@ -59,8 +59,8 @@ TEST(Gather, ReachEqualsItsTwin) {
     for (const double largest : {0.0, 3.0, 40.0, 1000.0}) {
       auto coc = random_coc(size, 1, 3);
       coc[coc.size() / 3] = static_cast<std::int32_t>(-256 * largest);
-      EXPECT_EQ(gather_reach_on_device(session(), size.width, size.height, coc),
-                reference::gather_reach(size.width, size.height, coc))
+      EXPECT_EQ(device().gather_reach({size.width, size.height, coc}),
+                reference::gather_reach({size.width, size.height, coc}))
           << size.width << "x" << size.height << ", CoC " << largest;
     }
   }
@@ -103,8 +103,9 @@ TEST(Gather, SameBitsForEveryWorkGroupAndRun) {
     const std::uint64_t expected = hash_of(render(size, coc, channels, settings));
     for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 4}}) {
       s.set_work_group(x, y);
-      EXPECT_EQ(hash_of(render_gather(s, size.width, size.height, coc, channels, settings)),
-                expected)
+      EXPECT_EQ(
+          hash_of(DeviceStages(s).gather({size.width, size.height, coc, {}, channels}, settings)),
+          expected)
           << x << "x" << y;
     }
   }
@@ -164,11 +165,11 @@ TEST(Gather, MoreSamplesDoNotPileUpBesideNearEdges) {
 
 TEST(Gather, RefusesAbsurdCounts) {
   for (const int samples : {0, -1, 1025}) {
-    expect_error(ErrorKind::usage, {"--samples", std::to_string(samples), "1 to 1024"},
+    expect_error(ErrorKind::usage, {"samples", std::to_string(samples), "1 to 1024"},
                  [&] { validate(settings_of(GatherKind::aware, samples, 1, false)); });
   }
   for (const int passes : {0, 9}) {
-    expect_error(ErrorKind::usage, {"--passes", "1 to 8"},
+    expect_error(ErrorKind::usage, {"passes", "1 to 8"},
                  [&] { validate(settings_of(GatherKind::aware, 1, passes, false)); });
   }
 }

@@ -96,7 +96,7 @@ struct Disc {
   double at(std::size_t i) const { return (double{picture[i]} - grey) / (double{light} - grey); }
 };
 
-Disc render_disc(std::int32_t quanta, float grey, const DefocusSettings& settings, Session* on) {
+Disc render_disc(std::int32_t quanta, float grey, const ChainSettings& settings, Stages& on) {
   const double radius = quanta / 256.0;
   const int side = 2 * (static_cast<int>(std::fabs(radius)) + 6) + 1;
   const Plane depth(static_cast<std::size_t>(side * side), 4.0f);
@@ -104,11 +104,11 @@ Disc render_disc(std::int32_t quanta, float grey, const DefocusSettings& setting
   Plane picture(depth.size(), grey);
   picture[depth.size() / 2] = light;
   MethodSettings method;
-  method.defocus = settings;
-  PinholeFrame frame{side, side, coc, depth, {picture}};
+  method.chain = settings;
+  Frame frame{side, side, coc, depth, {picture}};
   frame.display_width = frame.display_height = 1 << 20;    // its lower right corner, so that
   frame.origin_x = frame.origin_y = (1 << 20) - side / 2;  // the rim is the same all over
-  return {side, radius, apply_method(frame, method, on)[0], double{grey}};
+  return {side, radius, apply_method(frame, method, on).colour[0], double{grey}};
 }
 
 /// Errors of a disc.
@@ -152,8 +152,8 @@ std::vector<double> radii() {
   return {0.3, 0.5, 0.77, 1, 1.5, 2, 3.3, 5, 8, 13, 21, 34.7, 55, 90, 128};
 }
 
-DefocusSettings with_blades(int blades) {
-  DefocusSettings settings;
+ChainSettings with_blades(int blades) {
+  ChainSettings settings;
   settings.aperture.blades = blades;
   return settings;
 }
@@ -166,7 +166,7 @@ TEST(HighlightDisc, IsEvenAndKeepsItsLightAtAnyRadius) {
         const auto shape = shape_of(blades, quanta / 256.0);
         for (const float grey : {0.0f, 0.18f}) {
           if (radius > 50 && (grey == 0) != (sign > 0)) continue;  // large frames take their time
-          const Disc disc = render_disc(quanta, grey, with_blades(blades), &session());
+          const Disc disc = render_disc(quanta, grey, with_blades(blades), device());
           const Ghosts g = ghosts_of(disc, shares(shape, disc.side), area(shape));
           SCOPED_TRACE(testing::Message()
                        << "radius " << disc.radius_px << ", blades " << blades << ", on " << grey);
@@ -189,9 +189,9 @@ TEST(HighlightDisc, KeepsTheLightThatTheRimLeaves) {
           const auto quanta = static_cast<std::int32_t>(std::lround(256 * radius)) * sign;
           const double r = quanta / 256.0;
           const auto shape = behind_rim(shape_of(blades, r), r, strength);
-          DefocusSettings settings = with_blades(blades);
+          ChainSettings settings = with_blades(blades);
           settings.aperture.cats_eye = strength;
-          const Disc disc = render_disc(quanta, 0.18f, settings, &session());
+          const Disc disc = render_disc(quanta, 0.18f, settings, device());
           const Ghosts g = ghosts_of(disc, shares(shape, disc.side), area(shape));
           SCOPED_TRACE(testing::Message()
                        << "radius " << r << ", strength " << strength << ", blades " << blades);
@@ -218,8 +218,8 @@ TEST(HighlightDisc, AnEdgeThatCutsItIsEven) {
   }
   picture[side * side / 2] = light;
   MethodSettings method;
-  method.defocus = DefocusSettings{};
-  const Plane out = apply_method({side, side, coc, depth, {picture}}, method, &session())[0];
+  method.chain = ChainSettings{};
+  const Plane out = apply_method({side, side, coc, depth, {picture}}, method, device()).colour[0];
   const double level = light / (std::numbers::pi * 12 * 12);
   for (int y = side / 2 - 8; y <= side / 2 + 8; ++y) {
     const auto row = out.begin() + y * side;
@@ -228,7 +228,7 @@ TEST(HighlightDisc, AnEdgeThatCutsItIsEven) {
     EXPECT_NEAR(row[edge + 3], 0.3, 0.01) << y;
   }
   EXPECT_EQ(hash_of({out}),
-            hash_of(apply_method({side, side, coc, depth, {picture}}, method, nullptr)));
+            hash_of(apply_method({side, side, coc, depth, {picture}}, method, twins()).colour));
 }
 
 TEST(HighlightDisc, ChangesAsLittleAsItsRadius) {
@@ -236,8 +236,8 @@ TEST(HighlightDisc, ChangesAsLittleAsItsRadius) {
   for (const double radius : {0.3, 0.5, 0.77, 1.0, 1.5, 2.0, 3.0, 8.0, 34.7}) {
     if (is_slow_device() && radius > 3) continue;
     const auto quanta = static_cast<std::int32_t>(std::lround(256 * radius));
-    const Disc a = render_disc(quanta, 0.18f, {}, &session());
-    const Disc b = render_disc(quanta + 1, 0.18f, {}, &session());
+    const Disc a = render_disc(quanta, 0.18f, {}, device());
+    const Disc b = render_disc(quanta + 1, 0.18f, {}, device());
     ASSERT_EQ(a.side, b.side);
     const auto exact_a = shares(shape_of(0, a.radius_px), a.side);
     const auto exact_b = shares(shape_of(0, b.radius_px), b.side);
@@ -256,11 +256,11 @@ TEST(HighlightDisc, TwinsGiveTheSameDisc) {
       if (radius > 34.7) continue;  // the scalar RDB takes its time
       for (const int sign : {1, -1}) {
         const auto quanta = static_cast<std::int32_t>(std::lround(256 * radius)) * sign;
-        DefocusSettings settings = with_blades(blades);
+        ChainSettings settings = with_blades(blades);
         settings.aperture.cats_eye = sign > 0 ? 0.5 : 0;
-        const Plane kernel = render_disc(quanta, 0.18f, settings, &session()).picture;
+        const Plane kernel = render_disc(quanta, 0.18f, settings, device()).picture;
         EXPECT_EQ(hash_of({kernel}),
-                  hash_of({render_disc(quanta, 0.18f, settings, nullptr).picture}))
+                  hash_of({render_disc(quanta, 0.18f, settings, twins()).picture}))
             << radius * sign << ", blades " << blades;
       }
     }
@@ -268,10 +268,10 @@ TEST(HighlightDisc, TwinsGiveTheSameDisc) {
 }
 
 TEST(HighlightDisc, WithoutTheStageItIsDots) {
-  DefocusSettings rays;
+  ChainSettings rays;
   rays.highlights = rays.soften = false;
   const auto shape = shape_of(0, 13);
-  const Disc disc = render_disc(13 * 256, 0, rays, &session());
+  const Disc disc = render_disc(13 * 256, 0, rays, device());
   const Ghosts g = ghosts_of(disc, shares(shape, disc.side), area(shape));
   EXPECT_GT(g.uneven, 1);  // and that is what the first test would see
 }

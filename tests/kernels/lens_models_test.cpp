@@ -151,19 +151,20 @@ TEST(Eye, RefusesContradictions) {
     change(values);
     expect_error(ErrorKind::usage, words, [&] { make_lens(values, 1, LensModel::cg, 0); });
   };
-  refuse({"--scale", "--perceived-distance"}, [](CameraValues& v) {
+  refuse({"perceived_scale", "perceived_distance_m"}, [](CameraValues& v) {
     v.perceived_scale = 1;
     v.perceived_distance_m = 1;
   });
-  refuse({"--scale 0", "perceived scale 0"}, [](CameraValues& v) { v.perceived_scale = 0; });
-  refuse({"--perceived-distance -1", "perceived scale -"},
+  refuse({"perceived_scale 0", "perceived scale 0"},
+         [](CameraValues& v) { v.perceived_scale = 0; });
+  refuse({"perceived_distance_m -1", "perceived scale -"},
          [](CameraValues& v) { v.perceived_distance_m = -1; });
-  refuse({"finite --focus"}, [](CameraValues& v) {
+  refuse({"finite focus_distance_units"}, [](CameraValues& v) {
     v.focus_distance_units = HUGE_VAL;
     v.perceived_distance_m = 1;
   });
-  refuse({"--sensor-width", "--pixel-scale"}, [](CameraValues& v) { v.sensor_width_mm = 36; });
-  refuse({"--pixel-scale", "-5"}, [](CameraValues& v) { v.pixels_per_metre = -5; });
+  refuse({"sensor_width_mm", "pixels_per_metre"}, [](CameraValues& v) { v.sensor_width_mm = 36; });
+  refuse({"pixels_per_metre", "-5"}, [](CameraValues& v) { v.pixels_per_metre = -5; });
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace defray::test {
 namespace {
 
 std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
-                          const std::vector<Plane>& channels, const LinearSettings& s = {}) {
-  return render_linear(session(), size.width, size.height, coc, channels, s);
+                          const std::vector<Plane>& channels) {
+  return device().linear({size.width, size.height, coc, {}, channels});
 }
 
 std::vector<Plane> planes_of(Size size, std::size_t count) {
@@ -30,7 +30,7 @@ TEST(Linear, KernelEqualsTwinBitForBit) {
       if (largest > 6 && (size.width > 33 || is_slow_device())) continue;  // the twin's time
       const auto coc = random_coc(size, largest, 3);
       const auto channels = planes_of(size, 4);
-      const auto twin = reference::render_linear<float>(size.width, size.height, coc, channels);
+      const auto twin = reference::linear<float>({size.width, size.height, coc, {}, channels});
       EXPECT_EQ(hash_of(render(size, coc, channels)), hash_of(twin))
           << size.width << "x" << size.height << ", CoC " << largest;
     }
@@ -42,7 +42,7 @@ TEST(Linear, FloatSumsStayWithinTheirBoundOfDouble) {
   const auto coc = random_coc(size, 6, 9);
   const auto channels = planes_of(size, 1);
   const Plane kernel = render(size, coc, channels)[0];
-  const auto exact = reference::render_linear<double>(size.width, size.height, coc, channels)[0];
+  const auto exact = reference::linear<double>({size.width, size.height, coc, {}, channels})[0];
   // A term carries the roundings of its root, its subtraction (both of numbers up to 14 for a
   // weight from 0 to 1), its quotient and its product; n = 13^2 terms are then added, each
   // addition rounded. u = 2^-24; terms and partial sums are below n L / (disc >= 1) <= n L.
@@ -139,24 +139,26 @@ TEST(Linear, SameBitsForEveryMemoryBudgetAndWorkGroup) {
   const auto channels = planes_of(size, 2);
   const std::uint64_t expected = hash_of(render(size, coc, channels));
   for (const std::size_t kib : {22, 30, 64, 100}) {
-    EXPECT_EQ(hash_of(render(size, coc, channels, {kib << 10})), expected) << kib << " KiB";
+    const InBands in_bands(session(), kib << 10);
+    EXPECT_EQ(hash_of(render(size, coc, channels)), expected) << kib << " KiB";
   }
   Session s(device_under_test());
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 1}}) {
     s.set_work_group(x, y);
-    EXPECT_EQ(hash_of(render_linear(s, size.width, size.height, coc, channels, {})), expected)
+    EXPECT_EQ(hash_of(DeviceStages(s).linear({size.width, size.height, coc, {}, channels})),
+              expected)
         << x << "x" << y;
   }
 }
 
 TEST(Linear, RefusesWhatItCannotReach) {
   const std::vector<std::int32_t> wide(4, 1025 * 256), some(4, 100 * 256);
-  expect_error(ErrorKind::usage, {"1025 px", "1024", "--max-coc", "rdb"}, [&] {
+  expect_error(ErrorKind::usage, {"1025 px", "1024", "max_coc_px", "rdb"}, [&] {
     render({2, 2}, wide, {Plane(4)});
   });
-  expect_error(ErrorKind::usage, {"--memory", "100 px", "MiB"}, [&] {
-    render({2, 2}, some, {Plane(4)}, {1000});
-  });
+  const InBands in_bands(session(), 1000);
+  expect_error(ErrorKind::usage, {"memory", "100 px", "MiB"},
+               [&] { render({2, 2}, some, {Plane(4)}); });
 }
 
 }  // namespace

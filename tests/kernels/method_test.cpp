@@ -39,8 +39,9 @@ TEST(Method, ClosedApertureReturnsTheInputBitForBit) {
   std::vector<Plane> colour;
   for (std::uint32_t c = 0; c < 3; ++c) colour.push_back(random_plane(size, c));
   for (const auto& [name, settings] : all_methods()) {
-    for (Session* s : {&session(), static_cast<Session*>(nullptr)}) {
-      EXPECT_EQ(hash_of(apply_method({37, 23, coc, depth, colour}, settings, s)), hash_of(colour))
+    for (Stages* s : device_and_twins()) {
+      EXPECT_EQ(hash_of(apply_method({37, 23, coc, depth, colour}, settings, *s).colour),
+                hash_of(colour))
           << name << (s ? "" : ", twin");
     }
   }
@@ -57,7 +58,8 @@ TEST(Method, ImpulsesKeepTheirCentroid) {
     for (const auto& [name, settings] : all_methods()) {
       // Turned or shifted samples differ from pixel to pixel: their noise moves a single impulse.
       if (name.find("random") != std::string::npos) continue;
-      const Plane out = apply_method({side, side, coc, depth, {impulse}}, settings, &session())[0];
+      const Plane out =
+          apply_method({side, side, coc, depth, {impulse}}, settings, device()).colour[0];
       double sum = 0, x = 0, y = 0;
       for (int i = 0; i < side * side; ++i) {
         sum += out[i], x += out[i] * (i % side - middle), y += out[i] * (i / side - middle);
@@ -70,12 +72,12 @@ TEST(Method, ImpulsesKeepTheirCentroid) {
 }
 
 TEST(Method, TiltshiftKeepsFlatAreasFlat) {
-  const auto coc = reference::tiltshift(tiltshift_params({0.5, 0.3, 12}, 40, 60, 0, 60));
+  const auto coc = twins().tiltshift(tiltshift_params({0.5, 0.3, 12}, 40, 60, 0, 60));
   const std::vector<Plane> grey{Plane(40 * 60, 0.5f)};
   MethodSettings settings;
   settings.method = Method::tiltshift;
-  for (Session* s : {&session(), static_cast<Session*>(nullptr)}) {
-    const Plane out = apply_method({40, 60, coc, {}, grey}, settings, s)[0];
+  for (Stages* s : device_and_twins()) {
+    const Plane out = apply_method({40, 60, coc, {}, grey}, settings, *s).colour[0];
     // 25 x 25 additions each of light and weight.
     for (const float value : out) ASSERT_NEAR(value, 0.5f, 2 * 625 * 0x1p-24);
   }
@@ -100,7 +102,7 @@ TEST(Method, ConstantDepthGivesOnePictureFromAllOfThem) {
   const Scene scene = waves();
   const Lens lens = lens_of(scene, scene.settings[0]);
   const ScenePicture pinhole = render_pinhole(scene);
-  const auto coc = coc_on_device(session(), lens, scene.width, pinhole.depth);
+  const auto coc = device().coc(lens, scene.width, pinhole.depth);
   // Vogel's spiral fills the disc evenly: the integral over the lens to about 1/count.
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i < 4000; ++i) {
@@ -117,7 +119,7 @@ TEST(Method, ConstantDepthGivesOnePictureFromAllOfThem) {
   for (const auto& [settings, tolerance] :
        {std::pair{linear, 0.004}, {rdb, 0.004}, {aware, 0.008}}) {
     const auto out =
-        apply_method({80, 60, coc, pinhole.depth, pinhole.colour}, settings, &session());
+        apply_method({80, 60, coc, pinhole.depth, pinhole.colour}, settings, device()).colour;
     double worst = 0, blur = 0;
     for (int y = 10; y < 50; ++y) {  // borders: each method's own policy
       for (int x = 10; x < 70; ++x) {
@@ -136,9 +138,9 @@ TEST(Method, TwinsGiveTheSamePicture) {
   const auto coc = random_coc(size, 4, 2);
   const std::vector<Plane> colour{random_plane(size, 3)};
   for (const auto& [name, settings] : all_methods()) {
-    const PinholeFrame frame{23, 29, coc, depth, colour};
-    const Plane kernel = apply_method(frame, settings, &session())[0];
-    const Plane twin = apply_method(frame, settings, nullptr)[0];
+    const Frame frame{23, 29, coc, depth, colour};
+    const Plane kernel = apply_method(frame, settings, device()).colour[0];
+    const Plane twin = apply_method(frame, settings, twins()).colour[0];
     // Only the RDB's twin works in double; its bound is in rdb_test.
     const double tolerance = settings.method == Method::rdb ? 64 * 150 * 0x1p-24 : 0;
     for (std::size_t i = 0; i < twin.size(); ++i)

@@ -3,8 +3,9 @@
 #include <limits>
 #include <set>
 
-#include "chain/defocus.h"
+#include "chain/chain.h"
 #include "methods/method.h"
+#include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -19,7 +20,7 @@ struct Scene {
   Plane depth;
   std::vector<Plane> channels;
   std::size_t count() const { return depth.size(); }
-  PinholeFrame frame() const { return {size.width, size.height, coc, depth, channels}; }
+  Frame frame() const { return {size.width, size.height, coc, depth, channels}; }
 };
 
 Scene random_scene(Size size, std::uint32_t seed) {
@@ -46,17 +47,14 @@ Scene bar(Size size, int x0, int x1) {
   return s;
 }
 
-RdbResult hits(const Scene& s, RdbSettings settings, Session* session) {
-  settings.wants_nearest = true;
-  const FragmentView view(s.size.width, s.size.height, s.coc, s.depth, s.channels);
-  return session ? distribute_rays(*session, view, settings)
-                 : reference::distribute_rays(view, settings);
+std::vector<std::uint32_t> hits(const Scene& s, int cells_per_side, Stages& stages) {
+  RayPlan plan = plan_rays({cells_per_side});
+  plan.wants_nearest = true;
+  return stages.rays(s.frame(), plan).nearest;
 }
 
-DefocusResult through(const Scene& s, const DefocusSettings& settings, Session* session) {
-  RdbSettings rdb;
-  rdb.wants_nearest = true;
-  return defocus(s.frame(), settings, rdb, session);
+MethodResult through(const Scene& s, const ChainSettings& settings, Stages& stages) {
+  return run_chain(s.frame(), settings, stages, true);
 }
 
 TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
@@ -64,31 +62,29 @@ TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
     if (is_slow_device() && size.width > 100) continue;
     const std::size_t rows = size.height > 50 ? 40 : 1;  // a row alone takes many passes there
     const Scene s = random_scene(size, 7);
-    RdbSettings settings;
-    settings.cells_per_side = is_slow_device() ? 3 : 7;
-    const Words expected = hits(s, settings, nullptr).nearest;
-    EXPECT_EQ(hits(s, settings, &session()).nearest, expected);
-    settings.memory_bytes =
+    const int cells = is_slow_device() ? 3 : 7;
+    const auto expected = hits(s, cells, twins());
+    EXPECT_EQ(hits(s, cells, device()), expected);
+    const std::size_t bytes =
         rows * static_cast<std::size_t>(size.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-    EXPECT_EQ(hits(s, settings, &session()).nearest, expected) << "few rows and cells a pass";
-    EXPECT_EQ(hits(s, settings, &session_without_int64()).nearest, expected);
+    const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
+    EXPECT_EQ(hits(s, cells, device()), expected) << "few rows and cells a pass";
+    DeviceStages two_passes(session_without_int64());
+    EXPECT_EQ(hits(s, cells, two_passes), expected);
   }
 }
 
 TEST(Nearest, IsTheSmallestDepthOfAllCellsWinners) {
   const Scene s = random_scene({23, 17}, 3);
-  RdbSettings settings;
-  settings.cells_per_side = 5;
-  const FragmentView view(23, 17, s.coc, s.depth, s.channels);
-  const LensCells cells = lens_cells(settings);
+  const RayPlan plan = plan_rays({5});
   std::vector<std::set<std::pair<float, std::int64_t>>> met(s.count());
-  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const auto winner = reference::rdb_scatter(view, settings, cells, cell);
+  for (std::size_t cell = 0; cell < plan.cells.centres.size(); ++cell) {
+    const auto winner = reference::rdb_scatter(s.frame(), plan, cell);
     for (std::size_t i = 0; i < winner.size(); ++i) {
       if (winner[i] >= 0) met[i].emplace(s.depth[static_cast<std::size_t>(winner[i])], winner[i]);
     }
   }
-  const Words nearest = hits(s, settings, &session()).nearest;
+  const auto nearest = hits(s, 5, device());
   int moved = 0;
   for (std::size_t i = 0; i < s.count(); ++i) {
     const std::uint32_t expected =
@@ -101,14 +97,11 @@ TEST(Nearest, IsTheSmallestDepthOfAllCellsWinners) {
 
 TEST(Nearest, OnlyOnDemand) {
   const Scene s = random_scene({9, 5}, 1);
-  EXPECT_TRUE(defocus(s.frame(), {}, {}, &session()).nearest.empty());
+  EXPECT_TRUE(run_chain(s.frame(), {}, device()).nearest.empty());
   MethodSettings literal;
-  DefocusResult details;
-  apply_method(s.frame(), literal, &session(), {}, &details);
-  EXPECT_TRUE(details.nearest.empty());
-  literal.rdb.wants_nearest = true;
-  for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
-    apply_method(s.frame(), literal, on, {}, &details);
+  EXPECT_TRUE(apply_method(s.frame(), literal, device()).nearest.empty());
+  for (Stages* on : device_and_twins()) {
+    const MethodResult details = apply_method(s.frame(), literal, *on, true);
     for (const std::uint32_t i : details.nearest) EXPECT_LT(i, s.count());
     EXPECT_EQ(details.nearest.size(), s.count());
   }
@@ -116,8 +109,8 @@ TEST(Nearest, OnlyOnDemand) {
 
 TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
   const Scene s = bar({48, 24}, 20, 30);
-  for (Session* on : {static_cast<Session*>(nullptr), &session()}) {
-    const DefocusResult r = through(s, {}, on);
+  for (Stages* on : device_and_twins()) {
+    const MethodResult r = through(s, {}, *on);
     for (std::size_t i = 0; i < s.count(); ++i) {
       const int x = static_cast<int>(i) % 48;
       const float depth = s.depth[r.nearest[i]];
@@ -139,7 +132,7 @@ TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
 TEST(NearestPicture, MadeUpSurfacesHaveNoData) {
   Scene s = bar({48, 24}, 23, 26);
   for (std::size_t i = 0; i < s.count(); ++i) s.coc[i] = s.depth[i] == 1.0f ? 0 : 6 * 256;
-  const DefocusResult r = through(s, {}, &session());
+  const MethodResult r = through(s, {}, device());
   EXPECT_GT(r.report.behind, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const bool is_bar = s.depth[i] == 1.0f;
@@ -155,7 +148,7 @@ TEST(NearestPicture, WhatSplitTakesFromBesideHasTheDataFromThere) {
     if (x != 19 && x != 30) continue;
     for (std::size_t c = 0; c < 2; ++c) s.channels[c][i] = 0.5f;
   }
-  const DefocusResult r = through(s, {}, &session());
+  const MethodResult r = through(s, {}, device());
   EXPECT_GT(r.report.split, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const int x = static_cast<int>(i) % 48;
@@ -171,9 +164,9 @@ TEST(NearestPicture, BordersGiveTheEdgesData) {
   s.coc.assign(s.count(), 5 * 256);
   s.depth.assign(s.count(), 2.0f);
   for (const Border border : {Border::clamp, Border::black, Border::renormalise}) {
-    DefocusSettings settings;
+    ChainSettings settings;
     settings.border = border;
-    const DefocusResult r = through(s, settings, &session());
+    const MethodResult r = through(s, settings, device());
     for (std::size_t i = 0; i < s.count(); ++i) {
       ASSERT_LT(r.nearest[i], s.count());
       const int dx = static_cast<int>(r.nearest[i] % 20) - static_cast<int>(i % 20);

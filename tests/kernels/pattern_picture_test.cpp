@@ -15,8 +15,7 @@ class PatternPicture : public ::testing::Test {
 
 TEST_F(PatternPicture, ShiftsOfAPeriodicWallAreItsPeriods) {
   const PatternScene s = scene_of(bricks);
-  const auto shifts =
-      find_pattern_shifts(s.frame(), pattern_pixels(s.frame(), s.channels), PatternSettings());
+  const auto shifts = find_pattern_shifts(s.frame(), s.words(), PatternSettings());
   ASSERT_GE(shifts.size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(shifts[i].x % 24, 0) << shifts[i].x;
@@ -30,8 +29,7 @@ TEST_F(PatternPicture, ShiftsOfAPeriodicWallAreItsPeriods) {
 TEST_F(PatternPicture, ShiftsFromOneSurfaceToAnotherDoNotCount) {
   const auto halves = [](int x, int y, int c) { return noise(x % 100, y, c); };
   const auto finds_half = [](const PatternScene& s) {
-    const auto shifts =
-        find_pattern_shifts(s.frame(), pattern_pixels(s.frame(), s.channels), PatternSettings());
+    const auto shifts = find_pattern_shifts(s.frame(), s.words(), PatternSettings());
     return std::count(shifts.begin(), shifts.end(), PatternShift{100, 0});
   };
   PatternScene s(picture);
@@ -83,8 +81,7 @@ TEST_F(PatternPicture, AFloorAndAWallThatSlantComeBackBehindABar) {
 
 TEST_F(PatternPicture, ParallelShiftsOfAFloorAreItsPeriodAndFrontalWallsHaveNone) {
   const PatternScene s = slanting_scene(false);
-  const auto shifts =
-      find_parallel_shifts(s.frame(), pattern_pixels(s.frame(), s.channels), PatternSettings());
+  const auto shifts = find_parallel_shifts(s.frame(), s.words(), PatternSettings());
   ASSERT_GE(shifts.size(), 2u);
   const double period = 2 * std::numbers::pi * 12;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -93,10 +90,7 @@ TEST_F(PatternPicture, ParallelShiftsOfAFloorAreItsPeriodAndFrontalWallsHaveNone
   }
   EXPECT_EQ(shifts[0].x, -shifts[1].x);
   const PatternScene frontal = scene_of(bricks);
-  EXPECT_TRUE(find_parallel_shifts(frontal.frame(),
-                                   pattern_pixels(frontal.frame(), frontal.channels),
-                                   PatternSettings())
-                  .empty());
+  EXPECT_TRUE(find_parallel_shifts(frontal.frame(), frontal.words(), PatternSettings()).empty());
 }
 
 TEST_F(PatternPicture, NoiseStaysSmooth) {

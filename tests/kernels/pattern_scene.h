@@ -50,13 +50,28 @@ struct PatternScene {
     }
   }
 
-  PatternFrame frame() const {
-    return {size.width, size.height, encoded, coc, behind_coc, is_behind, inverse, behind_inverse};
+  Frame frame() const {
+    Frame f{size.width, size.height, coc, {}, channels};
+    f.inverse = inverse;
+    return f;
+  }
+  Frame hidden() const {
+    Frame f{size.width, size.height, behind_coc, {}, behind};
+    f.inverse = behind_inverse;
+    return f;
+  }
+  Words words() const {
+    return pattern_pixels(encoded, channels, {is_behind.begin(), is_behind.end()});
   }
 
   std::vector<Plane> improved(const PatternSettings& settings = {}) const {
-    std::vector<Plane> planes = behind;
-    improve_by_patterns(session(), frame(), channels, settings, planes);
+    return improved(device(), settings);
+  }
+  std::vector<Plane> improved(Stages& stages, const PatternSettings& settings = {}) const {
+    Frame result = hidden();
+    improve_by_patterns(stages, frame(), words(), settings, result);
+    std::vector<Plane> planes;
+    for (const auto& channel : result.channels) planes.emplace_back(channel.begin(), channel.end());
     return planes;
   }
 

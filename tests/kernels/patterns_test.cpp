@@ -34,17 +34,17 @@ const std::vector<PatternShift> some_shifts{{3, 1},    {-3, -1}, {0, 5},      {-
 
 void expect_twins_bits(const PatternScene& s, PatternSettings settings) {
   const Size size = s.size;
-  const auto pixels = pattern_pixels(s.frame(), s.channels);
-  const std::uint64_t twin = hash_of_sums(
-      reference::match_patterns(s.frame(), pixels, s.channels, s.behind, some_shifts, settings));
+  const std::uint64_t twin =
+      hash_of_sums(twins().patterns(s.frame(), s.hidden(), s.words(), some_shifts, settings));
   const PatternMargins margins(some_shifts, settings.window_px);
   for (const int rows : {0, 1, 7, 64}) {
     if (rows == 1 && size.height > 50) continue;
-    if (rows > 0) settings.memory_bytes = pattern_band_bytes(size.width, margins, rows);
+    const InBands in_bands(
+        session(), rows > 0 ? pattern_band_bytes(size.width, margins, rows) : default_memory_bytes);
     session().set_work_group(rows == 7 ? 3 : 0, rows == 7 ? 1 : 0);
-    EXPECT_EQ(hash_of_sums(match_patterns(session(), s.frame(), pixels, s.channels, s.behind,
-                                          some_shifts, settings)),
-              twin)
+    EXPECT_EQ(
+        hash_of_sums(device().patterns(s.frame(), s.hidden(), s.words(), some_shifts, settings)),
+        twin)
         << size.width << "x" << size.height << ", window " << settings.window_px << ", rows "
         << rows;
   }
@@ -72,13 +72,11 @@ TEST(Patterns, TheLargestWindowFullOfTheLargestDifferencesFits) {
   s.is_behind.assign(s.pixels(), 1);
   PatternSettings settings;
   settings.window_px = DEFRAY_PATTERN_LARGEST_WINDOW;
-  const auto pixels = pattern_pixels(s.frame(), s.channels);
-  const PatternSums sums =
-      match_patterns(session(), s.frame(), pixels, s.channels, s.behind, {{1, 0}}, settings);
+  const PatternSums sums = device().patterns(s.frame(), s.hidden(), s.words(), {{1, 0}}, settings);
   const std::size_t middle = s.at(50, 50);
   EXPECT_NEAR(sums.weighted_square[middle] / sums.weight[middle], 3 * 255 * 255, 1);
-  EXPECT_EQ(hash_of_sums(sums), hash_of_sums(reference::match_patterns(
-                                    s.frame(), pixels, s.channels, s.behind, {{1, 0}}, settings)));
+  EXPECT_EQ(hash_of_sums(sums),
+            hash_of_sums(twins().patterns(s.frame(), s.hidden(), s.words(), {{1, 0}}, settings)));
 }
 
 TEST(Patterns, TheWholeStageEqualsItsTwinOnAwkwardFrames) {
@@ -87,9 +85,8 @@ TEST(Patterns, TheWholeStageEqualsItsTwinOnAwkwardFrames) {
   for (const Size size : sizes) {
     PatternScene s(size);
     s.paint(bricks, [](int x, int y) { return x % 31 == 7 || y % 29 == 3; });
-    auto twin = s.behind;
-    reference::improve_by_patterns(s.frame(), s.channels, PatternSettings(), twin);
-    EXPECT_EQ(hash_of(s.improved()), hash_of(twin)) << size.width << "x" << size.height;
+    EXPECT_EQ(hash_of(s.improved()), hash_of(s.improved(twins())))
+        << size.width << "x" << size.height;
   }
 }
 
@@ -97,7 +94,7 @@ TEST(Patterns, VarianceIsThatOfTheWindow) {
   const PatternScene s = scene_of(noise, {110, 30});
   PatternSettings settings;
   settings.window_px = 5;
-  const auto pixels = pattern_pixels(s.frame(), s.channels);
+  const auto pixels = s.words();
   const Plane variance = pattern_variance(s.frame(), pixels, settings);
   for (const auto& [px, py] : {std::pair{91, 15}, {90, 0}, {103, 29}, {94, 7}, {95, 7}}) {
     double n = 0, sum[3] = {}, squares = 0;

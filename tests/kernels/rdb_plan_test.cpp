@@ -29,7 +29,7 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
 
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
   const std::size_t row = 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-  expect_error(ErrorKind::usage, {"--memory is 0.004195 MiB", "at least 0.005 MiB"},
+  expect_error(ErrorKind::usage, {"memory is 0.004195 MiB", "at least 0.005 MiB"},
                [&] { plan_rdb_passes(100, 10, 69, 1, row - 1); });
   EXPECT_EQ(plan_rdb_passes(100, 10, 69, 1, row).size(), 690u);
   EXPECT_NO_THROW(plan_rdb_passes(100, 10, 69, 1, 0.005 * 1048576));
@@ -42,7 +42,8 @@ TEST(LensCells, RoundApertureOfThePaper) {
   // pi/4 of the square, as the cells get small.
   EXPECT_NEAR(make_lens_cells(64, false).centres.size() / 4096.0, 0.785398, 0.005);
   for (const int n : {0, -1, 65}) {
-    expect_error(ErrorKind::usage, {"--rdb", "1 to 64"}, [n] { make_lens_cells(n, false); });
+    expect_error(ErrorKind::usage, {"cells_per_side", "1 to 64"},
+                 [n] { make_lens_cells(n, false); });
   }
 }
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <random>
 
-#include "rdb/rdb.h"
+#include "device/rdb_run.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -39,15 +39,16 @@ using CellWinners = std::vector<std::vector<std::int64_t>>;
 /// Every cell's winners, [cell][pixel], gathered from all passes; checks the depths beside them.
 CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings,
                               const std::vector<std::int32_t>& coc, const Plane& depth) {
-  const std::vector<Plane> channels{depth};
-  RdbRun run(s, {size.width, size.height, coc, depth, channels}, settings);
+  const Frame frame{size.width, size.height, coc, depth, std::vector<Plane>{depth}};
+  const RayPlan plan = plan_rays(settings);
+  RdbRun run(s, frame, plan);
   CellWinners all(make_lens_cells(settings.cells_per_side, settings.jitter).centres.size(),
                   std::vector<std::int64_t>(depth.size(), -2));
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     const std::vector<RdbWinner> winners = run.winners(pass);
     const std::size_t band = winners.size() / static_cast<std::size_t>(pass.cell_count);
-    const std::int64_t window = std::int64_t{pass.window_y} * size.width;
+    const auto window = static_cast<std::int64_t>(run.first_source(pass));
     const std::int64_t first = std::int64_t{pass.band_y} * size.width;
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const RdbWinner& w = winners[i];
@@ -70,12 +71,11 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
 /// Cells whose winner differs between kernel and twin, over a whole frame.
 std::size_t differing_winners(Session& s, Size size, const RdbSettings& settings,
                               const std::vector<std::int32_t>& coc, const Plane& depth) {
-  const LensCells cells = make_lens_cells(settings.cells_per_side, settings.jitter);
+  const RayPlan plan = plan_rays(settings);
   const CellWinners kernel = winners_on_device(s, size, settings, coc, depth);
   std::size_t differing = 0;
   for (std::size_t cell = 0; cell < kernel.size(); ++cell) {
-    const auto twin =
-        reference::rdb_scatter({size.width, size.height, coc, depth, {}}, settings, cells, cell);
+    const auto twin = reference::rdb_scatter({size.width, size.height, coc, depth}, plan, cell);
     for (std::size_t i = 0; i < twin.size(); ++i) differing += kernel[cell][i] != twin[i];
   }
   return differing;
@@ -116,7 +116,7 @@ TEST(RdbScatter, TwinIsTheDefinition) {
       const Plane depth = random_depth(size, ++seed);
       for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
         const auto twin =
-            reference::rdb_scatter({size.width, size.height, coc, depth, {}}, {}, cells, cell);
+            reference::rdb_scatter({size.width, size.height, coc, depth}, {cells}, cell);
         for (std::size_t i = 0; i < twin.size(); ++i) {
           const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
           ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc, depth))
@@ -154,7 +154,7 @@ TEST(RdbScatter, BandsKeepTheWinners) {
   RdbSettings settings;
   settings.cells_per_side = 3;
   for (const std::size_t rows : {1, 2, 5, 46}) {
-    settings.memory_bytes = rows * 61 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+    const InBands in_bands(session(), rows * 61 * (rdb_bytes_a_cell + rdb_bytes_a_sum));
     EXPECT_EQ(differing_winners(session(), size, settings, coc, depth), 0u) << rows << " rows";
   }
 }

@@ -1,9 +1,8 @@
 // The whole ray distribution buffer: means against the twin, and the bits that must never change.
-#include "rdb/rdb.h"
-
 #include <cmath>
 #include <limits>
 
+#include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -25,7 +24,9 @@ Input make_input(Size size, double radius, std::uint32_t seed) {
 }
 
 std::vector<Plane> render(Session& s, const Input& in, const RdbSettings& settings) {
-  return render_rdb(s, in.size.width, in.size.height, in.coc, in.depth, in.channels, settings);
+  return DeviceStages(s)
+      .rays({in.size.width, in.size.height, in.coc, in.depth, in.channels}, plan_rays(settings))
+      .means;
 }
 
 RdbSettings small_settings(bool jitter = false) {
@@ -44,9 +45,11 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
     const Input in = make_input({67, 41}, 6, 21);
     const RdbSettings settings = small_settings(jitter);
     const auto kernel = render(session(), in, settings);
-    const auto twin = reference::render_rdb(67, 41, in.coc, in.depth, in.channels, settings);
+    const auto twin =
+        twins().rays({67, 41, in.coc, in.depth, in.channels}, plan_rays(settings)).means;
     EXPECT_EQ(hash_of(kernel), hash_of(twin));
-    const auto exact = reference::exact_rdb({67, 41, in.coc, in.depth, in.channels}, settings);
+    const auto exact =
+        reference::exact_rays({67, 41, in.coc, in.depth, in.channels}, plan_rays(settings));
     const double cells =
         static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
     for (std::size_t c = 0; c < 4; ++c) {
@@ -72,7 +75,7 @@ TEST(Rdb, SameBitsForEveryMemoryBudget) {
     const std::size_t row =
         size.width * (rdb_bytes_a_cell + rdb_bytes_a_sum);  // one row of one cell with its sums
     for (const std::size_t bytes : {row, 2 * row, 3 * row + 100, 17 * row, 36 * row}) {
-      settings.memory_bytes = bytes;
+      const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
       EXPECT_EQ(hash_of(render(session(), in, settings)), whole) << bytes << " bytes";
       EXPECT_EQ(hash_of(render(session_without_int64(), in, settings)), whole) << bytes << " bytes";
     }
@@ -128,8 +131,10 @@ TEST(Rdb, ClosedApertureKeepsInfinityAndMinusZero) {
   in.channels[0][5] = std::numeric_limits<float>::infinity();
   in.channels[1][6] = -0.0f;
   EXPECT_EQ(hash_of(render(session(), in, small_settings())), hash_of(in.channels));
-  EXPECT_EQ(hash_of(reference::render_rdb(9, 7, in.coc, in.depth, in.channels, small_settings())),
-            hash_of(in.channels));
+  EXPECT_EQ(
+      hash_of(
+          twins().rays({9, 7, in.coc, in.depth, in.channels}, plan_rays(small_settings())).means),
+      hash_of(in.channels));
 }
 
 TEST(Rdb, FewerChannelsGiveTheSamePlanes) {

@@ -1,13 +1,12 @@
 // OpenCL errors say what failed, where and why.
 #include "opencl/session.h"
 
-#include <Imath/half.h>
-
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "lens/coc.h"
+#include "lens/lens.h"
 #include "support.h"
 
 namespace defray::test {
@@ -16,15 +15,15 @@ namespace {
 TEST(Session, AnUnknownKernelIsNamed) {
   expect_error(ErrorKind::device,
                {"clCreateKernel nonesuch", "CL_INVALID_KERNEL_NAME", session().info().name},
-               [] { session().launch("nonesuch", 1, {1}); });
+               [] { session().launch("nonesuch", {1}); });
 }
 
 TEST(Session, BuffersBeyondTheDevicesLimitAreRefused) {
   const std::size_t too_much = session().info().max_buffer_bytes + 1;
-  expect_error(ErrorKind::device, {"allows at most", "--memory"},
+  expect_error(ErrorKind::device, {"allows at most", "memory"},
                [&] { session().buffer(too_much); });
   const char byte = 0;
-  expect_error(ErrorKind::device, {"allows at most", "--max-coc"},
+  expect_error(ErrorKind::device, {"allows at most", "max_coc_px"},
                [&] { session().view(&byte, too_much); });
 }
 
@@ -38,6 +37,32 @@ Session with_substitution(const Substitution& substitution) {
   SessionOptions options;
   options.substitutions = {substitution};
   return Session(device_under_test(), options);
+}
+
+TEST(Session, WorkGroupsAreOfOneKernelOrOfAll) {
+  Session own = with_substitution({"__kernel void coc(",
+                                   "__kernel void coc(__global uint* size) {\n"
+                                   "  size[0] = get_local_size(0);\n"
+                                   "  size[1] = get_local_size(1);\n"
+                                   "}\n"
+                                   "__kernel void former_coc("});
+  const auto size_of_group = [&] {
+    std::array<std::uint32_t, 2> size{};
+    const cl::Buffer buffer = own.buffer(sizeof size);
+    own.launch("coc", {64, 4}, buffer);
+    own.read(buffer, size.data(), sizeof size);
+    return size;
+  };
+  using Size = std::array<std::uint32_t, 2>;
+  own.set_work_group(8, 2);
+  EXPECT_EQ(size_of_group(), (Size{8, 2}));
+  own.set_work_group("coc", 4, 4);
+  own.set_work_group("edges", 2, 1);
+  EXPECT_EQ(size_of_group(), (Size{4, 4}));
+  own.set_work_group(8, 1);
+  EXPECT_EQ(size_of_group(), (Size{8, 1}));
+  expect_error(ErrorKind::usage, {"work-items", "allows at most"},
+               [&] { own.set_work_group("coc", own.info().max_work_group, 2); });
 }
 
 TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {
@@ -95,34 +120,19 @@ TEST(Session, EveryFileBuildsAlone) {
   EXPECT_EQ(std::vector<std::string>(names.begin(), names.end()), session().kernel_names());
 }
 
-TEST(Session, PicturesAreFloatsOrHalves) {
-  const Plane plane{0, -1.5f, 65504, 1.0f / 3, 1e-7f};
-  Plane floats(plane.size());
-  session().read(session().picture(plane.data(), plane.size()), floats.data(),
-                 plane.size() * sizeof(float));
-  EXPECT_EQ(floats, plane);
-  SessionOptions options;
-  options.half_planes = true;
-  Session own(device_under_test(), options);
-  std::vector<Imath::half> halves(plane.size());
-  own.read(own.picture(plane.data(), plane.size()), halves.data(),
-           plane.size() * sizeof(Imath::half));
-  for (std::size_t i = 0; i < plane.size(); ++i) EXPECT_EQ(halves[i], Imath::half(plane[i]));
-}
-
 TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
   SessionOptions options;
   options.measures = true;
   Session own(device_under_test(), options);
   EXPECT_TRUE(own.take_kernel_seconds().empty());
   const Plane depth(1000, 2);
-  coc_on_device(own, Lens(), 100, depth);
+  DeviceStages(own).coc(Lens(), 100, depth);
   const auto seconds = own.take_kernel_seconds();
   ASSERT_EQ(seconds.size(), 1u);
   EXPECT_EQ(seconds.begin()->first, "coc");
   EXPECT_GE(seconds.begin()->second, 0);
   EXPECT_TRUE(own.take_kernel_seconds().empty());
-  coc_on_device(session(), Lens(), 100, depth);
+  device().coc(Lens(), 100, depth);
   EXPECT_TRUE(session().take_kernel_seconds().empty());
 }
 
@@ -135,8 +145,8 @@ TEST(Session, FastArithmeticBuildsAndStaysNear) {
   lens.focus_distance_units = 3;
   lens.aperture_diameter_mm = 100;
   const Plane depth = random_depth({64, 16}, 1);
-  const auto strict_coc = coc_on_device(session(), lens, 64, depth);
-  const auto fast_coc = coc_on_device(fast, lens, 64, depth);
+  const auto strict_coc = device().coc(lens, 64, depth);
+  const auto fast_coc = DeviceStages(fast).coc(lens, 64, depth);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (std::isinf(depth[i])) continue;  // -cl-fast-relaxed-math leaves open what Inf gives
     EXPECT_NEAR(fast_coc[i], strict_coc[i], 1) << depth[i];

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/stages.h"
+#include "chain/lens_grid.h"
+#include "reference/twin_stages.h"
 #include "stages_support.h"
 
 namespace defray::test {
@@ -13,43 +14,45 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-Fragments flat_fragments(int width, int height, int layers, double radius_px) {
-  Fragments f{width, height, layers, {}, {}, {}, {}};
-  const auto count = static_cast<std::size_t>(width * height * layers);
-  f.coc_quanta.assign(count, static_cast<std::int32_t>(256 * radius_px));
-  f.depth.assign(count, 2);
-  f.coverage.assign(count, DEFRAY_WHOLE);
-  f.channels.assign(1, Plane(count));
+Frame flat_fragments(int width, int height, int layers, double radius_px) {
+  Frame f;
+  f.width = width;
+  f.height = height;
+  f.layers = layers;
+  f.coc_quanta = Quanta(f.surfaces(), static_cast<std::int32_t>(256 * radius_px));
+  f.depth = Values<float>(f.surfaces(), 2);
+  f.coverage = Words(f.surfaces(), DEFRAY_WHOLE);
+  f.channels = Planes{Values<float>(f.surfaces())};
   return f;
 }
 
 TEST(Soften, OneColourStaysBitForBit) {
   for (const float colour :
        {0.1f, -0.0f, 1e-45f, std::numeric_limits<float>::max(), infinite, nan}) {
-    Fragments f = flat_fragments(23, 17, 2, 40);
-    f.channels[0].assign(f.coc_quanta.size(), colour);
-    expect_same_bits(soften(session(), f, 16)[0], f.channels[0]);
+    Frame f = flat_fragments(23, 17, 2, 40);
+    f.channels[0] = Values<float>(f.coc_quanta.size(), colour);
+    expect_same_bits(device().soften(f, 16)[0], f.channels[0]);
   }
 }
 
 TEST(Soften, ACellBelowAPixelChangesNothing) {
-  Fragments f = flat_fragments(23, 17, 1, 0);
+  Frame f = flat_fragments(23, 17, 1, 0);
   f.channels[0] = random_plane({23, 17}, 4);
   // The diameter is as many pixels as a grid has cells a side.
   const auto sharp = static_cast<std::int32_t>(128 * cells_a_side(64));
   for (const std::int32_t quanta : {0, sharp, -sharp}) {
-    std::fill(f.coc_quanta.begin(), f.coc_quanta.end(), quanta);
-    expect_same_bits(soften(session(), f, 64)[0], f.channels[0]);
+    f.coc_quanta = Quanta(f.surfaces(), quanta);
+    expect_same_bits(device().soften(f, 64)[0], f.channels[0]);
   }
-  std::fill(f.coc_quanta.begin(), f.coc_quanta.end(), 2 * sharp);
-  EXPECT_NE(hash_of(soften(session(), f, 64)), hash_of(f.channels));
+  f.coc_quanta = Quanta(f.surfaces(), 2 * sharp);
+  EXPECT_NE(hash_of_planes(device().soften(f, 64)), hash_of_planes(f.channels));
 }
 
 TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
   for (const double radius : {6.0, -10.0, 20.0, 80.0}) {
-    Fragments f = flat_fragments(101, 101, 1, radius);
-    f.channels[0][f.index(50, 50, 0)] = 1000;
-    const Plane out = soften(session(), f, 64)[0];
+    Frame f = flat_fragments(101, 101, 1, radius);
+    f.channels[0].edit()[f.index(50, 50, 0)] = 1000;
+    const auto out = device().soften(f, 64)[0];
     const double cell = 2 * std::fabs(radius) / cells_a_side(64);
     double sum = 0;
     for (int y = 0; y < 101; ++y) {
@@ -69,47 +72,47 @@ TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
 }
 
 TEST(Soften, SurfacesDoNotMixNorDoLayersOrEmptyOnes) {
-  Fragments f = flat_fragments(40, 20, 2, 20);
+  Frame f = flat_fragments(40, 20, 2, 20);
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 40; ++x) {
-      if (x >= 20) f.coc_quanta[f.index(x, y, 0)] = 10 * 256;
-      f.channels[0][f.index(x, y, 0)] = x >= 20 ? 1.0f : 0.25f;
-      f.channels[0][f.index(x, y, 1)] = x % 5 == 0 ? 100.0f : 7.0f;
-      if (x % 5 == 0) f.coverage[f.index(x, y, 1)] = DEFRAY_SYNTHESISED;  // covers nothing
+      if (x >= 20) f.coc_quanta.edit()[f.index(x, y, 0)] = 10 * 256;
+      f.channels[0].edit()[f.index(x, y, 0)] = x >= 20 ? 1.0f : 0.25f;
+      f.channels[0].edit()[f.index(x, y, 1)] = x % 5 == 0 ? 100.0f : 7.0f;
+      if (x % 5 == 0) f.coverage.edit()[f.index(x, y, 1)] = DEFRAY_SYNTHESISED;  // covers nothing
     }
   }
-  expect_same_bits(soften(session(), f, 16)[0], f.channels[0]);
+  expect_same_bits(device().soften(f, 16)[0], f.channels[0]);
 }
 
 TEST(Soften, WithoutCoverageEveryFragmentIsWhole) {
-  Fragments f = flat_fragments(20, 20, 1, 20);
+  Frame f = flat_fragments(20, 20, 1, 20);
   f.channels[0] = random_plane({20, 20}, 3);
-  const auto whole = soften(session(), f, 16);
-  f.coverage.clear();
-  EXPECT_EQ(hash_of(soften(session(), f, 16)), hash_of(whole));
-  EXPECT_EQ(hash_of(reference::soften(f, 16)), hash_of(whole));
+  const auto whole = device().soften(f, 16);
+  f.coverage = {};
+  EXPECT_EQ(hash_of_planes(device().soften(f, 16)), hash_of_planes(whole));
+  EXPECT_EQ(hash_of_planes(twins().soften(f, 16)), hash_of_planes(whole));
 }
 
 TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
   for (const Size size : {Size{1, 1}, {1, 9}, {9, 1}, {2, 2}, {17, 33}}) {
     for (const double coc_px : {8.0, 4194304.0}) {
-      Frame f(size.width, size.height);
+      Canvas f(size.width, size.height);
       for (std::size_t i = 0; i < f.count(); ++i) {
         f.coc[i] = static_cast<std::int32_t>(256 * coc_px * (i / 5 % 3 - 1.0));
         f.inverse[i] = i % 7 ? 0.1f * static_cast<float>(i % 7) : infinite;
         f.channels[0][i] = i % 11 == 0 ? nan : i % 5 == 0 ? infinite : 0.3f;
       }
-      const Words source = repair(session(), f.width, f.height, f.coc);
-      EXPECT_EQ(source, reference::repair(f.width, f.height, f.coc));
+      const Words source = device().repair({f.width, f.height, f.coc});
+      EXPECT_EQ(source, twins().repair({f.width, f.height, f.coc}));
       for (const std::uint32_t s : source) EXPECT_LT(s, f.count());
-      const Words mixed = reference::edges(f.width, f.height, f.coc);
+      const Words mixed = twins().edges({f.width, f.height, f.coc});
       EXPECT_EQ(f.mixed(), mixed);
-      const Surface behind = f.filled(), twin = reference::fill(f.view(), mixed);
+      const Frame behind = f.filled(), twin = twins().fill(f.view(), mixed);
       EXPECT_EQ(behind.coc_quanta, twin.coc_quanta);
       const auto [front, rest] = f.parted();
-      const auto twins = reference::split(f.view(), mixed, twin);
-      EXPECT_EQ(front.coverage, twins.front.coverage);
-      EXPECT_EQ(rest.coc_quanta, twins.behind.coc_quanta);
+      const Surfaces by_twins = twins().split(f.view(), mixed, twin);
+      EXPECT_EQ(front.coverage, by_twins.front.coverage);
+      EXPECT_EQ(rest.coc_quanta, by_twins.behind.coc_quanta);
     }
   }
 }

@@ -13,8 +13,8 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::int32_t bar_coc = -512;  // an edge in focus would stay as it is
 
 /// A bar over the plane whose edges cover their pixels by `share`; depth sees the bar or the plane.
-Frame bar_with_mixed_edges(float share, bool saw_front) {
-  Frame f(60, 20);
+Canvas bar_with_mixed_edges(float share, bool saw_front) {
+  Canvas f(60, 20);
   const float front[3] = {2.0f, 1.5f, 0.1f}, behind[3] = {0.1f, 0.2f, 1.8f};
   f.add_bar(saw_front ? 24 : 25, saw_front ? 36 : 35, bar_coc);
   f.each([&](int x, int y) {
@@ -28,7 +28,7 @@ Frame bar_with_mixed_edges(float share, bool saw_front) {
 TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
   for (const bool saw_front : {false, true}) {
     for (const float share : {0.3f, 0.5f, 0.6f, 0.74f}) {
-      const Frame f = bar_with_mixed_edges(share, saw_front);
+      const Canvas f = bar_with_mixed_edges(share, saw_front);
       const auto [front, behind] = f.parted();
       for (int y = 0; y < f.height; ++y) {
         for (const int x : {24, 35}) {
@@ -54,7 +54,7 @@ TEST(Split, GivesTheCoverageBackAndBothSurfacesGiveTheColour) {
 
 TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
   // The bar, a strip beside it, and the plane, of which `fill` may say that it lies behind the bar.
-  Frame f(60, 20);
+  Canvas f(60, 20);
   f.add_bar(24, 36, bar_coc);
   f.each([&](int x, int y) {
     const bool is_strip = x >= 36 && x < 40;
@@ -62,12 +62,12 @@ TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
     if (x >= 24 && x < 36) f.paint(x, y, 0.8f, 0.2f, 0.1f);
     if (is_strip) f.paint(x, y, 0.75f, 0.7f, 0.6f);
   });
-  Surface filled = f.filled();
+  Frame filled = f.filled();
   for (int y = 0; y < f.height; ++y) {
-    filled.coc_quanta[f.at(36, y)] = 1536;
-    for (Plane& plane : filled.channels) plane[f.at(36, y)] = 0;
+    filled.coc_quanta.edit()[f.at(36, y)] = 1536;
+    for (auto& plane : filled.channels) plane.edit()[f.at(36, y)] = 0;
   }
-  const auto [front, behind] = split(session(), f.view(), f.mixed(), filled);
+  const auto [front, behind] = device().split(f.view(), f.mixed(), filled);
   for (int y = 0; y < f.height; ++y) {
     // The pixel is all strip: nothing to take apart, and nothing brighter than the strip.
     EXPECT_EQ(front.coverage[f.at(36, y)], DEFRAY_WHOLE);
@@ -76,7 +76,7 @@ TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
 }
 
 TEST(Split, AnEdgeInFocusStaysAsItIs) {
-  Frame f = bar_with_mixed_edges(0.5f, true);
+  Canvas f = bar_with_mixed_edges(0.5f, true);
   f.add_bar(24, 36, 255);
   const auto [front, behind] = f.parted();
   for (std::size_t c = 0; c < 3; ++c) expect_same_bits(front.channels[c], f.channels[c]);
@@ -84,7 +84,7 @@ TEST(Split, AnEdgeInFocusStaysAsItIs) {
 }
 
 TEST(Split, WithoutAStepNothingChanges) {
-  Frame f(31, 17);
+  Canvas f(31, 17);
   f.channels = {random_plane({31, 17}, 1), random_plane({31, 17}, 2)};
   f.channels[0][5] = -0.0f;
   f.channels[1][6] = nan;
@@ -100,7 +100,7 @@ TEST(Split, WithoutAStepNothingChanges) {
 
 TEST(Split, AThinBrightThingIsTakenApart) {
   // A line one pixel wide at half a pixel's offset: half in one column, half in the next.
-  Frame f(40, 20);
+  Canvas f(40, 20);
   for (int y = 0; y < f.height; ++y) f.paint(19, y, 4, 4, 4);  // the part that depth saw
   for (int y = 0; y < f.height; ++y) f.paint(20, y, 1, 1, 1);  // a quarter of it
   f.add_bar(19, 20, bar_coc);
@@ -117,7 +117,7 @@ TEST(Split, AThinBrightThingIsTakenApart) {
 
 TEST(Split, WhatIsNotFiniteStaysWhole) {
   for (const float odd : {infinite, -infinite, nan}) {
-    Frame f = bar_with_mixed_edges(0.5f, true);
+    Canvas f = bar_with_mixed_edges(0.5f, true);
     f.paint(24, 10, odd, 0.5f, 0.5f);
     const auto [front, behind] = f.parted();
     const std::size_t i = f.at(24, 10);

@@ -3,21 +3,19 @@
 #include <functional>
 #include <vector>
 
-#include "chain/stages.h"
+#include "frame/stages.h"
 #include "support.h"
 
 namespace defray::test {
 
-using Words = std::vector<std::uint32_t>;
-
 /// A frame to draw on: a plane 6 px of CoC behind the focus, 1/depth 0.2, black.
-struct Frame {
+struct Canvas {
   int width, height;
   std::vector<std::int32_t> coc;
   Plane inverse;
   std::vector<Plane> channels;
 
-  Frame(int w, int h) : width(w), height(h), coc(count(), 1536), inverse(count(), 0.2f) {
+  Canvas(int w, int h) : width(w), height(h), coc(count(), 1536), inverse(count(), 0.2f) {
     channels.assign(4, Plane(count()));
     channels[3].assign(count(), 1.0f);
   }
@@ -25,10 +23,14 @@ struct Frame {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
-  FrameView view() const { return {width, height, coc, inverse, channels}; }
-  Words mixed() const { return edges(session(), width, height, coc); }
-  Surface filled() const { return fill(session(), view(), mixed()); }
-  Surfaces parted() const { return split(session(), view(), mixed(), filled()); }
+  Frame view() const {
+    Frame f{width, height, coc, {}, channels};
+    f.inverse = inverse;
+    return f;
+  }
+  Words mixed() const { return device().edges(view()); }
+  Frame filled() const { return device().fill(view(), mixed()); }
+  Surfaces parted() const { return device().split(view(), mixed(), filled()); }
 
   void paint(int x, int y, float r, float g, float b) {
     channels[0][at(x, y)] = r;
@@ -52,8 +54,8 @@ struct Frame {
 };
 
 /// Bits, so that NaN equals itself and -0 is not 0.
-inline void expect_same_bits(const Plane& a, const Plane& b) {
-  EXPECT_EQ(hash_of({a}), hash_of({b}));
+inline void expect_same_bits(const Values<float>& a, const Values<float>& b) {
+  EXPECT_EQ(hash_of_planes({a}), hash_of_planes({b}));
 }
 
 }  // namespace defray::test

@@ -17,7 +17,7 @@ TEST(Tiltshift, KernelEqualsTwinBitForBit) {
                                        {0.3, 0.9, 0.01},
                                        {0.5, 1, 50}}) {
       const auto p = tiltshift_params(s, size.width, size.height, -3, size.height + 5);
-      EXPECT_EQ(tiltshift_on_device(session(), p), reference::tiltshift(p))
+      EXPECT_EQ(device().tiltshift(p), twins().tiltshift(p))
           << size.width << "x" << size.height << ", centre " << s.band_centre;
     }
   }
@@ -26,7 +26,7 @@ TEST(Tiltshift, KernelEqualsTwinBitForBit) {
 TEST(Tiltshift, GrowsFromTheBandToTheFarthestEdge) {
   // 100 rows, the band from row 20 to row 40: the ramp of 60 rows ends at the bottom edge.
   const auto p = tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100);
-  const auto coc = reference::tiltshift(p);
+  const auto coc = twins().tiltshift(p);
   EXPECT_EQ(coc[25], 0);
   EXPECT_EQ(coc[20], 0);
   EXPECT_EQ(coc[39], 0);
@@ -36,8 +36,8 @@ TEST(Tiltshift, GrowsFromTheBandToTheFarthestEdge) {
 }
 
 TEST(Tiltshift, DataWindowsShareTheDisplayWindowsGradient) {
-  const auto whole = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100));
-  const auto part = reference::tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 30, 55, 100));
+  const auto whole = twins().tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100));
+  const auto part = twins().tiltshift(tiltshift_params({0.3, 0.2, 12}, 1, 30, 55, 100));
   EXPECT_TRUE(std::equal(part.begin(), part.end(), whole.begin() + 55));
 }
 
@@ -45,29 +45,29 @@ TEST(Tiltshift, DataBeyondTheFrameIsBlurredNoMoreThanItsEdge) {
   // Rows from 1000 above to 2000 below a frame of 10, and next to no ramp.
   for (const auto& s : {TiltshiftSettings{0.5, 0.99999999, 9}, {0.5, 0.2, 9}, {0, 0, 1024}}) {
     const auto p = tiltshift_params(s, 1, 3000, -1000, 10);
-    const auto coc = tiltshift_on_device(session(), p);
-    EXPECT_EQ(coc, reference::tiltshift(p));
+    const auto coc = device().tiltshift(p);
+    EXPECT_EQ(coc, twins().tiltshift(p));
     EXPECT_EQ(*std::max_element(coc.begin(), coc.end()), std::lround(256 * s.max_blur_px));
   }
 }
 
 TEST(Tiltshift, BandAsHighAsTheFrameBlursNothing) {
-  for (const auto q : reference::tiltshift(tiltshift_params({0.5, 1, 50}, 3, 40, 0, 40))) {
+  for (const auto q : twins().tiltshift(tiltshift_params({0.5, 1, 50}, 3, 40, 0, 40))) {
     EXPECT_EQ(q, 0);
   }
 }
 
 TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
-  expect_error(ErrorKind::usage, {"--band-centre", "1.5"}, [] {
+  expect_error(ErrorKind::usage, {"band_centre", "1.5"}, [] {
     validate(TiltshiftSettings{1.5, 0.1, 5});
   });
-  expect_error(ErrorKind::usage, {"--band-width", "-0.1"}, [] {
+  expect_error(ErrorKind::usage, {"band_width", "-0.1"}, [] {
     validate(TiltshiftSettings{0.5, -0.1, 5});
   });
-  expect_error(ErrorKind::usage, {"--max-blur", "-1"}, [] {
+  expect_error(ErrorKind::usage, {"max_blur_px", "-1"}, [] {
     validate(TiltshiftSettings{0.5, 0.1, -1});
   });
-  expect_error(ErrorKind::usage, {"--max-blur", "1024"}, [] {
+  expect_error(ErrorKind::usage, {"max_blur_px", "1024"}, [] {
     validate(TiltshiftSettings{0.5, 0.1, 1e6});
   });
 }

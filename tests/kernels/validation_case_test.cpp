@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "lens/coc.h"
 #include "reference/reference.h"
 #include "support.h"
 #include "validation/arithmetic.h"
@@ -99,7 +100,7 @@ TEST(Case, WhatIsNotSaidKeepsItsDefault) {
 
 TEST(Case, RefusesWhatItDoesNotKnow) {
   const auto refused = [](const std::string& text, std::vector<std::string> words) {
-    words.push_back("--case");
+    words.push_back("case");
     expect_error(ErrorKind::usage, words, [&] { parse_case(text); });
   };
   refused("", {"empty"});
@@ -205,8 +206,7 @@ void expect_promises(const Case& c) {
 }
 
 TEST(Input, KeepsItsPromises) {
-  const KernelCheck& all_cases = kernel_checks().front();
-  ASSERT_STREQ(all_cases.name, "coc");  // the cheapest: its grid leaves nothing out
+  const KernelCheck& all_cases = find_check("coc");  // the cheapest: its grid leaves nothing out
   for (const Case& c : grid(Level::quick, all_cases, 4096)) expect_promises(c);
 }
 
@@ -230,29 +230,6 @@ TEST(Input, PatternsReachTheLargestCocAndColoursAreOfTheirKind) {
             0.1);
   EXPECT_GT(share(Colours::nonfinite, [](float v) { return std::isnan(v); }), 0.002);
   EXPECT_GT(share(Colours::nonfinite, [](float v) { return std::isinf(v); }), 0.005);
-}
-
-// Half as many bytes: a kernel that still read floats would read past the end. Oclgrind sees that.
-TEST(Variants, HalfStorageIsReadAsHalf) {
-  const Variant& half = variants().back();
-  ASSERT_TRUE(half.options.half_planes);
-  Session session(device_under_test(), half.options);
-  for (const char* kernel : {"coc", "gather_aware", "linear_psf", "rdb_merge"}) {
-    const KernelCheck& check = find_check(kernel);
-    for (const Case& c : grid(Level::quick, check, 64)) {
-      Case moderate = c;
-      moderate.colours = Colours::plain;
-      if (c.width * c.height > 200) continue;
-      const auto run = run_case(session, check, moderate);
-      const auto& got = run.kernel.planes;
-      EXPECT_TRUE(std::all_of(got.begin(), got.end(),
-                              [](const Plane& plane) {
-                                return std::all_of(plane.begin(), plane.end(),
-                                                   [](float v) { return v > -1e-3f && v < 2; });
-                              }))
-          << kernel << " " << to_string(c);
-    }
-  }
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double u = 0x1p-24;
 
-Verdict exactly(const Exact& exact, const Plane& source, const Values& kernel) {
+Verdict exactly(const Exact& exact, const Plane& source, const Outcome& kernel) {
   Input in;
   in.channels = {source};
   Verdict v;
@@ -85,11 +85,11 @@ TEST(Verdict, AddsUpOverCasesAndKeepsTheWorst) {
 }
 
 TEST(Verdict, HashesTellBitsApartButNoNaNs) {
-  const auto hash = [](float v) { return validation::hash_of(Values{{}, {{v}}}); };
+  const auto hash = [](float v) { return validation::hash_of(Outcome{{}, {{v}}}); };
   EXPECT_EQ(hash(nan), hash(-nan));
   EXPECT_NE(hash(0.0f), hash(-0.0f));
   EXPECT_NE(hash(1.0f), hash(std::nextafter(1.0f, 2.0f)));
-  EXPECT_NE(validation::hash_of(Values{{1, 2}, {}}), validation::hash_of(Values{{2, 1}, {}}));
+  EXPECT_NE(validation::hash_of(Outcome{{1, 2}, {}}), validation::hash_of(Outcome{{2, 1}, {}}));
 }
 
 DeviceResult validated(const std::string& kernel, const std::string& only_case,

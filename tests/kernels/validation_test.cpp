@@ -129,14 +129,14 @@ Input with_largest(float largest) {
   return in;
 }
 
-Verdict strictly(const Values& kernel, const Values& twin) {
+Verdict strictly(const Outcome& kernel, const Outcome& twin) {
   return compare(rule(), Case(), with_largest(1), kernel, twin, true, true);
 }
 
 TEST(Verdict, CountsValuesDifferencesAndDistances) {
   const float near_one = std::nextafter(1.0f, 2.0f);
-  const Values twin{{}, {{1, 1, 0, nan}, {1, 2, 3, infinite}}};
-  const Values kernel{{}, {{1, near_one, -0.0f, nan}, {1, 2, nan, infinite}}};
+  const Outcome twin{{}, {{1, 1, 0, nan}, {1, 2, 3, infinite}}};
+  const Outcome kernel{{}, {{1, near_one, -0.0f, nan}, {1, 2, nan, infinite}}};
   const Verdict v = strictly(kernel, twin);
   EXPECT_EQ(v.compared, 8u);
   EXPECT_EQ(v.differing, 3u);
@@ -151,7 +151,7 @@ TEST(Verdict, CountsValuesDifferencesAndDistances) {
 }
 
 TEST(Verdict, WholeNumbersMustBeEqualUnlessTheirRuleIsExactArithmetic) {
-  const Values twin{{5, -5, 1000000000000}, {}}, kernel{{5, -8, 1000000000001}, {}};
+  const Outcome twin{{5, -5, 1000000000000}, {}}, kernel{{5, -8, 1000000000001}, {}};
   const Verdict v = strictly(kernel, twin);
   EXPECT_EQ(v.compared, 3u);
   EXPECT_EQ(v.differing, 2u);
@@ -165,8 +165,8 @@ TEST(Verdict, WholeNumbersMustBeEqualUnlessTheirRuleIsExactArithmetic) {
 }
 
 TEST(Verdict, FlushedDenormalsCountOnlyWhereTheDeviceKeepsThem) {
-  const Values twin{{}, {{1e-40f, 1}}}, kernel{{}, {{0, 1}}};
-  const auto wrong = [&](const Values& values, bool keeps) {
+  const Outcome twin{{}, {{1e-40f, 1}}}, kernel{{}, {{0, 1}}};
+  const auto wrong = [&](const Outcome& values, bool keeps) {
     return compare(rule(), Case(), with_largest(1), values, twin, keeps, true).wrong;
   };
   EXPECT_EQ(wrong(kernel, true), 1u);
@@ -178,8 +178,8 @@ TEST(Verdict, UnroundedDivisionsHaveTheSlackOfTheirRule) {
   KernelCheck loose = rule();
   loose.loose_roundings = twelve_roundings;
   const auto wrong = [&](const KernelCheck& check, double roundings, bool rounds, float largest) {
-    const Values twin{{}, {{0.5f, largest}}};
-    const Values kernel{{}, {{static_cast<float>(0.5 + roundings * largest * u), largest}}};
+    const Outcome twin{{}, {{0.5f, largest}}};
+    const Outcome kernel{{}, {{static_cast<float>(0.5 + roundings * largest * u), largest}}};
     return compare(check, Case(), with_largest(largest), kernel, twin, true, rounds).wrong;
   };
   for (const float largest : {1.0f, 64.0f}) {
@@ -189,7 +189,7 @@ TEST(Verdict, UnroundedDivisionsHaveTheSlackOfTheirRule) {
     EXPECT_EQ(wrong(rule(), 12, false, largest), 1u);
   }
   // An overflow on one side alone.
-  const Values twin{{}, {{FLT_MAX, 0}}}, kernel{{}, {{infinite, 0}}};
+  const Outcome twin{{}, {{FLT_MAX, 0}}}, kernel{{}, {{infinite, 0}}};
   EXPECT_EQ(compare(loose, Case(), with_largest(1), kernel, twin, true, false).wrong, 1u);
   EXPECT_EQ(compare(loose, Case(), with_largest(FLT_MAX), kernel, twin, true, false).wrong, 0u);
 }

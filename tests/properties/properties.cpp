@@ -8,9 +8,9 @@ namespace defray::test {
 
 Size any_size() { return {*rc::gen::inRange(1, 41), *rc::gen::inRange(1, 31)}; }
 
-Frame any_frame() { return any_frame(any_size()); }
+RandomFrame any_frame() { return any_frame(any_size()); }
 
-Frame any_frame(Size size) {
+RandomFrame any_frame(Size size) {
   const auto seed = *rc::gen::inRange<std::uint32_t>(0, 1u << 16);
   return {size,
           random_coc(size, reach_px, seed),
@@ -33,9 +33,10 @@ std::string name_of(const MethodSettings& s) {
   return s.gather.kind == GatherKind::literal ? "gather literal" : "gather aware";
 }
 
-Plane render(const Frame& frame, const MethodSettings& settings) {
+Plane render(const RandomFrame& frame, const MethodSettings& settings) {
   return apply_method({frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels},
-                      settings, &session())[0];
+                      settings, device())
+      .colour[0];
 }
 
 double rounding_of(const MethodSettings& s, double linear_weight) {
@@ -49,9 +50,9 @@ double rounding_of(const MethodSettings& s, double linear_weight) {
   return s.gather.passes * (4 * s.gather.samples + 19) * u;
 }
 
-double largest_weight(const Frame& frame, const MethodSettings& settings) {
+double largest_weight(const RandomFrame& frame, const MethodSettings& settings) {
   if (settings.method != Method::linear) return 1;
-  Frame ones = frame;
+  RandomFrame ones = frame;
   ones.channels = {Plane(frame.coc.size(), 1.0f)};
   // Its own rounding: terms + 2 of u = 2^-24, terms < 2^8.
   return largest(render(ones, settings)) * (1 + 0x1p-15);

@@ -8,7 +8,7 @@
 
 namespace defray::test {
 
-struct Frame {
+struct RandomFrame {
   Size size;
   std::vector<std::int32_t> coc;  ///< Quanta, up to reach_px.
   Plane depth;
@@ -22,8 +22,8 @@ inline constexpr int reach_px = 5;
 
 /// A frame of any size up to 40x30 (shrinks to one pixel), of this size, or of any content that
 /// rapidcheck chose (shrinks to a small seed). Depths hold ties.
-Frame any_frame();
-Frame any_frame(Size size);
+RandomFrame any_frame();
+RandomFrame any_frame(Size size);
 Size any_size();
 
 /// rdb, linear, gather literal and aware, the latter two with one or two passes.
@@ -31,7 +31,7 @@ MethodSettings any_method();
 std::string name_of(const MethodSettings& settings);
 
 /// The one channel through the lens, on the device under test.
-Plane render(const Frame& frame, const MethodSettings& settings);
+Plane render(const RandomFrame& frame, const MethodSettings& settings);
 
 /// All methods are linear in colour: a pixel is a sum of others, weighed by geometry alone, and the
 /// weights are the same floats whatever the colours. Largest |error| of a pixel of `render` against
@@ -51,7 +51,7 @@ Plane render(const Frame& frame, const MethodSettings& settings);
 double rounding_of(const MethodSettings& settings, double linear_weight = 1);
 
 /// Largest sum of weights in a pixel: 1 but for `linear`, whose pixels may get more.
-double largest_weight(const Frame& frame, const MethodSettings& settings);
+double largest_weight(const RandomFrame& frame, const MethodSettings& settings);
 
 double largest(const Plane& plane);
 

@@ -14,7 +14,7 @@ RC_GTEST_PROP(Bands, CoverTheFrameOnceAndFitTheBudget, ()) {
   const auto row_bytes = static_cast<std::size_t>(*rc::gen::inRange(1, 1000));
   const auto memory = static_cast<std::size_t>(*rc::gen::inRange(0, 200000));
   int next = 0;
-  for (const Band& b : cut_into_bands(height, reach, step, row_bytes, memory)) {
+  for (const BandRows& b : cut_into_bands(height, reach, step, row_bytes, memory)) {
     RC_ASSERT(b.y == next && b.rows > 0);
     next = b.y + b.rows;
     const int end = b.window_y + b.window_rows;

@@ -9,7 +9,7 @@
 namespace defray::test {
 namespace {
 
-Frame with_colour(Frame frame, Plane colour) {
+RandomFrame with_colour(RandomFrame frame, Plane colour) {
   frame.channels = {std::move(colour)};
   return frame;
 }
@@ -22,7 +22,7 @@ void assert_within(double apart, double bound, const MethodSettings& settings) {
 
 // Weights are the same in all three pictures, so their errors do not count.
 RC_GTEST_PROP(ColourProperty, PicturesOfTwoLightsAddUp, ()) {
-  const Frame a = any_frame();
+  const RandomFrame a = any_frame();
   const MethodSettings settings = any_method();
   const Plane b = random_plane(a.size, *rc::gen::inRange<std::uint32_t>(0, 1u << 16));
   Plane both = b;
@@ -42,7 +42,7 @@ RC_GTEST_PROP(ColourProperty, PicturesOfTwoLightsAddUp, ()) {
 
 // Not `linear`: where the radius changes its pixels get more or less than all of a constant.
 RC_GTEST_PROP(ColourProperty, AConstantIsAdded, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   const MethodSettings settings = any_method();
   RC_PRE(settings.method != Method::linear);
   const float constant = *rc::gen::inRange(-800, 800) / 8.0f;
@@ -60,7 +60,7 @@ RC_GTEST_PROP(ColourProperty, AConstantIsAdded, ()) {
 
 // Every rounding scales with it; the exponents stay far from float's ends.
 RC_GTEST_PROP(ColourProperty, APowerOfTwoScalesExactly, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   const MethodSettings settings = any_method();
   const int exponent = *rc::gen::inRange(-20, 21);
   Plane scaled = frame.channels[0], expected = render(frame, settings);
@@ -71,7 +71,7 @@ RC_GTEST_PROP(ColourProperty, APowerOfTwoScalesExactly, ()) {
 }
 
 RC_GTEST_PROP(ColourProperty, AnyFactorScales, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   const MethodSettings settings = any_method();
   const float factor = *rc::gen::inRange(-3000, 3000) / 1000.0f;
   Plane scaled = frame.channels[0];

@@ -8,18 +8,17 @@
 #include <numeric>
 #include <random>
 
+#include "device/rdb_run.h"
 #include "properties.h"
 
 namespace defray::test {
 namespace {
 
 /// The source of every cell of every pixel, [cell][y][x]; all ones where no ray arrives.
-std::vector<std::uint32_t> winners(const Frame& frame, int cells_per_side) {
-  RdbSettings settings;
-  settings.cells_per_side = cells_per_side;
-  RdbRun run(session(),
-             {frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels},
-             settings);
+std::vector<std::uint32_t> winners(const RandomFrame& frame, int cells_per_side) {
+  const Frame all{frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels};
+  const RayPlan plan = plan_rays({cells_per_side});
+  RdbRun run(session(), all, plan);
   RC_ASSERT(run.passes().size() == 1u);
   run.scatter(run.passes()[0]);
   std::vector<std::uint32_t> sources;
@@ -27,7 +26,7 @@ std::vector<std::uint32_t> winners(const Frame& frame, int cells_per_side) {
   return sources;
 }
 
-std::vector<std::size_t> in_order(const Frame& frame) {
+std::vector<std::size_t> in_order(const RandomFrame& frame) {
   std::vector<std::size_t> order(frame.depth.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -42,10 +41,10 @@ float beyond(float z, std::mt19937& random) {
 }
 
 RC_GTEST_PROP(DepthProperty, OnlyTheOrderOfDepthsCounts, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   const int cells = *rc::gen::inRange(1, 8);
   std::mt19937 random(*rc::gen::inRange<std::uint32_t>(0, 1u << 16));
-  Frame mapped = frame;
+  RandomFrame mapped = frame;
   float z = 1e-3f, last = 0;
   for (const std::size_t i : in_order(frame)) {
     if (frame.depth[i] != last) z = beyond(z, random);
@@ -56,9 +55,9 @@ RC_GTEST_PROP(DepthProperty, OnlyTheOrderOfDepthsCounts, ()) {
 }
 
 RC_GTEST_PROP(DepthProperty, AmongEqualDepthsTheSmallerIndexIsNearer, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   const int cells = *rc::gen::inRange(1, 8);
-  Frame untied = frame;
+  RandomFrame untied = frame;
   float z = 1;
   for (const std::size_t i : in_order(frame)) {  // stable: equal depths by index
     untied.depth[i] = z;
@@ -68,7 +67,7 @@ RC_GTEST_PROP(DepthProperty, AmongEqualDepthsTheSmallerIndexIsNearer, ()) {
 }
 
 /// Whether a ray of some cell ends exactly between two pixels, where [-1/2, 1/2) takes a side.
-bool has_rays_on_borders(const Frame& frame, const LensCells& cells) {
+bool has_rays_on_borders(const RandomFrame& frame, const LensCells& cells) {
   constexpr std::int64_t pixel = std::int64_t{1}
                                  << (DEFRAY_COC_FRACTION_BITS + DEFRAY_LENS_FRACTION_BITS);
   for (const std::int64_t r : frame.coc) {
@@ -80,15 +79,15 @@ bool has_rays_on_borders(const Frame& frame, const LensCells& cells) {
 }
 
 /// No two depths are equal: among equals the mirror would choose another.
-void untie(Frame& frame, std::uint32_t seed) {
+void untie(RandomFrame& frame, std::uint32_t seed) {
   std::vector<std::size_t> order(frame.depth.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::shuffle(order.begin(), order.end(), std::mt19937(seed));
   for (std::size_t i = 0; i < order.size(); ++i) frame.depth[i] = 1.0f + order[i];
 }
 
-Frame mirrored(const Frame& frame) {
-  Frame mirror = frame;
+RandomFrame mirrored(const RandomFrame& frame) {
+  RandomFrame mirror = frame;
   for (int y = 0; y < frame.size.height; ++y) {
     for (int x = 0; x < frame.size.width; ++x) {
       const std::size_t to = frame.at(frame.size.width - 1 - x, y), from = frame.at(x, y);
@@ -111,7 +110,7 @@ std::size_t mirrored_cell(const LensCells& cells, std::size_t cell) {
 // An odd count of cells: their coordinates have so few factors of two that no radius of these
 // frames puts a ray on a border. That is checked, not assumed.
 RC_GTEST_PROP(DepthProperty, AMirroredSceneThroughAMirroredLensIsMirrored, ()) {
-  Frame frame = any_frame();
+  RandomFrame frame = any_frame();
   untie(frame, *rc::gen::inRange<std::uint32_t>(0, 1u << 16));
   const int side = *rc::gen::element(1, 3, 5, 7);
   const LensCells cells = make_lens_cells(side, false);

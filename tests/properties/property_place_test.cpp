@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "properties.h"
+#include "rdb/rdb_plan.h"
 
 namespace defray::test {
 namespace {
@@ -13,12 +14,12 @@ namespace {
 constexpr int margin = 2 * reach_px + 2;
 
 /// A sharp background of one colour.
-Frame background(Size size) {
+RandomFrame background(Size size) {
   const std::size_t area = static_cast<std::size_t>(size.width) * size.height;
   return {size, std::vector<std::int32_t>(area), Plane(area, 100.0f), {Plane(area, 0.375f)}};
 }
 
-void paste(Frame& into, const Frame& content, int x0, int y0) {
+void paste(RandomFrame& into, const RandomFrame& content, int x0, int y0) {
   for (int y = 0; y < content.size.height; ++y) {
     for (int x = 0; x < content.size.width; ++x) {
       const std::size_t to = into.at(x0 + x, y0 + y), from = content.at(x, y);
@@ -32,7 +33,7 @@ void paste(Frame& into, const Frame& content, int x0, int y0) {
 // Bit for bit with every method: offsets and weights depend on nothing but distance, and row-major
 // indices keep their order. Aware gathers look as far as their tile: those move by whole tiles.
 RC_GTEST_PROP(PlaceProperty, AMovedSceneGivesAMovedPicture, ()) {
-  const Frame content = any_frame({*rc::gen::inRange(1, 11), *rc::gen::inRange(1, 9)});
+  const RandomFrame content = any_frame({*rc::gen::inRange(1, 11), *rc::gen::inRange(1, 9)});
   const MethodSettings settings = any_method();
   const bool by_tiles =
       settings.method == Method::gather && settings.gather.kind == GatherKind::aware;
@@ -40,7 +41,7 @@ RC_GTEST_PROP(PlaceProperty, AMovedSceneGivesAMovedPicture, ()) {
   const int dx = step * *rc::gen::inRange(0, 17 / step + 1);
   const int dy = step * *rc::gen::inRange(0, 17 / step + 1);
   const Size size{content.size.width + 2 * margin + 17, content.size.height + 2 * margin + 17};
-  Frame still = background(size), moved = still;
+  RandomFrame still = background(size), moved = still;
   paste(still, content, margin, margin);
   paste(moved, content, margin + dx, margin + dy);
   const Plane expected = render(still, settings), result = render(moved, settings);
@@ -52,8 +53,8 @@ RC_GTEST_PROP(PlaceProperty, AMovedSceneGivesAMovedPicture, ()) {
   }
 }
 
-Frame turned(const Frame& frame) {
-  Frame turn = frame;
+RandomFrame turned(const RandomFrame& frame) {
+  RandomFrame turn = frame;
   std::reverse(turn.coc.begin(), turn.coc.end());
   std::reverse(turn.depth.begin(), turn.depth.end());
   std::reverse(turn.channels[0].begin(), turn.channels[0].end());
@@ -67,7 +68,7 @@ Frame turned(const Frame& frame) {
 // tiles, an odd count of cells (no ray ends between pixels), and no equal depths, of which the
 // index decides.
 RC_GTEST_PROP(PlaceProperty, ATurnedSceneGivesATurnedPicture, ()) {
-  Frame frame = any_frame({16 * *rc::gen::inRange(1, 3), 16 * *rc::gen::inRange(1, 3)});
+  RandomFrame frame = any_frame({16 * *rc::gen::inRange(1, 3), 16 * *rc::gen::inRange(1, 3)});
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     frame.depth[i] = 1.0f + (i * 7919) % frame.depth.size();  // 7919 is odd: each depth once
   }
@@ -86,19 +87,20 @@ RC_GTEST_PROP(PlaceProperty, ATurnedSceneGivesATurnedPicture, ()) {
 
 // From one row of one cell (rdb) or one row with everything in its reach (linear) on.
 RC_GTEST_PROP(PlaceProperty, BandsDoNotShow, ()) {
-  const Frame frame = any_frame();
+  const RandomFrame frame = any_frame();
   MethodSettings settings = any_method();
   RC_PRE(settings.method != Method::gather);
   settings.rdb.jitter = *rc::gen::arbitrary<bool>();
   const std::uint64_t whole = bits(render(frame, settings));
   const auto width = static_cast<std::size_t>(frame.size.width);
-  settings.rdb.memory_bytes =
+  const std::size_t rdb =
       width * (rdb_bytes_a_cell + rdb_bytes_a_sum) * *rc::gen::inRange<std::size_t>(1, 40);
   const std::size_t out_row = 16 * (width + DEFRAY_LINEAR_RUN - 1);
   const std::size_t in_row = 20 * (width + DEFRAY_LINEAR_RUN - 1 + 2 * reach_px);
-  settings.linear.memory_bytes =
+  const std::size_t linear =
       2 * reach_px * in_row + (in_row + out_row) * *rc::gen::inRange<std::size_t>(1, 30);
   RC_LOG() << name_of(settings) << std::endl;
+  const InBands in_bands(session(), settings.method == Method::rdb ? rdb : linear);
   RC_ASSERT(bits(render(frame, settings)) == whole);
 }
 

@@ -1,0 +1,10 @@
+#pragma once
+// --math, of every command that has it.
+#include "opencl/session.h"
+#include "words.h"
+
+namespace defray::cli {
+
+inline const Words<Math> math_words{{"strict", Math::strict}, {"fast", Math::fast}};
+
+}  // namespace defray::cli

@@ -1,0 +1,111 @@
+// The files, channels and depth of defray render.
+#include "image/further_channels.h"
+#include "render_job.h"
+
+namespace defray::cli {
+namespace {
+
+const Words<DepthKind> depth_words{{"z", DepthKind::z},
+                                   {"distance", DepthKind::distance},
+                                   {"inverse", DepthKind::inverse},
+                                   {"normalized", DepthKind::normalized}};
+const Words<Nonfinite> nonfinite_words{
+    {"error", Nonfinite::error}, {"zero", Nonfinite::zero}, {"keep", Nonfinite::keep}};
+const Scope of_depth{.methods = lens_methods};
+
+std::vector<OptionRow> depth_rows(RenderSettings& s) {
+  DepthSettings& d = s.depth;
+  const Needs normalized{[&d](const Given&) { return d.kind == DepthKind::normalized; },
+                         "goes with --depth-kind normalized only"};
+  return {
+      {"--depth-kind",
+       word(d.kind, depth_words),
+       "z: planar; distance: along the ray; inverse: 1/z; normalized: 0 near, 1 far",
+       {.field = "depth.kind", .scope = of_depth}},
+      {"--near",
+       with_default(value(d.near_units), ""),
+       "Depth of 0, scene units (normalized)",
+       {.field = "near_units", .scope = of_depth, .needs = normalized}},
+      {"--far",
+       with_default(value(d.far_units), ""),
+       "Depth of 1, scene units (normalized)",
+       {.field = "far_units", .scope = of_depth, .needs = normalized}},
+      {"--invert",
+       flag(d.invert),
+       "1 is near, 0 is far (normalized)",
+       {.scope = of_depth, .needs = normalized}},
+      {"--unit",
+       parsed<std::string>([&s](const auto& text) { s.metres_per_unit = parse_unit(text); },
+                           unit_of(s.metres_per_unit)),
+       "Scene unit: m, cm, mm, km, ft, in, or its length in metres",
+       {.field = "metres_per_unit", .scope = of_depth}},
+      {"--background",
+       parsed<std::string>([&d](const auto& text) { d.background = parse_background(text); },
+                           "65504, >= 1e9, inf, <= 0"),
+       "Stored depth that means background, or none",
+       {.scope = of_depth}},
+  };
+}
+
+}  // namespace
+
+OptionGroup main_options(RenderJob& job) {
+  return {"",
+          {{"input",
+            value(job.paths.input),
+            "Colour, and depth unless --depth is given; #### or %04d: frames",
+            {.is_required = true}},
+           {"-o,--output",
+            value(job.paths.output),
+            "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)",
+            {.field = "output", .is_required = true}}}};
+}
+
+OptionGroup file_options(RenderJob& job) {
+  return {"Files",
+          {{"--depth", value(job.paths.depth), "Take depth from this file", {.scope = of_depth}},
+           {"--coc-out",
+            value(job.paths.coc),
+            "Write the signed CoC radius in px (.exr, .tif)",
+            {.field = "coc"}},
+           {"--confidence-out",
+            value(job.paths.confidence),
+            "Write the share of each pixel's lens rays that the input determines (.exr, .tif)",
+            {.field = "confidence", .scope = of_stages}},
+           {"--frames", with_default(value(job.frames), "every file that matches"),
+            "1-8, 1-10x2, 1,5,9-12"},
+           {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},
+           {"--skip-bad-frames", flag(job.skip_bad_frames),
+            "Report a frame that fails, go on, exit with 1 at the end"}}};
+}
+
+OptionGroup channel_options(RenderJob& job) {
+  RenderSettings& s = job.settings;
+  OptionGroup group{
+      "Channels and depth",
+      {{"--layer", value(s.request.layer), "Colour layer, 'ViewLayer.Combined'"},
+       {"--view", value(s.request.view), "Stereo view, 'left'"},
+       {"--depth-channel",
+        value(s.request.depth_channel),
+        "Depth channel by its full name, 'depth.Z'",
+        {.scope = of_depth}},
+       {"--channels",
+        parsed<std::string>([&s](const auto& list) { s.channels = parse_channel_list(list); }),
+        "Further channels for the lens, 'diffuse.*,N.*': light is averaged as colour is; data gets "
+        "the value of the nearest hit. Data: " +
+            data_channel_rules(),
+        {.scope = Scope{{Method::rdb}}}}}};
+  for (OptionRow& row : depth_rows(s)) group.rows.push_back(std::move(row));
+  group.rows.push_back(
+      {"--nonfinite", word(s.nonfinite, nonfinite_words), "What becomes of NaN and Inf colours"});
+  return group;
+}
+
+OptionGroup terminal_options(RenderJob& job) {
+  return {"Output to the terminal",
+          {{"--json", flag(job.json), "One JSON line a frame instead of text"},
+           {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
+           {"--show", flag(job.show), "Show the last picture until a key is pressed"}}};
+}
+
+}  // namespace defray::cli

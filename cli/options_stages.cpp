@@ -1,0 +1,84 @@
+// The options of defray render that bring the ray distribution buffer closer to the truth.
+#include "render_job.h"
+
+namespace defray::cli {
+namespace {
+
+const Words<Quality> quality_words{
+    {"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}};
+const Words<Hidden> hidden_words{
+    {"off", Hidden::off}, {"smooth", Hidden::smooth}, {"on", Hidden::on}};
+const Words<Border> border_words{
+    {"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}};
+
+/// "draft: --rdb 9 --hidden smooth".
+std::string about(Quality quality) {
+  const ChainSettings s = settings_for(quality);
+  const std::string hidden = word_of(s.hidden, hidden_words);
+  return fmt::format("{}: --rdb {} --hidden {}", word_of(quality, quality_words), s.cells_per_side,
+                     hidden);
+}
+
+}  // namespace
+
+/// It says how many cells, whether there is something hidden, and how far to look for patterns.
+OptionRow quality_row(ChainSettings& s) {
+  const auto is_heard = [&s](const Given& given) {
+    return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::on;
+  };
+  return {
+      "--quality",
+      word<Quality>([&s](Quality quality) { s = settings_for(quality); }, quality_words,
+                    word_of(Quality::normal, quality_words)),
+      fmt::format("{}; {}; {}, and twice as many repetitions of the picture looked at",
+                  about(Quality::draft), about(Quality::normal), about(Quality::high)),
+      {.scope = of_stages,
+       .needs = {is_heard, "means nothing beside --rdb and this --hidden: they say all of it"}}};
+}
+
+OptionGroup stage_options(ChainSettings& s) {
+  return {
+      "Closer to the truth",
+      {{"--hidden", word(s.hidden, hidden_words),
+        "What lies behind near surfaces: off: nothing; smooth: made up from what is around; on: "
+        "and from where the picture repeats itself"},
+       {"--edges",
+        word(s.split_edges, Words<bool>{{"split", true}, {"keep", false}}),
+        "Anti-aliased pixels: split into what is in front and behind, or keep",
+        {.needs = {[&s](const Given&) { return s.hidden != Hidden::off; },
+                   "means nothing to --hidden off: without what lies behind no pixel is split"}}},
+       {"--keep-depth", flag(s.repair_depth, false), "Do not repair depth that looks anti-aliased"},
+       {"--highlights", word(s.highlights, Words<bool>{{"discs", true}, {"rays", false}}),
+        "Small bright sources: discs of the aperture's shape, or rays like others"},
+       {"--border", word(s.border, border_words),
+        "Outside the data window: clamp: its edge goes on; black; renormalise: only known rays "
+        "count"}},
+      of_stages};
+}
+
+OptionGroup aperture_options(Aperture& a) {
+  const Needs blades{[&a](const Given&) { return a.blades != 0; }, "goes with --blades"};
+  return {
+      "Aperture",
+      {{"--blades", value(a.blades), "Corners of the iris, 3 to 32; 0: a circle"},
+       {"--blade-curvature",
+        value(a.curvature),
+        "0: straight; 1: a circle; below 0, to -1: hollow, from 4 blades on",
+        {.field = "curvature", .needs = blades}},
+       {"--blade-rotation",
+        value(a.rotation_deg),
+        "Degrees counter-clockwise, seen behind the focus; 0: a side on the right",
+        {.field = "rotation_deg", .needs = blades}},
+       {"--squeeze", value(a.squeeze),
+        "Height of highlights over their width, 0.125 to 8; 2x anamorphic: 2"},
+       {"--aperture-image",
+        value(a.image),
+        "A picture of the bokeh, as it shows behind the focus; black lets no light through",
+        {.field = "aperture.image"}},
+       {"--cats-eye", value(a.cats_eye),
+        "Vignetting: offset of the lens rim at the corners, aperture radii, 0 to 1; 1 leaves 39 % "
+        "of a corner's light"}},
+      of_stages};
+}
+
+}  // namespace defray::cli

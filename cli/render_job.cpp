@@ -1,0 +1,38 @@
+#include "render_job.h"
+
+namespace defray::cli {
+std::size_t RenderJob::memory_bytes() const {
+  if (!(memory_mib > 0) || memory_mib > 1048576) {
+    fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
+         memory_mib);
+  }
+  return static_cast<std::size_t>(memory_mib * 1048576);
+}
+
+std::vector<OptionGroup> render_options(RenderJob& job) {
+  return {main_options(job),
+          file_options(job),
+          channel_options(job),
+          lens_options(job),
+          method_options(job),
+          stage_options(job.stages),
+          aperture_options(job.stages.aperture),
+          tiltshift_options(job.settings.tiltshift),
+          device_options(job),
+          terminal_options(job)};
+}
+
+void finish(RenderJob& job) {
+  RenderSettings& s = job.settings;
+  MethodSettings& m = s.method;
+  job.memory_bytes();  // before anything is read
+  if (m.method == Method::rdb && !job.is_literal) m.chain = job.stages;
+  make_lens_cells(m.rdb.cells_per_side, m.rdb.jitter);
+  validate(job.stages.aperture);
+  validate(m.gather);
+  validate(s.tiltshift);
+  validate(s.depth);
+  if (m.method != Method::tiltshift) finish_lens(job);
+}
+
+}  // namespace defray::cli

@@ -1,0 +1,70 @@
+#pragma once
+// What `defray render` is asked to do, and its options: one table of rows a group, each in its own
+// file (options_*.cpp).
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math_words.h"
+#include "option_table.h"
+#include "parse.h"
+#include "pipeline.h"
+
+namespace defray::cli {
+
+/// An eye instead of a camera's lens.
+struct EyeOptions {
+  std::optional<Eye> eye;
+  double display_distance_m = 0.6, display_px_per_metre = 3780;  ///< Of Eye::display; 96 dpi.
+};
+
+/// Rows set members of this; finish() makes the settings complete.
+struct RenderJob {
+  FramePaths paths;  ///< With the frame number's pattern, where there is one.
+  std::string frames;
+  RenderSettings settings;
+  bool is_literal = false;
+  ChainSettings stages;  ///< Of rdb, unless it is literal.
+  EyeOptions eye;
+  std::string camera, focus_setting;  ///< Of a camera file, or "from-metadata".
+  double memory_mib = static_cast<double>(default_memory_bytes >> 20);
+  std::string device;
+  Math math = Math::strict;
+  std::vector<WorkGroup> work_groups;
+  bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
+
+  /// Throws Error(usage).
+  std::size_t memory_bytes() const;
+  bool is_on_reference() const { return device == "reference"; }
+};
+
+/// The methods that have a lens, and so a circle of confusion by depth.
+inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
+
+/// What only the stages around the RDB have.
+inline const Scope of_stages{{Method::rdb}, false, true};
+
+OptionGroup main_options(RenderJob& job);
+OptionGroup file_options(RenderJob& job);
+OptionGroup channel_options(RenderJob& job);
+OptionGroup lens_options(RenderJob& job);
+OptionGroup method_options(RenderJob& job);
+OptionGroup tiltshift_options(TiltshiftSettings& tiltshift);
+OptionRow quality_row(ChainSettings& stages);  ///< Before what it sets: --rdb, --hidden.
+OptionGroup stage_options(ChainSettings& stages);
+OptionGroup aperture_options(Aperture& aperture);
+OptionGroup device_options(RenderJob& job);
+OptionGroup terminal_options(RenderJob& job);
+
+/// All of them, in the order of --help and of their setting.
+std::vector<OptionGroup> render_options(RenderJob& job);
+
+/// What follows from the options together: memory, stages, lens. Throws Error(usage) on values and
+/// combinations that are not allowed, Error(input) for a camera file.
+void finish(RenderJob& job);
+
+/// Its part of the lens: typed values win over the eye's, those over the camera file's or the
+/// metadata's.
+void finish_lens(RenderJob& job);
+
+}  // namespace defray::cli

@@ -1,0 +1,37 @@
+#pragma once
+// Words that stand for values.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace defray::cli {
+
+/// Words and what each stands for, in the order they are shown in.
+template <typename T>
+using Words = std::vector<std::pair<std::string, T>>;
+
+/// The value that `word` names; an Error(usage) with the allowed words otherwise.
+template <typename T>
+T choice(const std::string& option, const std::string& word, const Words<T>& of) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : of) {
+    if (name == word) return value;
+    words.push_back(name);
+  }
+  fail(ErrorKind::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
+       did_you_mean(word, words), join(words, " "));
+}
+
+/// The word for a value; empty where there is none.
+template <typename T>
+std::string word_of(const T& value, const Words<T>& of) {
+  for (const auto& [name, meaning] : of) {
+    if (meaning == value) return name;
+  }
+  return "";
+}
+
+}  // namespace defray::cli

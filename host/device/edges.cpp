@@ -1,0 +1,39 @@
+// Kernels `repair` and `edges`.
+#include "device/device_stages.h"
+#include "opencl/bands.h"
+
+namespace defray {
+namespace {
+
+DefrayFrameParams window_of(const Frame& f, const Band& band) {
+  return {word(f.width), word(band.rows().window_rows)};
+}
+
+/// A kernel of one input and one output plane.
+Words words_of(Session& session, const char* kernel, const Frame& f,
+               const std::function<void(const Band&, Words&)>& after = {}) {
+  Words out;
+  for_each_band(session, kernel, f, 0, [&](Band& band) {
+    const cl::Buffer made = band.out(out);
+    band.launch(window_of(f, band), band.in(f.coc_quanta), made);
+    if (after) after(band, out);
+  });
+  return out;
+}
+
+}  // namespace
+
+Words DeviceStages::repair(const Frame& f) {
+  // The kernel counts from the window's first pixel.
+  return words_of(session_, "repair", f, [&](const Band& band, Words& source) {
+    if (band.first() == 0) return;
+    const std::size_t first = size(band.rows().y) * size(f.width);
+    for (std::uint32_t& i : source.edit().subspan(first, size(band.rows().rows) * size(f.width))) {
+      i += static_cast<std::uint32_t>(band.first());
+    }
+  });
+}
+
+Words DeviceStages::edges(const Frame& f) { return words_of(session_, "edges", f); }
+
+}  // namespace defray

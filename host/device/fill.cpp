@@ -1,0 +1,36 @@
+// Kernel `fill`.
+#include <algorithm>
+
+#include "chain/fill_tiles.h"
+#include "device/device_stages.h"
+#include "lens/coc.h"
+#include "opencl/bands.h"
+
+namespace defray {
+
+Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
+  const Words active = tiles_to_fill(f, mixed);
+  const auto coc = f.coc_quanta.host();
+  const auto [least, most] = std::minmax_element(coc.begin(), coc.end());
+  const std::int32_t nearest = tame(*least), farthest = tame(*most);
+  const int tiles_x = (f.width + DEFRAY_FILL_TILE - 1) / DEFRAY_FILL_TILE;
+  Frame out = f.without_planes();
+  for_each_band(
+      session_, "fill", f, fill_reach(farthest, nearest),
+      [&](Band& band) {
+        const BandRows& rows = band.rows();
+        const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x), farthest};
+        const std::size_t tile = size(rows.window_y / DEFRAY_FILL_TILE) * size(tiles_x);
+        const cl::Buffer tiles =
+            session_.view(&active[tile], (active.size() - tile) * sizeof(cl_uint));
+        const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
+        const auto behind = band.out(out.channels, f.channels.size());
+        band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), tiles,
+                    band.in(f.channels), behind_coc, inverse, behind);
+        session_.finish();  // the tiles are this function's own
+      },
+      DEFRAY_FILL_TILE);
+  return out;
+}
+
+}  // namespace defray

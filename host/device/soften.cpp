@@ -1,0 +1,24 @@
+// Kernel `soften`.
+#include "chain/lens_grid.h"
+#include "device/device_stages.h"
+#include "lens/coc.h"
+#include "opencl/bands.h"
+
+namespace defray {
+
+Planes DeviceStages::soften(const Frame& f, int lens_points) {
+  const Words whole(f.coverage.empty() ? f.surfaces() : 0, DEFRAY_WHOLE);
+  const Words& coverage = f.coverage.empty() ? whole : f.coverage;
+  const float cells = cells_a_side(lens_points);
+  const auto reach = static_cast<std::int64_t>(
+      static_cast<float>(largest_coc(f.coc_quanta.host())) * px_per_quantum / cells);
+  Planes out;
+  for_each_band(session_, "soften", f, reach, [&](Band& band) {
+    const DefraySoftenParams p{word(f.width), word(band.rows().window_rows), word(f.layers), cells};
+    const auto made = band.out(out, f.channels.size());
+    band.launch(p, band.in(f.coc_quanta), band.in(coverage), band.in(f.channels), made);
+  });
+  return out;
+}
+
+}  // namespace defray

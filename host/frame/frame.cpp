@@ -1,0 +1,46 @@
+#include "frame/frame.h"
+
+#include <bit>
+
+#include "kernels/params.h"
+
+namespace defray {
+
+Planes Planes::view(const std::vector<Plane>& planes) {
+  Planes views;
+  for (const Plane& plane : planes) {
+    views.push_back(Values<float>::view(plane.data(), plane.size()));
+  }
+  return views;
+}
+
+bool Frame::is_in_margin(std::size_t pixel) const {
+  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
+  return x < margin || y < margin || x >= width - margin || y >= height - margin;
+}
+
+std::uint32_t Frame::data_pixel(std::size_t surface) const {
+  if (!data_of.empty()) return data_of[surface];
+  const std::size_t row = surface / size(width) / size(layers);
+  return static_cast<std::uint32_t>(row * size(width) + surface % size(width));
+}
+
+Frame Frame::without_planes() const {
+  Frame f;
+  f.width = width;
+  f.height = height;
+  f.has_alpha = has_alpha;
+  f.origin_x = origin_x;
+  f.origin_y = origin_y;
+  f.display_width = display_width;
+  f.display_height = display_height;
+  f.margin = margin;
+  f.layers = layers;
+  return f;
+}
+
+float no_fragment() { return std::bit_cast<float>(DEFRAY_EMPTY); }
+
+bool is_fragment(float depth) { return std::bit_cast<std::uint32_t>(depth) != DEFRAY_EMPTY; }
+
+}  // namespace defray

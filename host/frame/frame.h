@@ -1,0 +1,81 @@
+#pragma once
+// The one frame that stages take and give: planes of one size, on the host or on a device.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/plane.h"
+#include "frame/values.h"
+
+namespace defray {
+
+/// Planes of colour, 1 to 4.
+class Planes : public std::vector<Values<float>> {
+ public:
+  using std::vector<Values<float>>::vector;
+  Planes(const std::vector<Plane>& planes) {  // NOLINT: planes in host memory are planes
+    for (const Plane& plane : planes) emplace_back(plane);
+  }
+  /// Somebody else's memory, which must stay alive and unchanged.
+  static Planes view(const std::vector<Plane>& planes);
+};
+
+/// A picture on its way through the lens. Every plane is [height][layers][width]; what a stage does
+/// not need may be empty.
+struct Frame {
+  int width = 0, height = 0;
+  Quanta coc_quanta = {};
+  Values<float> depth = {};  ///< Planar, > 0, inf: background; `no_fragment()`: nothing there.
+  Planes channels = {};      ///< Linear colour, premultiplied.
+  bool has_alpha = false;    ///< The last channel is alpha.
+  /// Where the frame lies in the display window, and that window's size; 0: the frame itself.
+  int origin_x = 0, origin_y = 0, display_width = 0, display_height = 0;
+  /// Columns and rows on each side that were added around the picture.
+  int margin = 0;
+  /// Surfaces a pixel: layer 0 is what is in front, layer 1 what lies behind it.
+  int layers = 1;
+  Values<float> inverse = {};  ///< 1/depth; 0: background; negative: nothing there.
+  /// Share of the pixel that a surface covers, in 2^-16, with the flag DEFRAY_SYNTHESISED. Empty:
+  /// every surface is whole, and all were seen.
+  Words coverage = {};
+  /// The picture's pixel whose data (ids, normals) a surface has; DEFRAY_EMPTY: none, it was made
+  /// up. Empty: each has its own pixel's.
+  Words data_of = {};
+
+  std::size_t index(int x, int y, int layer = 0) const {
+    return (size(y) * size(layers) + size(layer)) * size(width) + size(x);
+  }
+  std::size_t pixels() const { return size(width) * size(height); }
+  std::size_t surfaces() const { return pixels() * size(layers); }
+
+  /// Index of the front surface of a pixel, counted row by row.
+  std::size_t front_of(std::size_t pixel) const {
+    return pixel / size(width) * size(layers) * size(width) + pixel % size(width);
+  }
+
+  bool is_in_margin(std::size_t pixel) const;
+
+  /// The picture's pixel whose data a surface has.
+  std::uint32_t data_pixel(std::size_t surface) const;
+
+  /// Another frame of the same size and place, without planes.
+  Frame without_planes() const;
+};
+
+/// The depth of no surface: its bits are DEFRAY_EMPTY.
+float no_fragment();
+bool is_fragment(float depth);
+
+/// The picture's part of a plane of one layer.
+template <typename T>
+std::vector<T> cropped(std::span<const T> plane, const Frame& f) {
+  std::vector<T> out;
+  out.reserve(size(f.width - 2 * f.margin) * size(f.height - 2 * f.margin));
+  for (int y = f.margin; y < f.height - f.margin; ++y) {
+    const auto row = plane.begin() + static_cast<std::ptrdiff_t>(y) * f.width;
+    out.insert(out.end(), row + f.margin, row + f.width - f.margin);
+  }
+  return out;
+}
+
+}  // namespace defray

@@ -1,0 +1,59 @@
+#include "opencl/launch_table.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace defray {
+namespace {
+
+// Bytes of planes, four channels each.
+constexpr std::size_t plane = 4, colour = 4 * plane;
+
+}  // namespace
+
+const std::vector<Launch>& launch_table() {
+  // Work-groups: any sensible one is within 10 % of the best on PoCL (defray_benchmark).
+  static const std::vector<Launch> table = {
+      // Reads and writes a surface.
+      {"assemble", 64, 1, 0, 3 * plane + colour + 2 * (3 * plane + colour)},
+      {"coc", 64, 1, 0, 2 * plane},
+      {"edges", 64, 1, 1, 2 * plane},
+      // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
+      // further on; 1 for rounding.
+      {"fill", 64, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour},
+      {"gather_aware", 64, 1, 0, plane + 2 * colour},
+      {"gather_literal", 64, 1, 0, plane + 2 * colour},
+      {"gather_reach", 16, 1, 0, 2 * plane},
+      {"gather_tiles", 16, 1, 0, 2 * plane},
+      // Two pixels further out than the disc, and 1 for rounding.
+      {"highlights", 64, 1, 3, 3 * plane + colour},
+      {"highlights_add", 64, 1, 0, 2 * plane + colour},
+      {"linear_psf", 16, 1, 0, plane + 2 * colour},
+      {"patterns_columns", 16, 1, 0, plane + 2 * plane},
+      {"patterns_difference", 16, 1, 0, 4 * plane},
+      {"patterns_match", 16, 1, 0, 4 * plane + 2 * plane + 3 * colour},
+      {"rdb_clear", 256, 1, 0, 2 * plane},
+      {"rdb_merge", 64, 1, 1, 3 * plane + 2 * colour},
+      {"rdb_nearest", 64, 1, 0, 3 * plane},
+      {"rdb_scatter", 64, 1, 0, 3 * plane},
+      // A ramp's ends are looked for two pixels away, and what is flat one further.
+      {"repair", 64, 1, 3, 2 * plane},
+      {"soften", 64, 1, 1, 2 * plane + 2 * colour},
+      // A square of 7 px around.
+      {"split", 64, 1, 3, 3 * plane + colour + 2 * (3 * plane + colour)},
+      {"tiltshift", 64, 1, 0, plane},
+  };
+  return table;
+}
+
+const Launch& launch_of(const std::string& kernel) {
+  const auto& table = launch_table();
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const Launch& l) { return kernel == l.kernel; });
+  if (found == table.end())
+    fail(ErrorKind::internal, "kernel '{}' is not in the launch table", kernel);
+  return *found;
+}
+
+}  // namespace defray

@@ -1,0 +1,23 @@
+#pragma once
+// Small bright sources that do not go with the rays: discs of the aperture's shape.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace defray {
+
+/// Sources of light for kernel `highlights_add`, in source order.
+struct LightSources {
+  std::vector<std::array<std::int32_t, 4>> where;  ///< x, y, CoC in quanta, depth bits.
+  std::vector<std::array<float, 4>> excess;        ///< Light of each; missing channels are 0.
+  int tiles_x = 0;
+  /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.
+  std::vector<std::uint32_t> first, list;
+  std::vector<std::uint32_t> table;     ///< The aperture's summed light.
+  float share_of_light = 0;             ///< 1 / its total.
+  std::vector<std::uint32_t> cell_map;  ///< [DEFRAY_CELL_MAP]^2: lens cell nearest to a lens point.
+
+  bool empty() const { return where.empty(); }
+};
+
+}  // namespace defray

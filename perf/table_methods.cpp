@@ -1,0 +1,142 @@
+// Error and time of every method: on built-in scenes, and on ray-traced ones where they are given.
+#include <algorithm>
+#include <filesystem>
+
+#include "image/channels.h"
+#include "lens/camera.h"
+#include "lens/depth.h"
+#include "measure/metrics.h"
+#include "tables.h"
+
+namespace defray::perf {
+namespace {
+
+struct Place {
+  std::string name;
+  Subject subject;
+  std::vector<Plane> truth;
+};
+
+struct Row {
+  std::string name;
+  MethodSettings settings;
+};
+
+std::vector<Row> rows(bool is_quick) {
+  std::vector<Row> all{{"rdb `--quality draft`", default_chain(Quality::draft)},
+                       {"rdb (default)", default_chain()},
+                       {"rdb `--quality high`", default_chain(Quality::high)},
+                       {"rdb `--literal`, 9×9", rdb_of(9)},
+                       {"rdb `--literal`, 33×33", rdb_of(33)},
+                       {"linear", linear_of()},
+                       {"gather literal, 32 samples × 2", gather_of(GatherKind::literal, 32, 2)},
+                       {"gather aware, 32 samples × 2", gather_of(GatherKind::aware, 32, 2)},
+                       {"gather aware, 128 samples × 2", gather_of(GatherKind::aware, 128, 2)}};
+  if (is_quick) all = {all[0], all[1], all[3], all[5], all[7]};  // the fast ones
+  return all;
+}
+
+Table table_of(const Bench& bench, const std::vector<Place>& places, int repetitions) {
+  const std::vector<Row> all = rows(bench.is_quick);
+  Table table{"", "", {"method"}, {{"pinhole"}}};
+  for (const Row& row : all) table.rows.push_back({row.name});
+  for (const Place& place : places) {
+    const auto psnr = [&](const std::vector<Plane>& picture) {
+      return compare(picture, place.truth, place.subject.scene.width).psnr_srgb_db;
+    };
+    table.columns.push_back(place.name);
+    table.rows[0].push_back(fixed(psnr(place.subject.pinhole.colour)));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      bench.step(place.name + ": " + all[i].name);
+      check_against_twin(bench.stages, place.subject, all[i].settings);
+      std::vector<Plane> picture;
+      const Timing time = time_of(
+          repetitions, [&] { picture = render(bench.stages, place.subject, all[i].settings); });
+      table.rows[i + 1].push_back(fmt::format("{:.2f} ({:.2f} s)", psnr(picture), time.median_s));
+    }
+  }
+  return table;
+}
+
+/// As 'defray scene plate1 --truth-samples 1024' writes it.
+Place plate1_place(const Bench& bench) {
+  bench.step("plate1: truth");
+  Subject s =
+      make_subject(bench.stages, make_scene("plate1", bench.size(640), bench.size(480)), "default");
+  s.pinhole.colour = render_pinhole(s.scene, {16}).colour;
+  auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 1024, 1).colour;
+  return {"plate1", std::move(s), std::move(truth)};
+}
+
+std::vector<Plane> read_colour(const ImageFile& file) {
+  const ColourChoice choice = choose_colour(file.path(), file.parts(), {});
+  std::vector<Plane> planes;
+  for (std::size_t c = 0; c < 3; ++c) planes.push_back(file.plane(choice.part, choice.channels[c]));
+  return planes;
+}
+
+/// One focus setting of a scene in a folder.
+Place read_place(const Bench& bench, const std::filesystem::path& folder,
+                 const std::string& setting) {
+  const std::string path = folder / "pinhole.exr";
+  const ImageFile file = ImageFile::read(path);
+  const ChannelName depth = choose_depth(path, file.parts(), {}, {});
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(depth.part)];
+  Subject s;
+  s.scene.name = folder.filename();
+  s.scene.width = part.data.width;
+  s.scene.height = part.data.height;
+  s.lens = make_lens(read_camera_json(folder / "camera.json", setting, 1), 1, LensModel::cg, 0);
+  s.pinhole.colour = read_colour(file);
+  s.pinhole.depth = file.plane(depth.part, depth.channel);
+  convert_depth(s.pinhole.depth, {}, part.data, part.display,
+                pixel_focal_length(s.lens, part.display.width), path);
+  s.coc = bench.stages.coc(s.lens, s.scene.width, s.pinhole.depth);
+  const std::string name = s.scene.name + " " + setting;
+  return {name, std::move(s), read_colour(ImageFile::read(folder / ("truth_" + setting + ".exr")))};
+}
+
+/// Every focus setting of every scene of a folder that has a truth, in order of their names.
+std::vector<Place> read_places(const Bench& bench, const std::string& scenes) {
+  std::vector<std::filesystem::path> truths;
+  for (const auto& scene : std::filesystem::directory_iterator(scenes)) {
+    if (!scene.is_directory()) continue;
+    for (const auto& file : std::filesystem::directory_iterator(scene)) {
+      if (file.path().filename().string().starts_with("truth_")) truths.push_back(file.path());
+    }
+  }
+  std::sort(truths.begin(), truths.end());
+  std::vector<Place> places;
+  for (const auto& truth : truths) {
+    const std::string setting = truth.stem().string().substr(std::string("truth_").size());
+    places.push_back(read_place(bench, truth.parent_path(), setting));
+  }
+  return places;
+}
+
+}  // namespace
+
+Figures measure_accuracy(TableBench& b) {
+  std::vector<Place> places;
+  places.push_back(plate1_place(b.bench()));
+  if (!b.scenes().empty()) {
+    for (Place& place : read_places(b.bench(), b.scenes())) places.push_back(std::move(place));
+  }
+  return {table_of(b.bench(), places, 1), {}};
+}
+
+Figures measure_methods(TableBench& b) {
+  const Bench& bench = b.bench();
+  std::vector<Place> places;
+  for (const auto& [scene, setting] :
+       {std::pair{"fence", "bg"}, {"spheres", "f5"}, {"blocks-forest", "miniature"}}) {
+    bench.step(fmt::format("{}: truth", scene));
+    Subject s = make_antialiased(bench.stages, make_scene(scene, bench.size(640), bench.size(400)),
+                                 setting);
+    auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 256, 1).colour;
+    places.push_back({fmt::format("{} {}", scene, setting), std::move(s), std::move(truth)});
+  }
+  return {table_of(bench, places, bench.is_quick ? 1 : 3), {}};
+}
+
+}  // namespace defray::perf

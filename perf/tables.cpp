@@ -1,0 +1,38 @@
+#include "tables.h"
+
+#include "base/text.h"
+
+namespace defray::perf {
+
+const std::vector<Setup>& TableBench::setups() {
+  if (!setups_) setups_ = make_setups(bench_);
+  return *setups_;
+}
+
+const std::map<std::string, ReadmeTable>& readme_tables() {
+  static const std::map<std::string, ReadmeTable> all{
+      {"accuracy", {"error and time of every method, plate1 and --scenes", measure_accuracy}},
+      {"methods", {"the same on three built-in scenes", measure_methods}},
+      {"stages", {"what the stages around the RDB gain and cost", measure_stages}},
+      {"left", {"what is left of the error", measure_left}},
+      {"motion", {"error of the change from frame to frame", measure_motion}},
+      {"papers", {"the papers' claims beside our figures", measure_papers}},
+      {"arithmetic", {"relaxed builds of the kernels", measure_arithmetic}},
+      {"validate", {"kernels against twins on every device", measure_validation}},
+      {"speed", {"rays a second (defray_benchmark)", measure_speed}}};
+  return all;
+}
+
+std::string to_markdown(const Figures& figures) {
+  const auto line = [](const std::vector<std::string>& cells) {
+    return "| " + join(cells, " | ") + " |\n";
+  };
+  std::string text = line(figures.table.columns);
+  for (std::size_t i = 0; i < figures.table.columns.size(); ++i) text += "|---";
+  text += "|\n";
+  for (const auto& row : figures.table.rows) text += line(row);
+  for (const std::string& note : figures.notes) text += "\n" + note + "\n";
+  return text;
+}
+
+}  // namespace defray::perf

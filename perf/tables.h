@@ -1,0 +1,59 @@
+#pragma once
+// The tables of figures in the READMEs, each measured by one function.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "truth.h"
+
+namespace defray::perf {
+
+/// What tables are measured with, and what several of them need.
+class TableBench {
+ public:
+  TableBench(Bench bench, std::string scenes)
+      : bench_(std::move(bench)), scenes_(std::move(scenes)) {}
+
+  const Bench& bench() const { return bench_; }
+
+  /// A folder of ray-traced scenes; empty: none.
+  const std::string& scenes() const { return scenes_; }
+
+  /// Those of the experiment `truth`, made when first asked for.
+  const std::vector<Setup>& setups();
+
+ private:
+  Bench bench_;
+  std::string scenes_;
+  std::optional<std::vector<Setup>> setups_;
+};
+
+/// A table, and sentences that belong under it.
+struct Figures {
+  Table table;
+  std::vector<std::string> notes;
+};
+
+Figures measure_accuracy(TableBench& bench);    ///< All methods, built-in plate1 and given scenes.
+Figures measure_methods(TableBench& bench);     ///< All methods on three built-in scenes.
+Figures measure_stages(TableBench& bench);      ///< Gain and cost of each stage of the RDB.
+Figures measure_left(TableBench& bench);        ///< What is left of the default's error.
+Figures measure_motion(TableBench& bench);      ///< From frame to frame.
+Figures measure_papers(TableBench& bench);      ///< The papers' claims beside our figures.
+Figures measure_arithmetic(TableBench& bench);  ///< Other builds of the kernels.
+Figures measure_validation(TableBench& bench);  ///< Kernels against twins, on every device.
+Figures measure_speed(TableBench& bench);       ///< Rays a second, by the benchmark beside us.
+
+struct ReadmeTable {
+  std::string about;
+  Figures (*measure)(TableBench&);
+};
+
+/// Every table by the name that its markers have.
+const std::map<std::string, ReadmeTable>& readme_tables();
+
+/// As Markdown, each note a paragraph.
+std::string to_markdown(const Figures& figures);
+
+}  // namespace defray::perf

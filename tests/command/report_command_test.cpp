@@ -1,0 +1,120 @@
+// defray-perf report: tables stand between their markers, and nothing else changes.
+#include <cstdlib>
+#include <fstream>
+
+#include "program.h"
+
+#ifndef DEFRAY_PERF_PROGRAM
+#define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks
+#endif
+
+namespace defray::test {
+namespace {
+
+class ReportCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string(DEFRAY_PERF_PROGRAM).empty()) GTEST_SKIP() << "built without the benchmarks";
+  }
+  /// Mesa's device takes ten times as long as PoCL's: left out.
+  Result report(const std::string& arguments) {
+    return shell(folder, "RUSTICL_ENABLE= '" DEFRAY_PERF_PROGRAM "' report " + arguments);
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  }
+  std::string text_of(const std::string& name) {
+    std::ifstream stream(folder / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// What stands between a table's markers.
+  std::string table_in(const std::string& name, const std::string& table) {
+    const std::string text = text_of(name), begin = "<!-- " + table + ":begin -->\n";
+    const std::size_t from = text.find(begin) + begin.size();
+    return text.substr(from, text.find("<!-- " + table + ":end -->") - from);
+  }
+  void expect_refused(const std::string& arguments, int code,
+                      const std::vector<std::string>& words) {
+    expect_refusal(report(arguments), code, words, arguments);
+  }
+  Folder folder;
+};
+
+std::string marked(const std::string& table, const std::string& content = "") {
+  return "<!-- " + table + ":begin -->\n" + content + "<!-- " + table + ":end -->\n";
+}
+
+TEST_F(ReportCommand, UpdateChangesOnlyWhatStandsBetweenItsMarkers) {
+  const std::string head = "# Title\r\n\tas it is, <!-- motion:begin --> too  \n\n";
+  const std::string middle = "\nbetween\n" + marked("left", "| kept |\n") + "\n";
+  const std::string tail = "no line end\xff";
+  write("a.md", head + marked("motion", "old\nlines\n") + middle + tail);
+  const Result result = report("--update a.md --table motion --quick");
+  expect_ok(result);
+  EXPECT_EQ(result.out, "a.md: motion\n");
+  const std::string table = table_in("a.md", "left");
+  EXPECT_EQ(table, "| kept |\n");
+  const std::string text = text_of("a.md");
+  ASSERT_EQ(text.substr(0, head.size()), head);
+  ASSERT_EQ(text.substr(text.size() - tail.size() - middle.size()), middle + tail);
+  const std::string written =
+      text.substr(head.size(), text.size() - head.size() - middle.size() - tail.size());
+  EXPECT_EQ(written.find("old"), std::string::npos);
+  EXPECT_EQ(written.find("<!-- motion:begin -->\n| focus | truth's change | pinhole |"), 0u);
+  EXPECT_NE(written.find("\n|---|---|---|---|---|---|\n| face | "), std::string::npos);
+  EXPECT_NE(written.find("\nMeasured on "), std::string::npos);
+  EXPECT_NE(written.find("\nA rehearsal"), std::string::npos);
+  EXPECT_NE(written.find("\n<!-- motion:end -->\n"), std::string::npos);
+}
+
+TEST_F(ReportCommand, MeasuresEveryTableWhoseMarkersStandThere) {
+  expect_ok(defray(folder, "scene plate1 -o scenes/own --width 64 --height 48 --truth-samples 4"));
+  expect_ok(shell(folder, "mv scenes/own/truth.exr scenes/own/truth_default.exr"));
+  write("a.md", marked("accuracy") + marked("validate") + marked("speed"));
+  const Result result = report("--update a.md --quick --scenes scenes");
+  expect_ok(result);
+  EXPECT_EQ(result.out, "a.md: accuracy\na.md: validate\na.md: speed\n");
+  const std::string accuracy = table_in("a.md", "accuracy");
+  EXPECT_EQ(accuracy.find("| method | plate1 | own default |\n|---|---|---|\n| pinhole | "), 0u);
+  EXPECT_NE(accuracy.find("\n| linear | "), std::string::npos);
+  EXPECT_NE(accuracy.find(" s) |\n"), std::string::npos);
+  EXPECT_NE(table_in("a.md", "validate").find(" pass, "), std::string::npos);
+  EXPECT_NE(table_in("a.md", "speed").find("| scalar twin, one thread | "), std::string::npos);
+}
+
+TEST_F(ReportCommand, RefusesWhatItCannotDo) {
+  write("a.md", "# Title\n");
+  expect_refused("--update a.md", 3, {"a.md", "has no markers", "accuracy"});
+  expect_refused("--update b.md", 3, {"b.md", "no such file"});
+  expect_refused("--update .", 3, {".: is a folder"});
+  expect_refused("--update a.md --table motoin", 2, {"motoin", "Did you mean 'motion'"});
+  expect_refused("", 2, {"--update"});
+  write("a.md", marked("motion"));
+  expect_refused("--update a.md --table left", 3, {"a.md", "no markers of table 'left'", "motion"});
+  expect_refused("--update a.md --scenes nowhere", 3, {"nowhere", "no such folder"});
+  expect_refused("--update a.md --device nothing", 5, {"nothing"});
+  EXPECT_EQ(text_of("a.md"), marked("motion"));
+}
+
+TEST_F(ReportCommand, RefusesMarkersThatAreWrong) {
+  write("a.md", marked("accuracies"));
+  expect_refused("--update a.md", 3, {"a.md", "accuracies", "Did you mean 'accuracy'"});
+  write("a.md", "<!-- left:begin -->\n<!-- motion:end -->\n");
+  expect_refused("--update a.md", 3, {"a.md", "left:begin", "no end that follows"});
+  write("a.md", "<!-- left:end -->\n<!-- left:begin -->\n");
+  expect_refused("--update a.md", 3, {"a.md", "left:end", "no begin before it"});
+  write("a.md", marked("left") + marked("left"));
+  expect_refused("--update a.md", 3, {"a.md", "left", "twice"});
+}
+
+TEST_F(ReportCommand, HelpListsTheTables) {
+  const Result help = report("--help");
+  expect_ok(help);
+  for (const std::string name : {"accuracy", "methods", "stages", "left", "motion", "papers",
+                                 "arithmetic", "validate", "speed", "Example"}) {
+    EXPECT_NE(help.out.find(name), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
