@@ -77,10 +77,10 @@ set_tests_properties(oclgrind_uninitialised PROPERTIES ENVIRONMENT OCLGRIND_UNIN
 add_check(validate_all 100 full ${validate}_all --all)
 
 # The host code under AddressSanitizer and UndefinedBehaviorSanitizer, built by run.sh.
-foreach(program kernels host command)
-  add_shards(sanitized_${program} 2 110 full bash ${here}/preset_run.sh asan
-             ${CMAKE_BINARY_DIR}/asan/bin/${program}_tests)
-endforeach()
+set(sanitized bash ${here}/preset_run.sh asan ${CMAKE_BINARY_DIR}/asan/bin)
+add_shards(sanitized_kernels 2 110 full ${sanitized}/kernels_tests)
+add_shards(sanitized_host 1 110 full ${sanitized}/host_tests)
+add_shards(sanitized_command 2 110 full ${sanitized}/command_tests)
 
 # Five seconds of every fuzzer, built by run.sh, from the seeds in corpus/ and what the runs before
 # have found. What it finds it leaves as crash-… in the build folder's fuzz/.

@@ -18,6 +18,7 @@ const std::vector<VariantResult>& measured() {
 }
 
 TEST(Arithmetic, EveryVariantRunsWithEveryMethodAndKernel) {
+  SKIP_UNLESS_FULL();
   ASSERT_EQ(measured().size(), variants().size());
   for (const VariantResult& r : measured()) {
     EXPECT_EQ(r.error, "") << r.name;
@@ -32,6 +33,7 @@ TEST(Arithmetic, EveryVariantRunsWithEveryMethodAndKernel) {
 }
 
 TEST(Arithmetic, StrictIsFirstAndIsWhatTheOthersAreComparedWith) {
+  SKIP_UNLESS_FULL();
   const VariantResult& strict = measured().front();
   EXPECT_EQ(strict.name, "strict");
   EXPECT_TRUE(strict.kernels.passed());
@@ -44,6 +46,7 @@ TEST(Arithmetic, StrictIsFirstAndIsWhatTheOthersAreComparedWith) {
 }
 
 TEST(Arithmetic, FastChangesThePicturesAndSaysByHowMuch) {
+  SKIP_UNLESS_FULL();
   const VariantResult& fast = measured()[2];
   ASSERT_EQ(fast.name, "fast");
   EXPECT_GT(fast.methods[0].changed, 0);
@@ -52,6 +55,7 @@ TEST(Arithmetic, FastChangesThePicturesAndSaysByHowMuch) {
 }
 
 TEST(Arithmetic, ReportHasWhatWasMeasured) {
+  SKIP_UNLESS_FULL();
   const auto list = nlohmann::json::parse(to_json(measured()));
   ASSERT_EQ(list.size(), variants().size());
   for (std::size_t v = 0; v < list.size(); ++v) {
