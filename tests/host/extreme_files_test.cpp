@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "image/image_file.h"
 #include "lens/depth.h"
 #include "pipeline.h"
 #include "support.h"
