@@ -12,7 +12,7 @@
 #include "image/safe_output.h"
 #include "image/sequence.h"
 #include "progress.h"
-#include "scenes/render.h"
+#include "scenes/tracing/render.h"
 
 namespace defray::cli {
 namespace {

@@ -2,7 +2,7 @@
 // large circle of confusion.
 #include "experiments.h"
 #include "measure/plot.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 
 namespace defray::perf {
 

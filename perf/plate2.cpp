@@ -3,7 +3,7 @@
 #include "experiments.h"
 #include "measure/metrics.h"
 #include "measure/plot.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 
 namespace defray::perf {
 namespace {

@@ -2,7 +2,7 @@
 // What the parts of the experiment `truth` share: scenes as productions have them, anti-aliased,
 // beside what the lens really makes of them.
 #include "bench.h"
-#include "scenes/render.h"
+#include "scenes/tracing/render.h"
 
 namespace defray::perf {
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "scenes/builtin.h"
+#include "scenes/builtin/builtin.h"
 
 namespace defray {
 namespace {

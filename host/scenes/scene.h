@@ -8,7 +8,7 @@
 
 #include "lens/lens.h"
 #include "measure/metrics.h"
-#include "scenes/primitive.h"
+#include "scenes/geometry/primitive.h"
 
 namespace defray {
 

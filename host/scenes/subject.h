@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "methods/method.h"
-#include "scenes/render.h"
 #include "scenes/scene.h"
+#include "scenes/tracing/render.h"
 
 namespace defray {
 

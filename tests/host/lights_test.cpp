@@ -4,8 +4,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "scenes/flat_shapes.h"
-#include "scenes/render.h"
+#include "scenes/geometry/flat_shapes.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "measure/flicker.h"
-#include "scenes/builtin.h"
-#include "scenes/render.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {

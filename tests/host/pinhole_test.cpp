@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/primitives.h"
-#include "scenes/render.h"
+#include "scenes/geometry/primitives.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {

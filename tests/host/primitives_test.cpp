@@ -1,12 +1,12 @@
 // What the built-in scenes' rays hit, against brute force.
-#include "scenes/primitives.h"
+#include "scenes/geometry/primitives.h"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "scenes/block_grid.h"
-#include "scenes/bvh.h"
+#include "scenes/builtin/block_grid.h"
+#include "scenes/geometry/bvh.h"
 #include "support.h"
 
 namespace defray::test {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "lens/camera.h"
-#include "scenes/builtin.h"
-#include "scenes/primitives.h"
-#include "scenes/render.h"
+#include "scenes/builtin/builtin.h"
+#include "scenes/geometry/primitives.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {

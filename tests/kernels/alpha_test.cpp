@@ -7,7 +7,7 @@
 #include "lens/lens.h"
 #include "methods/method.h"
 #include "reference/reference.h"
-#include "scenes/render.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {

@@ -5,8 +5,8 @@
 
 #include "methods/tiltshift.h"
 #include "reference/reference.h"
-#include "scenes/primitives.h"
-#include "scenes/render.h"
+#include "scenes/geometry/primitives.h"
+#include "scenes/tracing/render.h"
 #include "support.h"
 
 namespace defray::test {
