@@ -30,6 +30,8 @@ double planar_share(double x_px, double y_px, double pixel_focal_length) {
 
 double planar_depth(double stored, const DepthSettings& s, double share) {
   switch (s.kind) {
+    case DepthKind::z:
+      return stored;
     case DepthKind::distance:
       return stored * share;
     case DepthKind::inverse:
@@ -38,9 +40,8 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
       const double t = s.invert ? 1 - stored : stored;
       return s.near_units + t * (s.far_units - s.near_units);
     }
-    default:
-      return stored;
   }
+  fail(ErrorKind::internal, "a depth kind that is not known");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "opencl/device_values.h"
 
-#include "base/error.h"
-#include "opencl/session.h"
+#include "opencl/opencl_error.h"
 
 namespace defray {
 

@@ -13,7 +13,7 @@ constexpr std::size_t plane = 4, colour = 4 * plane;
 }  // namespace
 
 const std::vector<Launch>& launch_table() {
-  // Work-groups: any sensible one is within 10 % of the best on PoCL (defray_benchmark).
+  // Work-groups are not tuned yet.
   static const std::vector<Launch> table = {
       // Reads and writes a surface.
       {"assemble", 64, 1, 0, 3 * plane + colour + 2 * (3 * plane + colour)},

@@ -1,71 +1,13 @@
 #include "opencl/session.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cstring>
-#include <thread>
 
-#include "base/error.h"
 #include "opencl/launch_table.h"
+#include "opencl/opencl_error.h"
+#include "opencl/program.h"
 
 namespace defray {
-namespace {
-
-/// Runs `call`; a cl::Error becomes an Error that says what failed.
-template <typename Call>
-decltype(auto) checked(const DeviceInfo& info, const std::string& what, Call&& call) {
-  try {
-    return call();
-  } catch (const cl::Error& error) {
-    fail(ErrorKind::device, "{} failed on {}: {} ({})", what, info.name,
-         opencl_error_name(error.err()), error.what());
-  }
-}
-
-std::string build_log(const cl::Program& program, const cl::Device& device) {
-  try {
-    return program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device);
-  } catch (const cl::Error&) {
-    return "";
-  }
-}
-
-/// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails
-/// with an empty log, and a new program succeeds. A real compile error has a log: no second try.
-cl::Program build_program(const cl::Context& context, const DeviceInfo& info,
-                          const std::string& source, const std::string& options) {
-  constexpr int attempts = 8;
-  for (int attempt = 1;; ++attempt) {
-    cl::Program program(context, source);
-    try {
-      program.build({info.device}, options.c_str());
-      return program;
-    } catch (const cl::Error& error) {
-      const std::string log = build_log(program, info.device);
-      const bool is_real = log.find_first_not_of(" \n\t") != std::string::npos;
-      if (is_real || attempt == attempts) {
-        fail(ErrorKind::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
-             opencl_error_name(error.err()), options, log);
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50 * attempt));
-    }
-  }
-}
-
-std::string build_options(const DeviceInfo& info, const SessionOptions& options,
-                          bool int64_atomics) {
-  std::string text = "-cl-std=CL1.2 " + options.build_options;
-  if (int64_atomics) text += " -DDEFRAY_INT64_ATOMICS";
-  if (options.math == Math::fast) return text + " -DDEFRAY_FAST_MATH -cl-fast-relaxed-math";
-  // Without it OpenCL lets x / y be 2.5 ulp off, and sqrt 3.
-  if (info.rounds_divisions) text += " -cl-fp32-correctly-rounded-divide-sqrt";
-  return text;
-}
-
-}  // namespace
-
 Session::Session(const DeviceInfo& info, const SessionOptions& options)
     : info_(info),
       int64_atomics_(options.use_int64_atomics && info.has_int64_atomics),
@@ -74,10 +16,7 @@ Session::Session(const DeviceInfo& info, const SessionOptions& options)
   queue_ = checked(info_, "clCreateCommandQueue", [&] {
     return cl::CommandQueue(context_, info.device, measures_ ? CL_QUEUE_PROFILING_ENABLE : 0);
   });
-  const std::string source = kernel_source(options.files, options.substitutions);
-  program_ = checked(info_, "clCreateProgramWithSource", [&] {
-    return build_program(context_, info_, source, build_options(info_, options, int64_atomics_));
-  });
+  program_ = build_program(context_, info_, options, int64_atomics_);
   nothing_ = buffer(sizeof(cl_float4));
 }
 
@@ -247,35 +186,6 @@ void Session::enqueue(cl::Kernel& kernel, const char* name, const std::vector<st
                                 measures_ ? &event : nullptr);
   });
   if (measures_) events_[name].push_back(event);
-}
-
-std::string opencl_error_name(int code) {
-  switch (code) {
-#define DEFRAY_NAME(name) \
-  case name:              \
-    return #name
-    DEFRAY_NAME(CL_DEVICE_NOT_FOUND);
-    DEFRAY_NAME(CL_DEVICE_NOT_AVAILABLE);
-    DEFRAY_NAME(CL_COMPILER_NOT_AVAILABLE);
-    DEFRAY_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE);
-    DEFRAY_NAME(CL_OUT_OF_RESOURCES);
-    DEFRAY_NAME(CL_OUT_OF_HOST_MEMORY);
-    DEFRAY_NAME(CL_BUILD_PROGRAM_FAILURE);
-    DEFRAY_NAME(CL_INVALID_VALUE);
-    DEFRAY_NAME(CL_INVALID_DEVICE);
-    DEFRAY_NAME(CL_INVALID_BUFFER_SIZE);
-    DEFRAY_NAME(CL_INVALID_BUILD_OPTIONS);
-    DEFRAY_NAME(CL_INVALID_KERNEL_NAME);
-    DEFRAY_NAME(CL_INVALID_KERNEL_ARGS);
-    DEFRAY_NAME(CL_INVALID_ARG_INDEX);
-    DEFRAY_NAME(CL_INVALID_ARG_SIZE);
-    DEFRAY_NAME(CL_INVALID_WORK_GROUP_SIZE);
-    DEFRAY_NAME(CL_INVALID_WORK_ITEM_SIZE);
-    DEFRAY_NAME(CL_INVALID_HOST_PTR);
-#undef DEFRAY_NAME
-    default:
-      return fmt::format("OpenCL error {}", code);
-  }
 }
 
 }  // namespace defray

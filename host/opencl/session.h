@@ -12,18 +12,9 @@
 #include "frame/frame.h"
 #include "opencl/device.h"
 #include "opencl/device_values.h"
-#include "opencl/kernel_source.h"
+#include "opencl/session_options.h"
 
 namespace defray {
-
-struct SessionOptions {
-  bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
-  Math math = Math::strict;
-  std::string build_options = {};  ///< More options for the OpenCL compiler.
-  std::vector<Substitution> substitutions = {};
-  std::vector<std::string> files = {};  ///< Names of the .cl files to build; empty: all.
-  bool measures = false;                ///< Keep each kernel's time on the device.
-};
 
 /// Runs kernels on one device. Every failure is an Error(device) that names the call and the
 /// OpenCL error; a failed build carries the compiler's log.
@@ -182,8 +173,5 @@ class Session {
   std::map<std::string, cl::Kernel> kernels_;  ///< Kept: Mesa compiles each new one anew.
   std::shared_ptr<Traffic> traffic_ = std::make_shared<Traffic>();
 };
-
-/// "CL_INVALID_VALUE" for -30, and so on; "OpenCL error N" for codes outside OpenCL 1.2.
-std::string opencl_error_name(int code);
 
 }  // namespace defray

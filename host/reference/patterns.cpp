@@ -8,13 +8,11 @@
 namespace defray::reference {
 namespace {
 
-std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-
 class Grid {
  public:
   explicit Grid(const Frame& frame) : frame_(frame) {}
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < frame_.width && y < frame_.height; }
-  std::size_t at(int x, int y) const { return as_size(y) * as_size(frame_.width) + as_size(x); }
+  std::size_t at(int x, int y) const { return size(y) * size(frame_.width) + size(x); }
 
  private:
   const Frame& frame_;

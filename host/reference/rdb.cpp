@@ -55,7 +55,7 @@ class CellScatter {
     const int x0 = first(px + r * u_ - spread, width_), x1 = last(px + r * u_ + spread, width_);
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
-        if (reaches(x, y, px, py, r)) visit(static_cast<std::size_t>(y) * width() + as_size(x));
+        if (reaches(x, y, px, py, r)) visit(size(y) * width() + size(x));
       }
     }
   }
@@ -71,8 +71,7 @@ class CellScatter {
  private:
   std::uint32_t absolute_x(int x) const { return static_cast<std::uint32_t>(x + origin_x_); }
   std::uint32_t absolute_y(int y) const { return static_cast<std::uint32_t>(y + origin_y_); }
-  static std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
-  std::size_t width() const { return as_size(width_); }
+  std::size_t width() const { return size(width_); }
   static int first(double at, int size) {
     return static_cast<int>(std::clamp(std::floor(at), 0.0, static_cast<double>(size)));
   }

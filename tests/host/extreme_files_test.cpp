@@ -7,16 +7,12 @@
 
 #include "image/image_file.h"
 #include "lens/depth.h"
+#include "numbers.h"
 #include "pipeline.h"
 #include "support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float denormal = std::numeric_limits<float>::denorm_min();
-constexpr float largest = std::numeric_limits<float>::max();
 
 const std::vector<float> extreme_depths{
     0.0f,     -0.0f, denormal, -denormal, 1e-38f,  1e-6f,    -1e-6f, 0.5f, 1.0f,     3.0f,     -3,

@@ -6,12 +6,11 @@
 
 #include "image/ldr.h"
 #include "measure/edge_band.h"
+#include "numbers.h"
 #include "support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 std::vector<Plane> grey(std::size_t pixels, float value) {
   return {Plane(pixels, value), Plane(pixels, value), Plane(pixels, value)};

@@ -18,6 +18,7 @@
 #include <limits>
 #include <random>
 
+#include "numbers.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -25,7 +26,6 @@ namespace defray::test {
 namespace {
 
 using Exact = long double;
-constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr int width = 1920;
 constexpr double limit = DEFRAY_COC_LIMIT_QUANTA;
 constexpr double second_order = 1 + 1e-6;  // products of roundings

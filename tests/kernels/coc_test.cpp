@@ -3,13 +3,12 @@
 #include <limits>
 #include <random>
 
+#include "numbers.h"
 #include "reference/reference.h"
 #include "support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
 
 Lens lens_of(double focus, double fstop = 2.8) {
   Lens lens;

@@ -8,17 +8,12 @@
 
 #include "lens/lens_cells.h"
 #include "methods/method.h"
+#include "numbers.h"
 #include "reference/reference.h"
 #include "support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float largest = std::numeric_limits<float>::max();
-constexpr float smallest = std::numeric_limits<float>::min();
-constexpr float denormal = std::numeric_limits<float>::denorm_min();
 
 /// A method, and the farthest that one pixel's colour gets to another's: the radius px from their
 /// own CoC radii.

@@ -5,6 +5,7 @@
 #include "lens/lens_cells.h"
 #include "methods/linear.h"
 #include "methods/method.h"
+#include "numbers.h"
 #include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -12,7 +13,6 @@
 namespace defray::test {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr int width = 1920;
 
 /// A lens focused at 3 whose background's CoC has this radius.

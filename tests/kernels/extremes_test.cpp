@@ -3,16 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers.h"
 #include "reference/reference.h"
 #include "support.h"
 
 namespace defray::test {
 namespace {
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float denormal = std::numeric_limits<float>::denorm_min();
-constexpr float largest = std::numeric_limits<float>::max();
 constexpr int width = 1920;
 constexpr std::int32_t limit = DEFRAY_COC_LIMIT_QUANTA;
 

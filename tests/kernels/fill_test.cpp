@@ -3,13 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers.h"
 #include "stages_support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(Fill, BehindABarThePlaneGoesOn) {
   Canvas f(60, 40);

@@ -5,14 +5,12 @@
 #include <limits>
 
 #include "chain/lens_grid.h"
+#include "numbers.h"
 #include "reference/twin_stages.h"
 #include "stages_support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 Frame flat_fragments(int width, int height, int layers, double radius_px) {
   Frame f;

@@ -2,13 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "numbers.h"
 #include "stages_support.h"
 
 namespace defray::test {
 namespace {
-
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 constexpr std::int32_t bar_coc = -512;  // an edge in focus would stay as it is
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "numbers.h"
 #include "support.h"
 #include "validation/report.h"
 
@@ -10,8 +11,6 @@ namespace {
 
 using namespace defray::validation;
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double u = 0x1p-24;
 
 Verdict exactly(const Exact& exact, const Plane& source, const Outcome& kernel) {

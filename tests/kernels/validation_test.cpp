@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "numbers.h"
 #include "support.h"
 #include "validation/report.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using namespace defray::validation;
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr double u = 0x1p-24;
 
 void expect_distance(float a, float b, std::uint32_t distance) {

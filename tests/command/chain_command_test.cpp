@@ -10,7 +10,7 @@ namespace {
 
 /// A bright thin bar and a lamp in front of a wall, focused on neither; depth with or without
 /// anti-aliased edges.
-class DefocusCommand : public testing::Test {
+class ChainCommand : public testing::Test {
  protected:
   Folder folder;
 
@@ -40,7 +40,7 @@ class DefocusCommand : public testing::Test {
   const std::string bg = "--focus-setting bg ";
 };
 
-TEST_F(DefocusCommand, EveryOptionChangesThePicture) {
+TEST_F(ChainCommand, EveryOptionChangesThePicture) {
   std::map<std::uint64_t, std::string> seen;
   for (const std::string options :
        {"", "--literal", "--literal --jitter", "--quality draft", "--quality high", "--rdb 20",
@@ -54,7 +54,7 @@ TEST_F(DefocusCommand, EveryOptionChangesThePicture) {
   EXPECT_NE(rendered("", "lamps"), rendered("--highlights rays", "lamps"));
 }
 
-TEST_F(DefocusCommand, AntialiasedDepthIsRepairedAndReported) {
+TEST_F(ChainCommand, AntialiasedDepthIsRepairedAndReported) {
   const std::uint64_t repaired = rendered(bg, "smooth");
   EXPECT_NE(last_.find("depth looks anti-aliased"), std::string::npos) << last_;
   EXPECT_NE(rendered(bg + "--keep-depth", "smooth"), repaired);
@@ -62,7 +62,7 @@ TEST_F(DefocusCommand, AntialiasedDepthIsRepairedAndReported) {
   EXPECT_EQ(rendered(bg), rendered(bg + "--keep-depth"));
 }
 
-TEST_F(DefocusCommand, ConfidenceIsAChannelAndInTheSummary) {
+TEST_F(ChainCommand, ConfidenceIsAChannelAndInTheSummary) {
   rendered(bg + "--confidence-out confidence.exr --json");
   const ImageFile file = ImageFile::read(folder / "confidence.exr");
   EXPECT_EQ(file.parts()[0].channels, std::vector<std::string>{"confidence"});
@@ -80,7 +80,7 @@ TEST_F(DefocusCommand, ConfidenceIsAChannelAndInTheSummary) {
   EXPECT_NE(last_.find("of their rays determined by the input"), std::string::npos) << last_;
 }
 
-TEST_F(DefocusCommand, ReferenceGivesTheKernelsBits) {
+TEST_F(ChainCommand, ReferenceGivesTheKernelsBits) {
   for (const std::string options : {"", "--quality draft --cats-eye 0.5 --blades 6"}) {
     EXPECT_EQ(rendered(bg + options), rendered(bg + options + " --device reference")) << options;
   }
@@ -88,13 +88,13 @@ TEST_F(DefocusCommand, ReferenceGivesTheKernelsBits) {
             rendered("--quality draft --device reference", "lamps"));
 }
 
-TEST_F(DefocusCommand, SameBitsForEveryMemoryAndWorkGroup) {
+TEST_F(ChainCommand, SameBitsForEveryMemoryAndWorkGroup) {
   const std::uint64_t usual = rendered(bg);
   EXPECT_EQ(rendered(bg + "--memory 0.5"), usual);
   EXPECT_EQ(rendered(bg + "--work-group 7x3"), usual);
 }
 
-TEST_F(DefocusCommand, WrongUseIsSaid) {
+TEST_F(ChainCommand, WrongUseIsSaid) {
   for (const std::string option :
        {"--quality high", "--hidden off", "--edges keep", "--highlights rays", "--border black",
         "--keep-depth", "--confidence-out c.exr", "--blades 5", "--blade-curvature 1",
