@@ -9,6 +9,7 @@
 #include "lens/coc.h"
 #include "lens/lens.h"
 #include "opencl/launch_table.h"
+#include "opencl/opencl_error.h"
 #include "support.h"
 
 namespace defray::test {
