@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Runs one instrumented test program: preset_run.sh asan|tsan|coverage PROGRAM [gtest arguments].
+# preset_run.sh rest PROGRAM: without instruments what asan leaves out, and long tests.
 set -euo pipefail
 name=$1 program=$2
 shift 2
@@ -17,6 +18,10 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*
+if [ "$name" = rest ]; then
+  longer=Arithmetic.*:PerfCommand.*:ReportCommand.*:Rdb.Huge*:*EqualsTwin*:*EqualTwins*
+  DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"
+fi
 case $name in
   tsan)
     left_out+=:*EveryDamagedFile*  # minutes, in OpenEXR's threads and not ours

@@ -21,10 +21,10 @@ folder=$project/build/tests
 if [ -n "$full" ]; then
   echo "All tests, sanitizers, simulator, second OpenCL implementation, faults and fuzzers included."
   export DEFRAY_TEST_LONG=1
-  which=(-L 'default|full')
+  which=(-L 'full|both')
 else
   echo "Every kernel, option, message and documented command (--full: all there is)."
-  which=(-L default)
+  which=(-L 'quick|both')
 fi
 step() { echo "[$((SECONDS - begin)) s] $1"; }
 step "Building"

@@ -69,7 +69,7 @@ std::size_t add_memory(const Case& c, const Input&) {
 
 double add_work(const Case& c) {
   const double disc = std::min(std::pow(2 * c.coc_px + 5, 2), pixels(c));
-  return 4 * pixels(c) * c.cells * c.cells + pixels(c) / 6 * disc * 8;
+  return (4 * pixels(c) + band_work(c)) * c.cells * c.cells + pixels(c) / 6 * disc * 8;
 }
 
 constexpr const char* rule = "equal bits: + - x / sqrt in one order";

@@ -124,9 +124,7 @@ double difference_work(const Case& c) { return pixels_of(c) * 4; }
 double columns_work(const Case& c) { return pixels_of(c) * (4 + 2.0 * window_of(c)); }
 
 double match_work(const Case& c) {
-  // A band comes with the rows around it, and its launches cost some devices most of a millisecond.
-  const double bands = c.band_rows > 0 ? std::ceil(c.height / double(c.band_rows)) : 1;
-  return shift_count * pixels_of(c) * (4 + 3.0 * window_of(c)) + 1e4 * bands * shift_count;
+  return shift_count * (pixels_of(c) * (4 + 3.0 * window_of(c)) + band_work(c));
 }
 
 /// A weight is the sixth power of a quotient 5 u off, of another, 5 u off too, and a rounding: 72 u

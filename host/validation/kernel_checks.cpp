@@ -73,11 +73,9 @@ Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
 }
 
 double rdb_work(const Case& c) {
-  // A launch costs some devices most of a millisecond: passes count like ten thousand operations.
-  const double passes = c.band_rows > 0 ? std::ceil(c.height / double(c.band_rows)) : 1;
   const double side = c.jitter ? 2 * (c.coc_px / c.cells + 1) + 1 : 1;
   const double rays = pixels(c) * c.cells * c.cells;
-  return 4 * rays * (1 + std::min(square(side), pixels(c))) + 1e4 * passes * c.cells * c.cells;
+  return 4 * rays * (1 + std::min(square(side), pixels(c))) + band_work(c) * c.cells * c.cells;
 }
 
 /// A pass of so many rows with one cell.

@@ -42,8 +42,8 @@ struct KernelCheck {
   /// twin's bits too.
   Exact (*exact)(const Case&, const Input&) = nullptr;
 
-  /// What a session may take where the case wants bands; null: the fewest rows that a stage works
-  /// with, one or a tile's.
+  /// What a session may take where the case wants bands; null: its rows and those that the launch
+  /// table says it looks at.
   std::size_t (*memory)(const Case&, const Input&) = nullptr;
 
   bool needs_two_passes = false;  ///< Runs without 64-bit atomics.
@@ -53,7 +53,8 @@ struct KernelCheck {
 std::vector<KernelCheck> stage_checks();
 std::vector<KernelCheck> highlight_checks();
 
-/// What bands add to a stage's work: launches cost some devices most of a millisecond.
+/// What a launch a band adds to the work: it costs some devices (Mesa's, which compiles for each
+/// launch anew) milliseconds.
 double band_work(const Case& c);
 
 /// What the case's rays go through.
