@@ -2,6 +2,7 @@
 # Runs the kernel tests under Oclgrind: memory outside buffers and data races in every kernel.
 # oclgrind.sh PROGRAM [FILTER]. Oclgrind exits with 0 whatever it finds, so its log is what counts.
 set -euo pipefail
+unset DEFRAY_TEST_LONG
 program=$1
 filter=${2:-*}
 log=$(mktemp)

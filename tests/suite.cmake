@@ -17,6 +17,11 @@ function(add_shards name count cost label)
                  ENVIRONMENT
                  "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${test}.json"
     )
+    if("${label}" MATCHES "quick|both" OR ${name} MATCHES "^sanitized")
+      set(reached ${CMAKE_BINARY_DIR}/reached/${test})
+      file(MAKE_DIRECTORY ${reached})
+      set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "DEFRAY_REACHED=${reached}")
+    endif()
   endforeach()
 endfunction()
 
@@ -52,12 +57,12 @@ add_check(format 1 both bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 # All faults, on PoCL alone: every fault is a program to compile.
 add_shards(faults 2 90 full faults_tests)
 
-# The same kernel tests on another OpenCL implementation; not those of whole pictures, which many
-# kernels make, nor long comparisons with twins: validate makes them there.
+# The same kernel tests on another OpenCL implementation; not long ones, nor those of whole pictures,
+# which many kernels make, nor long comparisons with twins: validate makes them there.
 set(left_out "*Picture*:*Closer*:HighlightDisc*:Alpha*:Rdb.SameBitsForEveryMemory*")
 set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*)
 add_shards(rusticl 2 80 full bash -c
-           "\"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
+           "env -u DEFRAY_TEST_LONG \"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
 set_property(TEST rusticl_1 rusticl_2 APPEND PROPERTY ENVIRONMENT "RUSTICL_ENABLE=llvmpipe"
              "DEFRAY_TEST_DEVICE=llvmpipe")
 

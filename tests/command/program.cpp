@@ -21,7 +21,10 @@ int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 +
 
 }  // namespace
 
-std::string program() { return "'" DEFRAY_PROGRAM "'"; }
+std::string program() {
+  const char* set = std::getenv("DEFRAY_TEST_PROGRAM");  // mutate.sh has its own
+  return "'" + std::string(set ? set : DEFRAY_PROGRAM) + "'";
+}
 
 Result shell(const Folder& folder, const std::string& command) {
   const Folder logs;

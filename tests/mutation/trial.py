@@ -1,0 +1,217 @@
+"""One mutant: compiled, linked and tried beside the build, which stays as it is."""
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import threading
+import time
+
+PROGRAMS = ["kernels_tests", "host_tests", "command_tests", "properties_tests"]
+QUICK_SECONDS = 0.3     # tests up to here go first
+BUDGET_SECONDS = 60     # of tests, by their usual time, quickest first
+COMPILE_SECONDS = 300
+OBJECTS = 40            # a header that more include is left out
+
+
+class Build:
+    """Commands of the build in build/tests."""
+
+    def __init__(self, project, folder):
+        self.project, self.folder = project, folder
+        self.compile = {}   # path in the project: command
+        for entry in json.load(open(f"{folder}/compile_commands.json")):
+            path = os.path.relpath(entry["file"], project)
+            if path.startswith(("host/", "cli/")) and " -o tests/" not in entry["command"]:
+                self.compile.setdefault(path, entry["command"])
+        self.compile.pop("cli/main.cpp", None)  # no library has it
+        self.link = {program: self._ninja("-t", "commands", f"bin/{program}").strip().split("\n")[-1]
+                     for program in PROGRAMS + ["defray"]}
+        self.included_by = {}
+        self._read_dependencies()
+
+    def _ninja(self, *arguments):
+        return subprocess.run(["ninja", "-C", self.folder, *arguments], capture_output=True, text=True,
+                              check=True).stdout.replace(f"ninja: Entering directory `{self.folder}'\n", "")
+
+    def _read_dependencies(self):
+        of_object = {re.search(r" -o (\S+)", command).group(1): path for path, command in self.compile.items()}
+        source = None
+        for line in self._ninja("-t", "deps").split("\n"):
+            if line and not line.startswith(" "):
+                source = of_object.get(line.split(":")[0])
+            elif source:
+                file = os.path.normpath(os.path.join(self.folder, line.strip()))
+                path = os.path.relpath(file, self.project)
+                if file.endswith("kernel_files.h"):
+                    path = "kernel_files.h"
+                if not path.startswith(".."):
+                    self.included_by.setdefault(path, set()).add(source)
+
+    def sources_of(self, path):
+        """What must be compiled anew when a file changes."""
+        if path.endswith(".cpp"):
+            return [path] if path in self.compile else []
+        found = set(self.included_by.get(path, ()))
+        if path.startswith("kernels/"):
+            found |= self.included_by.get("kernel_files.h", set())
+        return sorted(found)
+
+
+class Worker:
+    """A folder to try one mutant after the other in."""
+
+    def __init__(self, build, folder):
+        self.build, self.folder = build, folder
+        self.process = None
+        self.stopped = False
+        shutil.rmtree(folder, ignore_errors=True)
+        os.makedirs(f"{folder}/bin")
+
+    def stop(self):
+        self.stopped = True
+        process = self.process
+        if process:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+
+    def run(self, command, seconds, environment=None, folder=None):
+        """Exit code, or None when it took too long; and what it said."""
+        if self.stopped:
+            raise KeyboardInterrupt
+        log = open(f"{self.folder}/log", "w+", errors="replace")
+        self.process = subprocess.Popen(
+            command, shell=isinstance(command, str), cwd=folder or self.build.folder, stdout=log, stderr=log,
+            stdin=subprocess.DEVNULL, env={**os.environ, **(environment or {})}, start_new_session=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30)))
+        try:
+            code = self.process.wait(seconds)
+        except subprocess.TimeoutExpired:
+            code = None
+        finally:
+            try:
+                os.killpg(self.process.pid, signal.SIGKILL)  # with all that it has started
+            except ProcessLookupError:
+                pass
+            self.process.wait()
+        if self.stopped:
+            raise KeyboardInterrupt
+        log.seek(0)
+        return code, log.read()
+
+    def compile(self, path, text):
+        """Whether the mutant compiles; its objects lie in the worker's folder."""
+        overlay = f"{self.folder}/overlay"
+        shutil.rmtree(overlay, ignore_errors=True)
+        os.makedirs(os.path.dirname(f"{overlay}/{path}"))
+        with open(f"{overlay}/{path}", "w") as file:
+            file.write(text)
+        if path.startswith("kernels/"):
+            if not self._compile_kernels(path, text, overlay):
+                return False
+        self.objects = []
+        for source in self.build.sources_of(path):
+            made = f"{self.folder}/{source.replace('/', '_')}.o"
+            place = f"{overlay}/{source}" if source == path else f"{self.build.project}/{source}"
+            command = self.build.compile[source].replace(f"-c {self.build.project}/{source}", f"-c {place}")
+            command = re.sub(r" -o \S+", f" -o {made}", command)
+            command = re.sub(r" -M[DTF]\b( \S+\.o(\.d)?)?", "", command)
+            command = command.replace(" -I", f" -I{overlay}/host -I{overlay}/cli -I{overlay}/made -I{overlay} -I", 1)
+            code, said = self.run(command + " -Wno-error", COMPILE_SECONDS)
+            if code != 0:
+                return False
+            self.objects.append(made)
+        return bool(self.objects)
+
+    def _compile_kernels(self, path, text, overlay):
+        kernels = f"{self.build.project}/kernels"
+        files = [path] if path.endswith(".cl") else [
+            f"kernels/{f}" for f in sorted(os.listdir(kernels)) if f.endswith(".cl")]
+        shutil.copytree(kernels, f"{overlay}/check")
+        shutil.copy(f"{overlay}/{path}", f"{overlay}/check")
+        for file in files:
+            code, _ = self.run(f"clang -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header "
+                               f"{overlay}/check/{os.path.basename(file)}", COMPILE_SECONDS)
+            if code != 0:
+                return False
+        made = open(f"{self.build.folder}/kernels/kernel_files.h").read()
+        original = open(f"{self.build.project}/{path}").read()
+        assert made.count(f'R"CLC({original})CLC"') == 1, path
+        os.makedirs(f"{overlay}/made")
+        with open(f"{overlay}/made/kernel_files.h", "w") as file:
+            file.write(made.replace(f'R"CLC({original})CLC"', f'R"CLC({text})CLC"'))
+        return True
+
+    def link(self, program):
+        made = f"{self.folder}/bin/{program}"
+        command = re.sub(r" -o bin/\S+", f" -o {made} " + " ".join(self.objects), self.build.link[program])
+        code, said = self.run(command, COMPILE_SECONDS)
+        if code != 0:
+            raise RuntimeError(f"{program} does not link:\n{said}")
+        return made
+
+    def environment(self, is_kernel):
+        cache = f"{self.folder}/{'mutant' if is_kernel else 'kernel'}-cache"
+        if is_kernel:
+            shutil.rmtree(cache, ignore_errors=True)
+        scratch = f"{self.folder}/scratch"
+        shutil.rmtree(scratch, ignore_errors=True)
+        for folder in (cache, scratch):
+            os.makedirs(folder, exist_ok=True)
+        return {"POCL_CACHE_DIR": cache, "TMPDIR": scratch, "RC_PARAMS": "seed=1994",
+                "DEFRAY_TEST_PROGRAM": f"{self.folder}/bin/defray"}
+
+
+def first_failure(said):
+    failed = re.search(r"\[  FAILED  \] ([\w/.]+)", said)
+    return failed.group(1) if failed else said.strip().split("\n")[-1][:100]
+
+
+def chosen_tests(near, far, tests):
+    """Groups of tests, one process each: quick ones and near ones first, no longer than the budget."""
+    left, groups = BUDGET_SECONDS, []
+    is_quick = lambda index: tests[index].seconds <= QUICK_SECONDS
+    ways = [(near, True), (near, False), (far - near, True), (far - near, False)]
+    for indices, quick in ways:
+        chosen = {}
+        for index in sorted(indices, key=lambda i: tests[i].seconds):
+            if is_quick(index) == quick and tests[index].seconds <= left:
+                left -= tests[index].seconds
+                chosen.setdefault(tests[index].program, []).append(index)
+        groups += sorted(chosen.items(), key=lambda group: sum(tests[i].seconds for i in group[1]))
+    return groups
+
+
+def try_mutant(worker, path, text, near, far, tests, kernels):
+    """"killed by …", "timed out in …", "survived N tests" or "does not compile"."""
+    if not worker.compile(path, text):
+        return "does not compile"
+    environment = worker.environment(bool(kernels) or path.startswith("kernels/"))
+    linked = {}
+
+    def program(name):
+        if name not in linked:
+            linked[name] = worker.link(name)
+        return linked[name]
+
+    if kernels:
+        wanted = " ".join(f"--kernel {kernel}" for kernel in kernels)
+        code, said = worker.run(f"{program('defray')} validate -o {worker.folder}/scratch/v {wanted}", 200, environment)
+        if code != 0:
+            return "timed out in validate" if code is None else "killed by validate"
+    count = 0
+    for name, indices in chosen_tests(near, far, tests):
+        if name == "command_tests":
+            program("defray")
+        usual = sum(tests[i].seconds for i in indices)
+        filters = ":".join(tests[i].name for i in indices)
+        code, said = worker.run([program(name), f"--gtest_filter={filters}", "--gtest_fail_fast"],
+                                30 + 6 * usual, environment)
+        if code != 0:
+            return f"timed out in {name}" if code is None else f"killed by {first_failure(said)}"
+        count += len(indices)
+    return f"survived {count} tests"
