@@ -180,6 +180,13 @@ TEST(Render, LensFromMetadataWhenAskedFor) {
   EXPECT_EQ(rendered(folder, "--camera from-metadata", "nuke.exr"),
             rendered(folder, lens + "--sensor-width 24", "plain.exr"));
   EXPECT_NE(rendered(folder, "--camera from-metadata --focus 5", "exr.exr"), expected);
+  // The standard's focus is in metres, V-Ray's in scene units; 2 metres are one unit here.
+  with("near.exr", {{"focus", 6.0f}, {"FNumber", 0.5f}, {"FocalLength", 50.0f}});
+  const std::string in_two_metres = "--unit 2 ";
+  EXPECT_EQ(rendered(folder, "--camera from-metadata " + in_two_metres, "near.exr"),
+            rendered(folder, lens + in_two_metres, "plain.exr"));
+  EXPECT_EQ(rendered(folder, "--camera from-metadata " + in_two_metres, "vray.exr"),
+            rendered(folder, lens + in_two_metres, "plain.exr"));
   const Result missing = defray(folder, "render plain.exr -o out.exr --camera from-metadata");
   EXPECT_EQ(missing.code, 2);
   EXPECT_NE(missing.err.find("--focus, --focal-length, --fstop"), std::string::npos) << missing.err;

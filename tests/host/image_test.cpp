@@ -1,4 +1,6 @@
 // Image files: what is read is written back; what is damaged is refused.
+#include <OpenImageIO/imagebuf.h>
+
 #include <cmath>
 #include <fstream>
 
@@ -121,6 +123,18 @@ TEST(Ldr, EveryByteSurvivesPng) {
     EXPECT_NEAR(read.planes[0][i], picture.planes[0][i], 1e-6) << i;
     EXPECT_EQ(read.planes[2][i], 1);
   }
+}
+
+TEST(Ldr, SixteenBitsSpanFromBlackToWhite) {
+  const Folder folder;
+  std::vector<std::uint16_t> values = {0, 1, 257, 32768, 65534, 65535};
+  OIIO::ImageSpec spec(6, 1, 1, OIIO::TypeDesc::UINT16);
+  OIIO::ImageBuf(spec, values.data()).write(folder / "a.png");
+  const LdrPicture read = read_ldr(folder / "a.png");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(read.planes[0][i], static_cast<float>(srgb_decode(values[i] / 65535.0))) << i;
+  }
+  EXPECT_EQ(read.planes[0].back(), 1.0f);
 }
 
 TEST(Ldr, PngAlphaIsStraightAndOursPremultiplied) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "chain/chain.h"
 #include "chain/layers.h"
@@ -73,6 +74,19 @@ TEST(BorderPicture, FartherOutTheEdgeFadesToTheMeanOfItsSurface) {
     EXPECT_EQ(at(30, -1 - d), 30) << d;  // one colour stays that colour
     EXPECT_EQ(at(-1 - d, -1 - d), left[d]) << d;
     EXPECT_TRUE(std::isnan(at(-1 - d, 20))) << d;
+  }
+}
+
+TEST(BorderPicture, ReachesAsFarAsDiscsDoUpToHalfTheFrame) {
+  for (const auto& [coc, px, is_cut] : {std::tuple{3 * 256, 4, false},
+                                        {18 * 256, 19, false},
+                                        {19 * 256, 20, false},
+                                        {25 * 256, 20, true}}) {
+    Scene scene;
+    scene.coc.assign(scene.coc.size(), coc);
+    const MethodResult result = scene.through(Border::clamp);
+    EXPECT_EQ(result.report.border_px, px) << coc;
+    EXPECT_EQ(result.report.border_is_cut, is_cut) << coc;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "reference/reference.h"
 #include "support.h"
@@ -51,6 +52,50 @@ TEST(Gather, KernelsEqualTwinsBitForBit) {
         }
       }
     }
+  }
+}
+
+TEST(Gather, KernelsEqualTwinsWhereDiscsBeginToCoverMoreThanAPixel) {
+  const Size size{24, 16};
+  for (int quanta = 100; quanta <= 200; quanta += 4) {
+    const std::vector<std::int32_t> coc(24 * 16, quanta);
+    const auto channels = planes_of(size);
+    const GatherSettings s = settings_of(GatherKind::aware, 16, 1, true);
+    const auto twin = twins().gather({size.width, size.height, coc, {}, channels}, s);
+    EXPECT_EQ(hash_of(render(size, coc, channels, s)), hash_of(twin)) << quanta;
+  }
+}
+
+TEST(Gather, EveryPassTurnsItsSamplesOtherwise) {
+  const GatherSettings s = settings_of(GatherKind::literal, 16, 3, true);
+  std::set<std::uint32_t> seeds;
+  for (int pass = 0; pass < s.passes; ++pass) seeds.insert(gather_params(s, 8, 8, pass).seed);
+  EXPECT_EQ(seeds.size(), 3u);
+}
+
+/// Variances add up: two literal passes blur like one of a radius sqrt(2) times as large, and the
+/// aware ones share one radius.
+TEST(Gather, PassesBlurAsMuchAsTheySay) {
+  const int side = 65, middle = side / 2;
+  const auto variance_of = [&](GatherKind kind, int passes) {
+    std::vector<Plane> channels = {Plane(65 * 65)};
+    channels[0][static_cast<std::size_t>(middle * side + middle)] = 1;
+    const std::vector<std::int32_t> coc(65 * 65, 8 * 256);
+    const auto out = render({side, side}, coc, channels, settings_of(kind, 64, passes, true));
+    double light = 0, squares = 0;
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const double v = out[0][static_cast<std::size_t>(y * side + x)];
+        light += v;
+        squares += v * (std::pow(x - middle, 2) + std::pow(y - middle, 2));
+      }
+    }
+    return squares / light;
+  };
+  for (const GatherKind kind : kinds) {
+    const double one = variance_of(kind, 1);
+    EXPECT_NEAR(one / 32, 1, 0.1);  // r^2 / 2
+    EXPECT_NEAR(variance_of(kind, 2) / one, kind == GatherKind::literal ? 2 : 1, 0.1);
   }
 }
 
