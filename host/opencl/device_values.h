@@ -13,6 +13,7 @@ namespace defray {
 struct Traffic {
   std::atomic<std::size_t> uploads = 0, downloads = 0;
   std::atomic<std::size_t> bytes = 0;  ///< Of both.
+  std::atomic<std::size_t> made = 0;   ///< Bytes of all buffers made on the device.
 };
 
 class DeviceBuffer : public DeviceValues {

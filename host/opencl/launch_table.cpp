@@ -16,33 +16,34 @@ const std::vector<Launch>& launch_table() {
   // Work-groups are not tuned yet.
   static const std::vector<Launch> table = {
       // Reads and writes a surface.
-      {"assemble", 64, 1, 0, 3 * plane + colour + 2 * (3 * plane + colour)},
-      {"coc", 64, 1, 0, 2 * plane},
+      {"assemble", 64, 1, 0, 2 * (3 * plane + colour)},
+      {"coc", 64, 1},
       {"edges", 64, 1, 1, 2 * plane},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
       {"fill", 64, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour},
-      {"gather_aware", 64, 1, 0, plane + 2 * colour},
-      {"gather_literal", 64, 1, 0, plane + 2 * colour},
-      {"gather_reach", 16, 1, 0, 2 * plane},
-      {"gather_tiles", 16, 1, 0, 2 * plane},
+      {"gather_aware", 64, 1},
+      {"gather_literal", 64, 1},
+      {"gather_reach", 16, 1},
+      {"gather_tiles", 16, 1},
       // Two pixels further out than the disc, and 1 for rounding.
       {"highlights", 64, 1, 3, 3 * plane + colour},
-      {"highlights_add", 64, 1, 0, 2 * plane + colour},
-      {"linear_psf", 16, 1, 0, plane + 2 * colour},
-      {"patterns_columns", 16, 1, 0, plane + 2 * plane},
-      {"patterns_difference", 16, 1, 0, 4 * plane},
-      {"patterns_match", 16, 1, 0, 4 * plane + 2 * plane + 3 * colour},
-      {"rdb_clear", 256, 1, 0, 2 * plane},
+      {"highlights_add", 64, 1},
+      {"linear_psf", 16, 1},
+      {"patterns_columns", 16, 1},
+      {"patterns_difference", 16, 1},
+      {"patterns_match", 16, 1},
+      {"rdb_clear", 256, 1},
+      // Bands are cut by rdb/rdb_plan.h; so much says whether the frame stays on the device.
       {"rdb_merge", 64, 1, 1, 3 * plane + 2 * colour},
-      {"rdb_nearest", 64, 1, 0, 3 * plane},
-      {"rdb_scatter", 64, 1, 0, 3 * plane},
+      {"rdb_nearest", 64, 1},
+      {"rdb_scatter", 64, 1},
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 64, 1, 3, 2 * plane},
       {"soften", 64, 1, 1, 2 * plane + 2 * colour},
       // A square of 7 px around.
       {"split", 64, 1, 3, 3 * plane + colour + 2 * (3 * plane + colour)},
-      {"tiltshift", 64, 1, 0, plane},
+      {"tiltshift", 64, 1},
   };
   return table;
 }

@@ -11,9 +11,10 @@ struct Launch {
   /// Work-group; any other gives the same bits.
   std::size_t group_x, group_y;
   /// Rows around its own that a work-item looks at beyond what the CoC says.
-  int reach_px;
-  /// Of planes that a kernel reads and writes, a surface, on a device with memory of its own.
-  std::size_t bytes_a_surface;
+  int reach_px = 0;
+  /// Of planes that a kernel reads and writes, a surface, on a device with memory of its own: of
+  /// kernels that for_each_band launches.
+  std::size_t bytes_a_surface = 0;
 };
 
 /// Of all kernels, by name.

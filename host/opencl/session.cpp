@@ -69,6 +69,7 @@ cl::Buffer Session::buffer(std::size_t bytes) {
   }
   return checked(info_, "clCreateBuffer", [&] {
     cl::Buffer made(context_, CL_MEM_READ_WRITE, bytes);
+    traffic_->made += bytes;
     if (fill_) queue_.enqueueFillBuffer(made, *fill_, 0, bytes);
     return made;
   });
@@ -86,6 +87,7 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
   if (!works_in_host_memory()) {
     ++traffic_->uploads;
     traffic_->bytes += bytes;
+    traffic_->made += bytes;
   }
   return checked(info_, "clCreateBuffer", [&] {
     // OpenCL's signature has no const; kernels only read it.

@@ -138,7 +138,7 @@ std::size_t band_memory(const KernelCheck& check, const Case& c, const Input& in
   if (check.memory) return check.memory(c, input);
   const Launch& launch = launch_of(check.name);
   const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_bands
-  return size(rows) * size(c.width) * launch.bytes_a_surface;
+  return std::max<std::size_t>(1, size(rows) * size(c.width) * launch.bytes_a_surface);
 }
 
 }  // namespace

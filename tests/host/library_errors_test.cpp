@@ -1,0 +1,54 @@
+// What the library refuses of a picture in memory, and what a method does not need.
+#include "defray/defray.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+struct Memory {
+  Plane colour = Plane(48, 0.5f), depth = Plane(48, 3);
+  Picture picture() const {
+    Picture p;
+    p.data = p.display = {0, 0, 8, 6};
+    p.colour = {colour, colour, colour};
+    p.depth = depth;
+    return p;
+  }
+};
+
+Lens lens() {
+  Lens l;
+  l.focus_distance_units = 2;
+  return l;
+}
+
+TEST(Library, RefusesPlanesThatDoNotFit) {
+  const Memory memory;
+  Device device = Device::open();
+  const auto refuses = [&](const std::vector<std::string>& words, const auto& change) {
+    Picture p = memory.picture();
+    change(p);
+    expect_error(ErrorKind::usage, words, [&] { render(device, p, lens()); });
+  };
+  refuses({"depth plane", "0 values", "48 pixels"}, [](Picture& p) { p.depth = {}; });
+  refuses({"plane of colour", "47 values"},
+          [](Picture& p) { p.colour[1] = p.colour[1].subspan(1); });
+  refuses({"1 to 4 planes", "0"}, [](Picture& p) { p.colour.clear(); });
+  refuses({"1 to 4 planes", "5"}, [](Picture& p) { p.colour.resize(5, p.colour[0]); });
+  refuses({"data window", "no pixels"}, [](Picture& p) { p.data.width = 0; });
+  refuses({"data window", "no pixels"}, [](Picture& p) { p.data.height = -1; });
+  refuses({"display window", "no pixels"}, [](Picture& p) { p.display.width = -1; });
+}
+
+TEST(Library, TiltshiftNeedsNoDepth) {
+  const Memory memory;
+  Device device = Device::open();
+  Picture p = memory.picture();
+  p.depth = {};
+  Options options;
+  options.method = Method::tiltshift;
+  EXPECT_EQ(render(device, p, lens(), options).colour.size(), 3u);
+}
+
+}  // namespace
+}  // namespace defray::test

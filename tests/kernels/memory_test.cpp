@@ -1,0 +1,87 @@
+// `--memory` is kept: what the launch table says of bands is what they take.
+#include <algorithm>
+
+#include "opencl/bands.h"
+#include "opencl/launch_table.h"
+#include "stages_support.h"
+
+namespace defray::test {
+namespace {
+
+/// Tall, so that a band's own rows count for more than those around it.
+Frame tall_frame() {
+  Canvas f(40, 600);
+  f.coc.assign(f.count(), 2 * 256);
+  f.each([&](int x, int y) { f.paint(x, y, static_cast<float>(x + y), 1, 2); });
+  f.add_bar(15, 25);
+  Frame frame = f.view();
+  frame.coverage = Words(std::vector<std::uint32_t>(f.count(), DEFRAY_WHOLE));
+  return frame;
+}
+
+struct Stage {
+  std::string kernel;
+  int reach_px;  ///< Of the discs of 2 px, beyond the launch table's.
+  int step;
+  std::function<void()> run;
+};
+
+TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
+  const Frame frame = tall_frame();
+  const Words mixed = device().edges(frame);
+  const Frame behind = device().fill(frame, mixed);
+  const Surfaces surfaces = device().split(frame, mixed, behind);
+  const std::vector<Stage> stages = {
+      {"repair", 0, 1, [&] { device().repair(frame); }},
+      {"edges", 0, 1, [&] { device().edges(frame); }},
+      {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed); }},
+      {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
+      {"assemble", 0, 1, [&] { device().assemble(surfaces); }},
+      {"highlights", 3, 1, [&] { device().highlights(frame, 3); }},
+      {"soften", 0, 1, [&] { device().soften(frame, 100); }},
+  };
+  for (const Stage& stage : stages) {
+    const Launch& launch = launch_of(stage.kernel);
+    const std::size_t layers = stage.kernel == "assemble" ? 2 : 1;
+    const std::size_t row_bytes = 40 * layers * launch.bytes_a_surface, given = 200 * row_bytes;
+    std::size_t rows = 0;
+    for (const BandRows& band :
+         cut_into_bands(600, launch.reach_px + stage.reach_px, stage.step, row_bytes, given)) {
+      rows += static_cast<std::size_t>(band.window_rows);
+    }
+    const InBands bands(session(), given);
+    const std::size_t before = session().traffic().made;
+    stage.run();
+    const auto made = static_cast<double>(session().traffic().made - before);
+    EXPECT_NEAR(made / static_cast<double>(rows * row_bytes), 1, 0.01) << stage.kernel;
+  }
+}
+
+TEST(Memory, BandsHaveAsManyRowsAsFit) {
+  for (const int reach : {0, 1, 5, 30}) {
+    for (const int step : {1, 16}) {
+      for (const std::size_t rows : {1u, 40u, 77u, 200u}) {
+        constexpr std::size_t row_bytes = 1000;
+        const auto bands = cut_into_bands(301, reach, step, row_bytes, rows * row_bytes);
+        int next = 0;
+        for (const BandRows& b : bands) {
+          EXPECT_EQ(b.y, next);
+          next += b.rows;
+          EXPECT_EQ(b.window_y % step, 0);
+          EXPECT_LE(b.window_y, std::max(0, b.y - reach));
+          EXPECT_GE(b.window_y, std::max(0, b.y - reach) - step + 1);
+          EXPECT_EQ(b.window_y + b.window_rows, std::min(301, b.y + b.rows + reach));
+          EXPECT_TRUE(b.rows <= step || static_cast<std::size_t>(b.window_rows) <= rows);
+        }
+        EXPECT_EQ(next, 301);
+        // No band fewer than needed: one step more in each would not fit.
+        const auto most = static_cast<int>(rows) - 2 * reach - step;
+        const int each = std::max(1, most / step) * step;
+        EXPECT_EQ(bands.size(), static_cast<std::size_t>((301 + each - 1) / each));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
