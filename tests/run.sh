@@ -13,7 +13,7 @@ done
 begin=$SECONDS
 export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev clang-format lld"
 if [ -n "$full" ]; then
-  EXTRA_PACKAGES+=" libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium"
+  EXTRA_PACKAGES+=" libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium llvm python3"
 fi
 source "$project/cli/setup.sh"
 
@@ -33,7 +33,7 @@ build "$folder" -C "$project/tests/presets/tests.cmake"
 
 # Kernels are compiled anew for each build, and leave the user's cache alone.
 export POCL_CACHE_DIR=$folder/kernel-cache
-rm -rf "$folder/results" "$POCL_CACHE_DIR"
+rm -rf "$folder/results" "$POCL_CACHE_DIR" "$folder"/reached/*/*
 mkdir -p "$POCL_CACHE_DIR"
 if [ -n "$name" ]; then
   export GTEST_FILTER="*$name*"

@@ -95,6 +95,14 @@ foreach(program kernels host command)
   add_shards(rest_of_${program} 1 60 full ${preset_run} rest $<TARGET_FILE:${program}_tests>)
 endforeach()
 
+# Ten mutants: that they are still tried and found. What each test reaches the sanitized ones noted.
+add_check(mutants 100 full python3 ${here}/mutation/mutate.py --count 10 --seed 7 --jobs 1 --fresh)
+set_tests_properties(
+  mutants
+  PROPERTIES DEPENDS
+             "sanitized_kernels_1;sanitized_kernels_2;sanitized_host;sanitized_command_1;sanitized_command_2;properties"
+)
+
 # Five seconds of every fuzzer, built by run.sh, from the seeds in corpus/ and what the runs before
 # have found. What it finds it leaves as crash-… in the build folder's fuzz/.
 foreach(name camera cases channels options sequence text)

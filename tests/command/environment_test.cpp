@@ -20,10 +20,16 @@ TEST(Devices, ListsInTextAndJson) {
   const Folder folder;
   const Result text = defray(folder, "devices");
   EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_NE(text.out.find("work-groups up to"), std::string::npos) << text.out;
   const auto list = nlohmann::json::parse(defray(folder, "devices --json").out);
   ASSERT_GE(list.size(), 1u);
   EXPECT_TRUE(list[0].contains("int64_atomics"));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const std::string& line :
+         {fmt::format("{}: {}\n", i, list[i]["name"].get<std::string>()),
+          fmt::format("work-groups up to {}\n", list[i]["max_work_group"].get<std::size_t>())}) {
+      EXPECT_NE(text.out.find(line), std::string::npos) << line << " in " << text.out;
+    }
+  }
 }
 
 TEST(Devices, CanBeChosenByIndexAndNamePart) {

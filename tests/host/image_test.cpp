@@ -1,5 +1,6 @@
 // Image files: what is read is written back; what is damaged is refused.
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
 
 #include <cmath>
 #include <fstream>
@@ -67,6 +68,34 @@ TEST(ImageFile, EveryDamagedFileIsRefusedUnderBothNames) {
     ++count;
   }
   EXPECT_EQ(count, 92u);
+}
+
+TEST(ImageFile, TwoPartsStayTwoParts) {
+  const Folder folder;
+  std::vector<OIIO::ImageSpec> specs;
+  for (const int width : {5, 7}) {
+    OIIO::ImageSpec spec(width, 3, 2, OIIO::TypeDesc::FLOAT);
+    spec.full_width = 7;
+    spec.attribute("name", "part" + std::to_string(width));
+    specs.push_back(spec);
+  }
+  const auto out = OIIO::ImageOutput::create("exr");
+  ASSERT_TRUE(out->open(folder / "two.exr", 2, specs.data())) << out->geterror();
+  for (std::size_t p = 0; p < 2; ++p) {
+    if (p > 0)
+      ASSERT_TRUE(out->open(folder / "two.exr", specs[p], OIIO::ImageOutput::AppendSubimage));
+    const Plane pixels = random_plane({42, 1}, 3);
+    ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, pixels.data())) << out->geterror();
+  }
+  ASSERT_TRUE(out->close());
+  const ImageFile two = ImageFile::read(folder / "two.exr");
+  two.write(folder / "again.exr");
+  const ImageFile again = ImageFile::read(folder / "again.exr");
+  ASSERT_EQ(again.parts().size(), 2u);
+  for (int p = 0; p < 2; ++p) {
+    EXPECT_EQ(again.parts()[static_cast<std::size_t>(p)].data.width, p == 0 ? 5 : 7);
+    for (int c = 0; c < 2; ++c) EXPECT_EQ(again.plane(p, c), two.plane(p, c));
+  }
 }
 
 TEST(ImageFile, TruncatedAtEveryLength) {

@@ -148,7 +148,9 @@ class Worker:
 
     def link(self, program):
         made = f"{self.folder}/bin/{program}"
-        command = re.sub(r" -o bin/\S+", f" -o {made} " + " ".join(self.objects), self.build.link[program])
+        # First: of what is inline the linker takes the first that it meets.
+        command = re.sub(r" -o bin/\S+", f" -o {made}", self.build.link[program])
+        command = re.sub(r"(\S*/clang\+\+) ", r"\1 " + " ".join(self.objects) + " ", command, count=1)
         code, said = self.run(command, COMPILE_SECONDS)
         if code != 0:
             raise RuntimeError(f"{program} does not link:\n{said}")
