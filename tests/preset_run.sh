@@ -16,7 +16,7 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # files once more (host_tests reads them too), twins with jitter beside those without; and the real
 # window, whose toolkit leaks. Long tests run where DEFRAY_TEST_LONG is set: for coverage.
 unset DEFRAY_TEST_LONG
-left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*Closer*:HighlightDisc*
+left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*
 if [ "$name" = rest ]; then
   longer=Arithmetic.*:PerfCommand.*:ReportCommand.*:Rdb.Huge*:*EqualsTwin*:*EqualTwins*

@@ -2,8 +2,8 @@
 # Runs every command of a README's "sh" blocks, in order, in a folder that holds nothing but this
 # README at its place. readme_test.sh README DEFRAY [--full]
 #
-# "```sh project": in the project's folder instead. "```sh slow": minutes, with --full only. The two
-# commands that build and test the whole project are left out: one of them runs this test.
+# "```sh project": in the project's folder instead. "```sh slow": minutes, with --full only. The
+# commands that build and test the whole project are left out: they run this test.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readme=$(realpath "$1")
@@ -18,7 +18,7 @@ cp "$readme" "$folder/$place"
 # Lines "KIND<TAB>COMMAND"; the kind is what follows "sh", or "plain".
 commands=$(awk '/^```sh( |$)/ {on = 1; kind = NF > 1 ? $2 : "plain"; next} /^```/ {on = 0}
                 on && !/^#/ && NF {printf "%s\t%s\n", kind, $0}' "$readme" |
-  grep -v -P -e '\tbash (cli/demo|tests/run)\.sh' || true)
+  grep -v -P -e '\tbash (cli/demo|tests/run|tests/mutate)\.sh' || true)
 count=0
 while IFS=$'\t' read -r kind command; do
   [ -z "$command" ] && continue

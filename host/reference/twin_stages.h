@@ -1,7 +1,22 @@
 #pragma once
-// The scalar twins: every kernel once more, written from the papers' formulas and not from the
-// kernels. They define what a kernel must compute; they run where there is no device. Floats are
-// added in the kernels' order: equal bits.
+// The scalar twins: every kernel once more. They define what a kernel must compute; they run where
+// there is no device. Floats are added in the kernels' order: equal bits.
+//
+// A twin written from a definition sees a wrong idea in its kernel; one that goes the kernel's way
+// in other words sees slips alone, and there a test derives the result a second time
+// (tests/kernels):
+//   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal,
+//   tiltshift from a definition  patterns (whole windows), gather_reach (each tile against each)
+//   the kernel's way   edges, repair    edges_test: steps and slopes drawn with known answers
+//                      fill             fill_test: planes, slants and stripes that must go on
+//                      split, assemble  split_test: coverage and colours mixed by hand come back
+//                      soften           soften_test: overlaps of squares, in double
+//                      highlights*      highlight_disc_test: exact areas of polygons; lamp_test
+//                      gather_aware     gather_test: variances, what must stay clean
+// Neither sees what device and twins share: chain/ (border, layers, light taken, shifts found and
+// blended) and lens/ (apertures, samples). There tests have oracles of their own:
+// picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
+// pattern_picture_test.
 #include <cstdint>
 #include <vector>
 

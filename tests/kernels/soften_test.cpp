@@ -69,6 +69,32 @@ TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
   }
 }
 
+/// The definition once more: pixels are squares, a cell is a square of 2 r / n, their overlap
+/// counts.
+TEST(Soften, IsTheMeanOverTheCellsSquare) {
+  constexpr int side = 41, middle = side / 2, lens_points = 100;
+  for (const double radius : {7.0, 12.3, 20.0, 33.7}) {
+    Frame f = flat_fragments(side, side, 1, radius);
+    const Plane colour = random_plane({side, side}, 5);
+    f.channels[0] = colour;
+    const double cell = 2 * std::fabs(f.coc_quanta[0] / 256.0) / cells_a_side(lens_points);
+    const auto overlap = [&](int d) {
+      return std::fmax(0, std::fmin(d + 0.5, cell / 2) - std::fmax(d - 0.5, -cell / 2));
+    };
+    double sum = 0;
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        sum += overlap(x - middle) * overlap(y - middle) * colour[f.index(x, y, 0)];
+      }
+    }
+    ASSERT_GT(cell, 1);
+    const double mean = sum / (cell * cell), size_of = std::fabs(mean) + 1;
+    EXPECT_NEAR(device().soften(f, lens_points)[0][f.index(middle, middle, 0)], mean,
+                1e-4 * size_of)
+        << radius;
+  }
+}
+
 TEST(Soften, SurfacesDoNotMixNorDoLayersOrEmptyOnes) {
   Frame f = flat_fragments(40, 20, 2, 20);
   for (int y = 0; y < 20; ++y) {

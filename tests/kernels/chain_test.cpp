@@ -1,0 +1,101 @@
+// The chain's report: every stage by its name, in the order they end, with its own time.
+#include "chain/chain.h"
+
+#include <chrono>
+#include <thread>
+
+#include "rdb/rdb.h"
+#include "reference/twin_stages.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr double delay_s = 0.1;
+
+/// The twins, one of them late.
+class LateStages : public reference::TwinStages {
+ public:
+  explicit LateStages(std::string late) : late_(std::move(late)) {}
+
+  Words repair(const Frame& f) override { return wait("repair"), TwinStages::repair(f); }
+  Words edges(const Frame& f) override { return wait("edges"), TwinStages::edges(f); }
+  Frame fill(const Frame& f, const Words& m) override {
+    return wait("fill"), TwinStages::fill(f, m);
+  }
+  Surfaces split(const Frame& f, const Words& m, Frame b) override {
+    return wait("split"), TwinStages::split(f, m, std::move(b));
+  }
+  Values<float> highlights(const Frame& f, int n) override {
+    return wait("highlights"), TwinStages::highlights(f, n);
+  }
+  Planes soften(const Frame& f, int n) override { return wait("soften"), TwinStages::soften(f, n); }
+  RayResult rays(const Frame& f, const RayPlan& plan, const LightSources* lights,
+                 const Progress& progress) override {
+    return wait("rays"), TwinStages::rays(f, plan, lights, progress);
+  }
+  PatternSums patterns(const Frame& f, const Frame& b, const Words& w,
+                       const std::vector<PatternShift>& s, const PatternSettings& p) override {
+    return wait("patterns"), TwinStages::patterns(f, b, w, s, p);
+  }
+
+ private:
+  void wait(const char* stage) const {
+    if (stage == late_) std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
+  }
+  std::string late_;
+};
+
+/// Stripes behind a bar before the plane of focus, a lamp on them.
+MethodResult rendered(Stages& stages) {
+  constexpr int width = 64, height = 40;
+  std::vector<std::int32_t> coc(width * height, 4 * 256);
+  Plane depth(coc.size(), 5), colour(coc.size());
+  for (std::size_t i = 0; i < coc.size(); ++i) {
+    const std::size_t x = i % width;
+    colour[i] = x % 6 < 3 ? 0.2f : 0.7f;
+    if (x >= 28 && x < 36) coc[i] = -6 * 256, depth[i] = 1, colour[i] = 0.4f;
+  }
+  colour[20 * width + 10] = 3000;
+  return run_chain({width, height, coc, depth, {colour, colour, colour}}, ChainSettings{}, stages);
+}
+
+double seconds_of(const MethodResult& result, const std::string& stage) {
+  double seconds = 0;
+  for (const StageTime& s : result.report.stages) seconds += s.stage == stage ? s.seconds : 0;
+  return seconds;
+}
+
+TEST(Chain, ReportsItsStagesByName) {
+  reference::TwinStages twins;
+  const MethodResult result = rendered(twins);
+  std::vector<std::string> names;
+  for (const StageTime& s : result.report.stages) {
+    names.push_back(s.stage);
+    EXPECT_GE(s.seconds, 0) << s.stage;
+  }
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"lens", "border", "edges", "repair", "fill", "patterns",
+                                      "split", "highlights", "soften", "rays", "crop"}));
+  EXPECT_EQ(result.report.highlights, 1u);
+  EXPECT_EQ(result.report.lens_points, 137);
+  EXPECT_GT(result.report.behind, 0u);
+}
+
+TEST(Chain, GivesEachStageItsOwnTime) {
+  reference::TwinStages twins;
+  for (const std::string late :
+       {"edges", "repair", "fill", "patterns", "split", "highlights", "soften", "rays"}) {
+    LateStages stages(late);
+    const MethodResult result = rendered(stages);
+    for (const StageTime& s : result.report.stages) {
+      if (s.stage == late) {
+        EXPECT_GE(s.seconds, delay_s) << late;
+      }
+    }
+    EXPECT_GE(seconds_of(result, late), delay_s) << late;
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
