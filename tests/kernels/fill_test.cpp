@@ -56,14 +56,14 @@ TEST(Fill, BehindAnEdgeASlantedPlaneKeepsItsSlant) {
 /// Directions have five numbers each, twin and kernel their own: what they differ by shows far
 /// away.
 TEST(Fill, EqualsItsTwinFarAway) {
-  if (is_slow_device()) GTEST_SKIP() << "400 thousand pixels";
-  Canvas f(900, 420);
+  if (is_slow_device()) GTEST_SKIP() << "150 thousand pixels";
+  Canvas f(600, 260);
   f.coc.assign(f.count(), 256 * 500);
   f.each([&](int x, int y) {
     const auto shade = static_cast<float>((x * 7 + y * 13) % 101);
     f.paint(x, y, shade, 0.5f * shade, 1);
   });
-  f.add_bar(60, 900);
+  f.add_bar(40, 600);
   const Words mixed = f.mixed();
   const Frame ours = device().fill(f.view(), mixed), twin = twins().fill(f.view(), mixed);
   expect_same_bits(ours.channels[0], twin.channels[0]);
