@@ -17,7 +17,7 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # window, whose toolkit leaks. Long tests run where DEFRAY_TEST_LONG is set: for coverage.
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
-left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway
+left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
 if [ "$name" = rest ]; then
   longer=Arithmetic.*:PerfCommand.*:ReportCommand.*:Rdb.Huge*:*EqualsTwin*:*EqualTwins*
   DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"

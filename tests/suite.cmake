@@ -59,7 +59,7 @@ add_shards(faults 2 90 full faults_tests)
 
 # The same kernel tests on another OpenCL implementation; not long ones, nor those of whole pictures,
 # which many kernels make, nor long comparisons with twins: validate makes them there.
-set(left_out "*Picture*:HighlightDisc*:Alpha*:Rdb.SameBitsForEveryMemory*")
+set(left_out "*Picture*:HighlightDisc*:Alpha*:Lamp*:Chain*:Repair.Is*:Rdb.SameBitsForEveryMemory*")
 set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*)
 add_shards(rusticl 2 80 full bash -c
            "env -u DEFRAY_TEST_LONG \"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
