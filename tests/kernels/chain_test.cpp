@@ -97,5 +97,55 @@ TEST(Chain, GivesEachStageItsOwnTime) {
   }
 }
 
+/// A bar in front of a wall; in `ramps` of its rows its left edge's depth lies between both.
+struct Bar {
+  static constexpr int width = 40, height = 60;
+  std::vector<std::int32_t> coc = std::vector<std::int32_t>(width * height, 512);
+  Plane depth = Plane(width * height, 4), colour = Plane(width * height, 0.5f);
+
+  explicit Bar(int ramps) {
+    for (int y = 10; y < 50; ++y) {
+      for (int x = 14; x < 26; ++x) {
+        const auto i = static_cast<std::size_t>(y * width + x);
+        const bool is_between = x == 14 && y >= 12 && y < 12 + ramps;
+        coc[i] = (is_between ? -3 : -8) * 256;
+        depth[i] = is_between ? 2 : 1;
+      }
+    }
+  }
+  Frame frame() const {
+    Frame f{width, height, coc, depth, {colour}};
+    return f;
+  }
+};
+
+/// Depth counts as anti-aliased where one in 20 edge pixels lies between two surfaces.
+TEST(Chain, RepairsDepthWhereOneEdgePixelIn20IsBetween) {
+  int repaired_often = 0, left_often = 0;
+  for (int ramps = 0; ramps <= 36; ramps += 2) {
+    const Bar bar(ramps);
+    const Words mixed = device().edges(bar.frame()), source = device().repair(bar.frame());
+    std::size_t between = 0, edge = 0;
+    for (std::size_t i = 0; i < source.size(); ++i) between += source[i] != i, edge += mixed[i];
+    for (const Border border : {Border::renormalise, Border::clamp}) {
+      ChainSettings settings;
+      settings.border = border;
+      const auto report = run_chain(bar.frame(), settings, device()).report;
+      const bool is_repaired = between > 0 && between * 20 >= edge;
+      EXPECT_EQ(report.repaired, is_repaired ? between : 0)
+          << ramps << ": " << between << " of " << edge;
+      (is_repaired ? repaired_often : left_often) += 1;
+    }
+  }
+  EXPECT_GT(repaired_often, 4);
+  EXPECT_GT(left_often, 4);
+}
+
+TEST(Chain, LeavesDepthAloneWhereAskedTo) {
+  ChainSettings settings;
+  settings.repair_depth = false;
+  EXPECT_EQ(run_chain(Bar(36).frame(), settings, device()).report.repaired, 0u);
+}
+
 }  // namespace
 }  // namespace defray::test

@@ -197,8 +197,12 @@ class Run:
             score = f"{100 * dead / tried:5.1f} %" if tried else "    –"
             print(f"{folder:18} {r['killed']:6}  {r['timed out']:9}  {r['survived']:8}  {r['equivalent']:10}  {r['does not compile']:16}  {score}")
 
-    def survivors(self):
-        return sum(entry["outcome"].startswith("survived") for _, entry in self.results)
+    def score(self):
+        """Per cent killed of those that could be."""
+        outcomes = [entry["outcome"] for _, entry in self.results]
+        dead = sum(o.startswith(("killed", "timed out")) for o in outcomes)
+        tried = dead + sum(o.startswith("survived") for o in outcomes)
+        return 100 * dead / tried if tried else 100
 
 
 def main():
@@ -209,11 +213,11 @@ def main():
     parser.add_argument("--only", help="this one alone, as an earlier run names it")
     parser.add_argument("--fresh", action="store_true", help="try again what an earlier run of the same seed has tried")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at once (all cores)")
-    parser.add_argument("--no-record", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--least", type=float, default=100, help="exit with 1 below this score, per cent (100)")
     arguments = parser.parse_args()
     run = Run(arguments)
     finished = run.run()
-    return 130 if not finished else 1 if run.survivors() else 0
+    return 130 if not finished else 1 if run.score() < arguments.least else 0
 
 
 if __name__ == "__main__":
