@@ -35,7 +35,7 @@ GatherSettings settings_of(GatherKind kind, int samples, int passes, bool rotate
 }
 
 TEST(Gather, KernelsEqualTwinsBitForBit) {
-  const Size frames[] = {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}};
+  const Size frames[] = {{1, 1}, {1, 17}, {17, 1}, {13, 7}, {257, 89}, {5, 300}};
   for (const Size size : frames) {
     if (is_slow_device() && size.width > 100) continue;
     for (const double largest : {0.0, 0.3, 1.7, 8.0, 32.0, 4194303.0}) {
