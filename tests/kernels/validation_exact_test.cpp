@@ -182,5 +182,27 @@ TEST(Report, CommandsSayHowToReachTheDevice) {
   EXPECT_EQ(command_of(device, "coc", "1x1").find("oclgrind defray validate"), 0u);
 }
 
+TEST(Report, SaysWhereDevicesGiveOtherBits) {
+  DeviceResult a, b;
+  a.device = "a", b.device = "b";
+  for (const auto& [kernel, hash, cases] :
+       {std::tuple{"same", 1, 5}, {"other bits", 2, 5}, {"other cases", 1, 6}}) {
+    KernelResult k;
+    k.kernel = kernel;
+    k.hash = 1;
+    k.cases = 5;
+    a.kernels.push_back(k);
+    k.hash = static_cast<std::uint64_t>(hash);
+    k.cases = cases;
+    b.kernels.push_back(k);
+  }
+  const Folder folder;
+  const Table summary = to_sections({a, b}, {}, folder.path()).front().tables.front();
+  ASSERT_EQ(summary.rows.size(), 3u);
+  EXPECT_EQ(summary.rows[0].back(), "yes");
+  EXPECT_EQ(summary.rows[1].back(), "no");
+  EXPECT_EQ(summary.rows[2].back(), "no");
+}
+
 }  // namespace
 }  // namespace defray::test
