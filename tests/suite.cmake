@@ -91,9 +91,9 @@ set(sanitized ${preset_run} asan ${CMAKE_BINARY_DIR}/asan/bin)
 add_shards(sanitized_kernels 2 110 full ${sanitized}/kernels_tests)
 add_shards(sanitized_host 1 110 full ${sanitized}/host_tests)
 add_shards(sanitized_command 2 110 full ${sanitized}/command_tests)
-foreach(program kernels host command)
-  add_shards(rest_of_${program} 1 60 full ${preset_run} rest $<TARGET_FILE:${program}_tests>)
-endforeach()
+add_shards(rest_of_kernels 2 120 full ${preset_run} rest $<TARGET_FILE:kernels_tests>)
+add_shards(rest_of_host 1 120 full ${preset_run} rest $<TARGET_FILE:host_tests>)
+add_shards(rest_of_command 1 120 full ${preset_run} rest $<TARGET_FILE:command_tests>)
 
 # Ten mutants: that they are still tried and found; a change of a file draws others. What each test
 # reaches the sanitized ones noted.
