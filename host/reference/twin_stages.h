@@ -5,8 +5,9 @@
 // A twin written from a definition sees a wrong idea in its kernel; one that goes the kernel's way
 // in other words sees slips alone, and there a test derives the result a second time
 // (tests/kernels):
-//   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal,
-//   tiltshift from a definition  patterns (whole windows), gather_reach (each tile against each)
+//   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal
+//                      and tiltshift
+//   from a definition  patterns (whole windows), gather_reach (each tile against each)
 //   the kernel's way   edges, repair    edges_test: steps and slopes drawn with known answers
 //                      fill             fill_test: planes, slants and stripes that must go on
 //                      split, assemble  split_test: coverage and colours mixed by hand come back
