@@ -6,6 +6,7 @@ namespace {
 
 const Words<GatherKind> gather_words{{"aware", GatherKind::aware},
                                      {"literal", GatherKind::literal}};
+const Words<RaysBy> rays_words{{"gather", RaysBy::gather}, {"scatter", RaysBy::scatter}};
 const Scope of_rdb{{Method::rdb}}, of_gather{{Method::gather}};
 
 Words<Method> method_words() {
@@ -36,6 +37,12 @@ std::vector<OptionRow> rdb_rows(RenderJob& job) {
        {.scope = of_rdb,
         .needs = {[&job](const Given&) { return job.is_literal; },
                   "goes with --literal: other lens points leave no pattern"}}},
+      {"--rays",
+       word<RaysBy>([&job, &rdb](RaysBy by) { rdb.rays = job.stages.rays = by; }, rays_words,
+                    "gather"),
+       "Follow rays from where they end (gather) or begin (scatter, as the paper; always with "
+       "--jitter): the same picture, bit for bit",
+       {.scope = of_rdb}},
   };
 }
 

@@ -9,14 +9,15 @@
 //
 // first        [tiles + 1]        where a tile's list begins
 // list                            highlights of each tile, in source order
-// where        [highlights]       (x, y in the frame, coc in quanta, depth bits)
+// where        [highlights]       (x, y in the frame, coc in quanta, 0)
 // excess       [highlights]       their light
 // table        [side][side]       summed light of the aperture (host/lens/aperture_table.h)
 // cell_at      [side][side]       nearest lens cell, over the square around the lens
 // winner, coc_quanta, coverage (window)     as in rdb_merge; all cells in one pass
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
-// sum          [band_rows][width] in and out
+// sum0..3      [band_rows][width] in and out
 // Global size: (width, band_rows).
+#include "colour.clh"
 #include "frame.clh"
 
 #define LENS_RADIUS (1L << DEFRAY_LENS_FRACTION_BITS)
@@ -94,8 +95,7 @@ uint cell_between(__global const uint* restrict cell_at, const int2 eighths, con
 
 // Whether the RDB's cell on the way from a source to a target is held by a surface in front of it.
 bool is_hidden(const uint2 held, __global const int* restrict coc_quanta, const int4 source) {
-  return held.x != DEFRAY_EMPTY && held.y < (uint)source.w &&
-         coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA;
+  return held.x != DEFRAY_EMPTY && coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA;
 }
 
 __kernel void highlights_add(
@@ -105,7 +105,7 @@ __kernel void highlights_add(
     __global const uint* restrict cell_at, __global const uint2* restrict winner,
     __global const int* restrict coc_quanta, __global const uint* restrict coverage,
     __global const int* restrict rim_x, __global const int* restrict rim_y,
-    __global float4* restrict sum) {
+    WRITTEN_CHANNELS(sum)) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
@@ -146,5 +146,5 @@ __kernel void highlights_add(
     const ulong open = light_through(table, lens, rim);
     light /= fmax((float)open * l.share_of_light, 1e-6f);
   }
-  sum[target] += light;
+  set_colour(CHANNELS(sum), target, colour_at(CHANNELS(sum), target) + light);
 }

@@ -57,6 +57,17 @@
 #define DEFRAY_CELL_MAP_BITS 6
 #define DEFRAY_CELL_MAP (1 << DEFRAY_CELL_MAP_BITS)
 
+/// No fragment, in the padded planes of `rdb_gather`: beyond every CoC.
+#define DEFRAY_NO_KEY 0x7fffffff
+/// One work-item of `rdb_gather`: so many pixels of a row, as one vector, and rows.
+#define DEFRAY_RAY_RUN 16
+#define DEFRAY_RAY_ROWS 4
+/// Side of the square tiles whose CoC radii are known to `rdb_gather`, in pixels, and the bins in
+/// which it knows them: words of 64.
+#define DEFRAY_RAY_TILE 16
+#define DEFRAY_RAY_WORDS 4
+#define DEFRAY_RAY_BINS (64 * DEFRAY_RAY_WORDS)
+
 /// Pixels of a row that one work-item of `linear` computes, as one vector.
 #define DEFRAY_LINEAR_RUN 16
 /// Side of the square tiles whose largest CoC `gather_reach` finds, in pixels.
@@ -116,6 +127,34 @@ typedef struct {
   DEFRAY_UINT all_cells;    ///< Lens cells of all passes.
   DEFRAY_UINT has_data_of;  ///< 0: every fragment has data of its own (`rdb_nearest`).
 } DefrayRdbParams;
+
+/// The rays of a window's pixels, from where they end: `rdb_pad`, `rdb_tiles`, `rdb_reach`,
+/// `rdb_gather`. Tiles are counted from the window's corner.
+typedef struct {
+  DEFRAY_UINT width;     ///< Pixels in a row, of source and target.
+  DEFRAY_UINT layers;    ///< Fragments a pixel.
+  DEFRAY_UINT channels;  ///< 1 to 4.
+  DEFRAY_UINT window_y;  ///< First source row, in frame coordinates.
+  DEFRAY_UINT window_rows;
+  DEFRAY_UINT stride;    ///< Pixels in a row of padded planes.
+  DEFRAY_UINT band_x;    ///< First target column, a multiple of DEFRAY_RAY_TILE.
+  DEFRAY_UINT band_end;  ///< One past the last target column.
+  DEFRAY_UINT band_y;    ///< First target row, in frame coordinates.
+  DEFRAY_UINT band_rows;
+  DEFRAY_UINT cells;  ///< Lens cells, all of them.
+  DEFRAY_UINT tiles_x;
+  DEFRAY_UINT tiles_y;
+  DEFRAY_INT reach_tiles;  ///< Tiles on each side from which a CoC can reach a tile.
+  DEFRAY_UINT along_y;     ///< rdb_reach: 0 looks along x, 1 along y.
+  DEFRAY_INT first_bin;    ///< Radii from first_bin << bin_shift on are in bin 0, as are smaller ones.
+  DEFRAY_UINT bin_shift;
+  DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
+  DEFRAY_UINT has_rim;       ///< 1: the lens's rim cuts off cells, see rim.clh.
+  DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
+  DEFRAY_INT origin_y;
+  DEFRAY_UINT wants_winners;  ///< 0: nobody does; 1: in tiles with highlights; 2: everywhere.
+  DEFRAY_UINT light_tiles_x;
+} DefrayRaysParams;
 
 /// A whole frame: `repair`, `edges`, `split`.
 typedef struct {
@@ -239,6 +278,7 @@ static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 76);
+static_assert(sizeof(DefrayRaysParams) == 92);
 #endif
 
 #endif

@@ -1,6 +1,6 @@
 // rdb_nearest: the nearest fragment that a pixel's rays meet, for channels that cannot be averaged.
 //
-// Of all cells' winners the one of the smallest depth; equal depths go to the smaller source index.
+// Of all cells' winners the one of the smallest radius; equal ones go to the smaller source index.
 // Fragments without data of their own do not count, nor do cells that the rim cuts off. The cells
 // come in passes: the minimum runs on over them, the same for every band height and memory budget.
 //
@@ -8,7 +8,7 @@
 // data_of         [window_rows][layers][width]     all ones: no data; if has_data_of, else all have
 // lens            [cells]                          u_k, 2^-16 of the aperture radius
 // rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim
-// nearest         [band_rows][width]               (x: source index in the window, y: depth bits),
+// nearest         [band_rows][width]               (x: source index in the window, y: key),
 //                                                  all ones where there is none
 // Global size: (width, band_rows).
 #include "rim.clh"

@@ -2,26 +2,27 @@
 //
 // Source pixel p with signed CoC radius r reaches cell k of target pixel x exactly when
 // x - p - r u_k lies in [-1/2, 1/2)^2 (Shinya 1994, section 4, step 4 and figure 6: the square is
-// the quadrilateral s0..s3, seen from the lens). The cell keeps the nearest source; equal depths
-// go to the smaller source index, so the result does not depend on the order of arrival.
+// the quadrilateral s0..s3, seen from the lens). The cell keeps the nearest source, that of the
+// smallest signed radius: it grows with depth. Equal radii go to the smaller source index (without
+// jitter only those of one pixel meet), so the result does not depend on the order of arrival.
 // All arithmetic is on integers: the same cells win on every device.
 //
 // A pixel may hold several fragments. One that covers only a share of its pixel sends that share of
 // its rays, spread evenly over the lens.
 //
 // coc_quanta  [window_rows][layers][width]      signed radius, 1/256 px
-// depth_bits  [window_rows][layers][width]      bits of a float > 0: they order as the float does;
-//                                               all ones where there is no fragment
+// depth_bits  [window_rows][layers][width]      all ones where there is no fragment
 // coverage    [window_rows][layers][width]      2^-16 of the pixel, bit 31 apart; if has_coverage
 // lens        [cells]                           u_k, 2^-16 of the aperture radius
-// winner      [cell_count][band_rows][width]    (x: source index in the window, y: depth bits),
+// winner      [cell_count][band_rows][width]    (x: source index in the window, y: key, the
+//                                               radius + 2^31),
 //                                               all ones where no ray has arrived
 //
 // rdb_clear empties the cells before it. Global size: (cells of the pass).
 //
 // Build with -DDEFRAY_INT64_ATOMICS where the device has cl_khr_int64_extended_atomics: the pair
-// is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the depths, then minimum
-// of the indices that have this depth. Global size: (width, window_rows x layers,
+// is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the keys, then minimum
+// of the indices that have this key. Global size: (width, window_rows x layers,
 // cell_count).
 #include "colour.clh"
 #include "params.h"
@@ -62,16 +63,16 @@ bool arrives(const int2 x, const int2 p, const int2 origin, const long r, const 
          landing(r * v.x) == x.x - p.x && landing(r * v.y) == x.y - p.y;
 }
 
-void deposit(__global uint2* winner, const size_t slot, const uint depth, const uint source,
+void deposit(__global uint2* winner, const size_t slot, const uint key, const uint source,
              const uint is_index_pass) {
 #ifdef DEFRAY_INT64_ATOMICS
   (void)is_index_pass;
-  atom_min((volatile __global ulong*)(winner + slot), ((ulong)depth << 32) | source);
+  atom_min((volatile __global ulong*)(winner + slot), ((ulong)key << 32) | source);
 #else
   volatile __global uint* half_keys = (volatile __global uint*)(winner + slot);
   if (!is_index_pass) {
-    atomic_min(half_keys + 1, depth);
-  } else if (half_keys[1] == depth) {
+    atomic_min(half_keys + 1, key);
+  } else if (half_keys[1] == key) {
     atomic_min(half_keys, source);
   }
 #endif
@@ -93,9 +94,9 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   if (sx >= p.width || row >= p.window_rows * p.layers || cell >= p.cell_count) return;
 
   const uint source = row * p.width + sx;
-  const uint depth = depth_bits[source];
-  if (depth == DEFRAY_EMPTY) return;
+  if (depth_bits[source] == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
+  const uint key = as_uint(radius) ^ 0x80000000u;
   const long r = radius;
   const long2 u = convert_long2(lens[p.first_cell + cell]);
   const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
@@ -112,7 +113,7 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
     for (int x = left; x <= right; ++x) {
       if (p.jitter_lens == 0 || arrives((int2)(x, y), from, origin, r, u, p.seed, p.jitter_lens)) {
         const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
-        deposit(winner, target, depth, source, p.is_index_pass);
+        deposit(winner, target, key, source, p.is_index_pass);
       }
     }
   }

@@ -63,6 +63,7 @@ class Chain {
     report_.lens_points = static_cast<int>(points);
     plan_.cells = make_lens_samples(settings_.aperture, report_.lens_points);
     plan_.wants_nearest = wants_nearest;
+    plan_.by = settings_.rays;
     done("lens");
     return mask;
   }

@@ -1,7 +1,6 @@
 #include "chain/highlights.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -98,15 +97,13 @@ LightSources take_light(Frame& f, const Values<float>& kept_share, int light_cha
   std::vector<std::span<float>> channels;
   for (Values<float>& channel : f.channels) channels.push_back(channel.edit());
   const auto coc_quanta = f.coc_quanta.host();
-  const auto depth = f.depth.host();
   const auto coverage = f.coverage.host();
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (kept[i] == 1.0f) continue;
     const std::size_t row = i / size(f.width);
     const std::int32_t coc = tame(coc_quanta[i]);
     lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
-                            static_cast<std::int32_t>(row / size(f.layers)), coc,
-                            std::bit_cast<std::int32_t>(depth[i])});
+                            static_cast<std::int32_t>(row / size(f.layers)), coc, 0});
     std::array<float, 4> excess{};
     const float share = static_cast<float>(coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
     for (std::size_t c = 0; c < size(light_channels); ++c) {

@@ -13,31 +13,18 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
                const LightSources* lights)
     : session_(session),
       frame_(frame),
-      plan_(plan),
+      cells_(plan.cells.centres.size()),
       holds_frame_(holds_planes(session, "rdb_merge", frame)),
-      lights_(lights && !lights->empty() ? lights : nullptr) {
-  const int cells = static_cast<int>(plan.cells.centres.size());
-  const int reach = rdb_reach(largest_coc(frame.coc_quanta.host()));
-  passes_ = plan_rdb_passes(frame.width, frame.height, cells, reach, session.memory_bytes(),
-                            lights_ != nullptr);
-  const RdbPass& largest = passes_.front();
-  const std::size_t band = size(frame.width) * size(largest.band_rows);
-  lens_ = session.view(plan.cells.centres);
-  rim_x_ = plan.rim_x.empty() ? lens_ : session.view(plan.rim_x);
-  rim_y_ = plan.rim_y.empty() ? lens_ : session.view(plan.rim_y);
-  winner_ = session.buffer(band * size(largest.cell_count) * sizeof(RdbWinner));
-  sum_ = session.buffer(band * sizeof(cl_float4));
-  filled_ = session.buffer(band * sizeof(cl_uint2));
-  seen_ = session.buffer(band * sizeof(cl_uint));
-  if (plan.wants_nearest) nearest_ = session.buffer(band * sizeof(cl_uint2));
-  if (!lights_) return;
-  light_ = {session.view(lights_->first), session.view(lights_->list),
-            session.view(lights_->where), session.view(lights_->excess),
-            session.view(lights_->table), session.view(lights_->cell_map)};
-}
+      passes_(plan_rdb_passes(frame.width, frame.height, static_cast<int>(cells_),
+                              rdb_reach(largest_coc(frame.coc_quanta.host())),
+                              session.memory_bytes(), lights && !lights->empty())),
+      buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().band_rows),
+               size(passes_.front().cell_count)),
+      filled_(session.buffer(size(frame.width) * size(passes_.front().band_rows) *
+                             sizeof(cl_uint))) {}
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
-  return pass.first_cell + pass.cell_count == static_cast<int>(plan_.cells.centres.size());
+  return size(pass.first_cell + pass.cell_count) == cells_;
 }
 
 std::size_t RdbRun::first_source(const RdbPass& pass) const {
@@ -45,8 +32,7 @@ std::size_t RdbRun::first_source(const RdbPass& pass) const {
 }
 
 DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
-  DefrayRdbParams p{};
-  p.width = word(frame_.width);
+  DefrayRdbParams p = buffers_.params();
   p.window_y = word(window_y(pass));
   p.window_rows = word(pass.window_y + pass.window_rows - window_y(pass));
   p.band_y = word(pass.band_y);
@@ -55,115 +41,48 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   p.cell_count = word(pass.cell_count);
   p.is_first_pass = pass.first_cell == 0;
   p.is_last_pass = is_last_of_band(pass);
-  p.jitter_lens = plan_.cells.jitter;
-  p.seed = plan_.seed;
-  p.layers = word(frame_.layers);
-  p.has_coverage = !frame_.coverage.empty();
-  p.origin_x = plan_.origin_x;
-  p.origin_y = plan_.origin_y;
-  p.has_rim = !plan_.rim_x.empty();
-  p.all_cells = static_cast<std::uint32_t>(plan_.cells.centres.size());
-  p.has_data_of = !frame_.data_of.empty();
   return p;
 }
 
 void RdbRun::view_window(const RdbPass& pass) {
-  if (window_.band_y == pass.band_y || (holds_frame_ && window_.band_y >= 0)) return;
+  if (window_band_y_ == pass.band_y || (holds_frame_ && window_band_y_ >= 0)) return;
+  window_band_y_ = pass.band_y;
   const BandRows all{0, frame_.height, 0, frame_.height};
   const BandRows rows{pass.band_y, pass.band_rows, pass.window_y, pass.window_rows};
   Band band(session_, "rdb_scatter", frame_, holds_frame_ ? all : rows);
-  window_ = {pass.band_y,
-             band.in(frame_.coc_quanta),
-             band.in(frame_.depth),
-             band.in(frame_.coverage),
-             band.in(frame_.data_of),
-             band.in(frame_.channels)};
+  window_ = {band.in(frame_.coc_quanta), band.in(frame_.depth), band.in(frame_.coverage),
+             band.in(frame_.data_of), band.in(frame_.channels)};
 }
 
 void RdbRun::scatter(const RdbPass& pass) {
   view_window(pass);
   DefrayRdbParams p = params_of(pass);
   const std::size_t cells = std::size_t{p.width} * p.band_rows * p.cell_count;
-  session_.launch("rdb_clear", {cells}, p, winner_);
+  session_.launch("rdb_clear", {cells}, p, buffers_.winner);
   const int scatters = session_.has_int64_atomics() ? 1 : 2;
   const std::size_t first_row = size(pass.window_y - window_y(pass)) * p.layers;
   for (int i = 0; i < scatters; ++i) {
     p.is_index_pass = i == 1;
     session_.launch_from({0, first_row, 0}, "rdb_scatter",
                          {p.width, size(pass.window_rows) * p.layers, p.cell_count}, p, window_.coc,
-                         window_.depth, window_.coverage, lens_, winner_);
+                         window_.depth, window_.coverage, buffers_.lens, buffers_.winner);
   }
 }
 
 void RdbRun::merge(const RdbPass& pass) {
   view_window(pass);
   const DefrayRdbParams p = params_of(pass);
-  session_.launch("rdb_merge", {p.width, p.band_rows}, p, winner_, window_.coverage, window_.depth,
-                  lens_, rim_x_, rim_y_, window_.channels, sum_, filled_, seen_);
-}
-
-void RdbRun::nearest(const RdbPass& pass) {
-  if (!plan_.wants_nearest) return;
-  view_window(pass);
-  const DefrayRdbParams p = params_of(pass);
-  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner_, window_.data_of, lens_, rim_x_,
-                  rim_y_, nearest_);
-}
-
-void RdbRun::add_light(const RdbPass& pass) {
-  if (!lights_) return;
-  const DefrayRdbParams p = params_of(pass);
-  const DefrayLightParams l{word(lights_->tiles_x), lights_->share_of_light};
-  session_.launch("highlights_add", {p.width, p.band_rows}, p, l, light_.first, light_.list,
-                  light_.where, light_.excess, light_.table, light_.cell_map, winner_, window_.coc,
-                  window_.coverage, rim_x_, rim_y_, sum_);
-}
-
-void RdbRun::read_band(const RdbPass& pass, RayResult& out) {
-  const std::size_t first = size(frame_.width) * size(pass.band_y);
-  const std::size_t count = size(frame_.width) * size(pass.band_rows);
-  session_.look_at<cl_float4>(sum_, count, [&](std::span<const cl_float4> means) {
-    for (std::size_t c = 0; c < out.means.size(); ++c) {
-      for (std::size_t i = 0; i < count; ++i) out.means[c][first + i] = means[i].s[c];
-    }
-  });
-  session_.look_at<cl_uint>(seen_, count, [&](std::span<const cl_uint> seen) {
-    std::copy(seen.begin(), seen.end(), out.seen.begin() + static_cast<std::ptrdiff_t>(first));
-  });
-  if (!plan_.wants_nearest) return;
-  session_.look_at<RdbWinner>(nearest_, count, [&](std::span<const RdbWinner> nearest) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t source = nearest[i].source;
-      out.nearest[first + i] =
-          source == DEFRAY_EMPTY ? DEFRAY_EMPTY : frame_.data_pixel(first_source(pass) + source);
-    }
-  });
+  session_.launch("rdb_merge", {p.width, p.band_rows}, p, buffers_.winner, window_.coverage,
+                  window_.coc, buffers_.lens, buffers_.rim_x, buffers_.rim_y, window_.channels,
+                  buffers_.means, filled_, buffers_.seen);
+  buffers_.find_nearest(p, window_);
+  if (is_last_of_band(pass)) buffers_.add_light(p, window_);
 }
 
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
   std::vector<RdbWinner> result(size(frame_.width) * size(pass.band_rows) * size(pass.cell_count));
-  session_.read(winner_, result.data(), result.size() * sizeof(RdbWinner));
+  session_.read(buffers_.winner, result.data(), result.size() * sizeof(RdbWinner));
   return result;
-}
-
-RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const LightSources* lights,
-                             const Progress& progress) {
-  RdbRun run(session_, frame, plan, lights);
-  RayResult out{std::vector<Plane>(frame.channels.size(), Plane(frame.pixels())),
-                std::vector<std::uint32_t>(frame.pixels())};
-  if (plan.wants_nearest) out.nearest.resize(frame.pixels());
-  double done = 0;
-  for (const RdbPass& pass : run.passes()) {
-    run.scatter(pass);
-    run.merge(pass);
-    run.nearest(pass);
-    if (run.is_last_of_band(pass)) run.add_light(pass);
-    run.finish();
-    if (run.is_last_of_band(pass)) run.read_band(pass, out);
-    done += 1;
-    if (progress) progress(done / static_cast<double>(run.passes().size()));
-  }
-  return out;
 }
 
 }  // namespace defray

@@ -1,14 +1,9 @@
 #pragma once
 // A frame on its way through the ray distribution buffers: scatter, merge, in passes that fit the
 // session's memory.
-#include <array>
-#include <optional>
 #include <vector>
 
-#include "frame/stages.h"
-#include "opencl/session.h"
-#include "rdb/light_sources.h"
-#include "rdb/rdb.h"
+#include "device/ray_buffers.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
@@ -27,16 +22,11 @@ class RdbRun {
   void scatter(const RdbPass& pass);
 
   /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
+  /// Then the nearest hits and, after the last pass, the light sources.
   void merge(const RdbPass& pass);
 
-  /// Looks for the nearest hit among the cells of the last scatter.
-  void nearest(const RdbPass& pass);
-
-  /// Adds the light sources to the band's means.
-  void add_light(const RdbPass& pass);
-
   /// Copies a finished band's part of the result.
-  void read_band(const RdbPass& pass, RayResult& out);
+  void read_band(const RdbPass& pass, RayResult& out) { buffers_.read(params_of(pass), out); }
 
   /// Winners of the last scatter, [cell][band row][x], and the frame's surface that their source 0
   /// stands for.
@@ -47,28 +37,19 @@ class RdbRun {
   void finish() { session_.finish(); }
 
  private:
-  /// The source rows that can reach a band, on the device; all rows where they fit.
-  struct Window {
-    int band_y = -1;
-    cl::Buffer coc, depth, coverage, data_of;
-    std::array<cl::Buffer, 4> channels;
-  };
-  struct Light {
-    cl::Buffer first, list, where, excess, table, cell_map;
-  };
   void view_window(const RdbPass& pass);
   DefrayRdbParams params_of(const RdbPass& pass) const;
   int window_y(const RdbPass& pass) const { return holds_frame_ ? 0 : pass.window_y; }
 
   Session& session_;
   const Frame& frame_;
-  const RayPlan& plan_;
+  std::size_t cells_;
   bool holds_frame_;
   std::vector<RdbPass> passes_;
-  Window window_;
-  cl::Buffer lens_, rim_x_, rim_y_, winner_, sum_, filled_, seen_, nearest_;
-  const LightSources* lights_;
-  Light light_;
+  RayBuffers buffers_;
+  RayWindow window_;
+  int window_band_y_ = -1;
+  cl::Buffer filled_;
 };
 
 }  // namespace defray

@@ -34,10 +34,14 @@ const std::vector<Launch>& launch_table() {
       {"patterns_difference", 16, 1},
       {"patterns_match", 16, 1},
       {"rdb_clear", 256, 1},
+      {"rdb_gather", 1, 1},
       // Bands are cut by rdb/rdb_plan.h; so much says whether the frame stays on the device.
       {"rdb_merge", 64, 1, 1, 3 * plane + 2 * colour},
       {"rdb_nearest", 64, 1},
+      {"rdb_pad", 64, 1},
+      {"rdb_reach", 16, 1},
       {"rdb_scatter", 64, 1},
+      {"rdb_tiles", 16, 1},
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 64, 1, 3, 2 * plane},
       {"soften", 64, 1, 1, 2 * plane + 2 * colour},

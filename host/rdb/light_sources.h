@@ -8,7 +8,7 @@ namespace defray {
 
 /// Sources of light for kernel `highlights_add`, in source order.
 struct LightSources {
-  std::vector<std::array<std::int32_t, 4>> where;  ///< x, y, CoC in quanta, depth bits.
+  std::vector<std::array<std::int32_t, 4>> where;  ///< x, y, CoC in quanta, 0.
   std::vector<std::array<float, 4>> excess;        ///< Light of each; missing channels are 0.
   int tiles_x = 0;
   /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.

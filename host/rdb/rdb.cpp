@@ -8,7 +8,9 @@
 namespace defray {
 
 RayPlan plan_rays(const RdbSettings& settings) {
-  return {make_lens_cells(settings.cells_per_side, settings.jitter), settings.seed};
+  RayPlan plan{make_lens_cells(settings.cells_per_side, settings.jitter), settings.seed};
+  plan.by = settings.rays;
+  return plan;
 }
 
 std::size_t open_cells(const RayPlan& plan, std::size_t x, std::size_t y) {

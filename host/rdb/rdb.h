@@ -19,6 +19,7 @@ struct RayPlan {
   /// lens/cats_eye.h has it. Empty: none.
   std::vector<std::int32_t> rim_x = {}, rim_y = {};
   bool wants_nearest = false;  ///< RayResult::nearest is filled.
+  RaysBy by = RaysBy::gather;  ///< The same bits.
 };
 
 /// Throws Error(usage) as make_lens_cells does.

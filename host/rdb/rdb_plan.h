@@ -8,8 +8,8 @@ namespace defray {
 
 /// A winner of one cell: all ones where no ray arrived.
 struct RdbWinner {
-  std::uint32_t source;      ///< Index in the pass's source window, row-major.
-  std::uint32_t depth_bits;  ///< Bits of its depth.
+  std::uint32_t source;  ///< Index in the pass's source window, row-major.
+  std::uint32_t key;     ///< Its signed radius + 2^31: the nearest has the smallest.
 };
 
 /// Memory of one cell of one pixel with the pixel's sums, its nearest hit among them: the least

@@ -1,6 +1,5 @@
 // Twins of kernels/highlights.cl.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -141,8 +140,7 @@ void add_light(const LightSources& lights, const Frame& f, const RayPlan& plan,
   const bool has_rim = !plan.rim_x.empty();
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
-    const auto& [sx, sy, coc, depth_bits] = lights.where[s];
-    const float depth = std::bit_cast<float>(depth_bits);
+    const int sx = lights.where[s][0], sy = lights.where[s][1], coc = lights.where[s][2];
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
       for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
@@ -158,12 +156,11 @@ void add_light(const LightSources& lights, const Frame& f, const RayPlan& plan,
         const float covered = sharp_edge(f, own, coc);
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
-        const auto is_hidden = [&, coc = coc](int dx, int dy) {
+        const auto is_hidden = [&](int dx, int dy) {
           const std::int32_t held = winner[cell_between(lights, dx, dy, coc)][target];
           const auto at = static_cast<std::size_t>(held);
           if (covered > 0 && at == own) return false;
-          return held >= 0 && f.depth[at] < depth &&
-                 tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
+          return held >= 0 && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
         int visible = 0;
         for (int j = 0; j < across; ++j) {

@@ -2,8 +2,8 @@
 // rdb_nearest.cl.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "lens/cats_eye.h"
@@ -111,9 +111,9 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
     }
     const double r = std::ldexp(static_cast<double>(coc[source]), -DEFRAY_COC_FRACTION_BITS);
     scatter.for_each_target(x, y, r, [&](std::size_t target) {
-      // Sources come in index order: an equal depth never replaces an earlier one.
+      // Sources come in index order: an equal radius never replaces an earlier one.
       const std::int64_t held = winner[target];
-      if (held < 0 || depth[source] < depth[static_cast<std::size_t>(held)]) {
+      if (held < 0 || coc[source] < coc[static_cast<std::size_t>(held)]) {
         winner[target] = static_cast<std::int64_t>(source);
       }
     });
@@ -129,13 +129,12 @@ std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
   if (f.layers < 2 || f.coverage.empty()) return -1;
   const int x0 = static_cast<int>(pixel % static_cast<std::size_t>(f.width));
   const int y0 = static_cast<int>(pixel / static_cast<std::size_t>(f.width));
-  const auto bits = [&](std::size_t k) { return std::bit_cast<std::uint32_t>(f.depth[k]); };
   std::int64_t found = -1;
   for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
     for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
       const std::size_t i = f.index(x, y, 1);
       if (f.coverage[i] == 0) continue;
-      if (found < 0 || bits(i) > bits(static_cast<std::size_t>(found))) {
+      if (found < 0 || f.coc_quanta[i] > f.coc_quanta[static_cast<std::size_t>(found)]) {
         found = static_cast<std::int64_t>(i);
       }
     }
@@ -168,11 +167,11 @@ bool is_cut_off(const RayPlan& plan, int width, std::size_t pixel,
   return !passes_rim({plan.rim_x[pixel % columns], plan.rim_y[pixel / columns]}, u[0], u[1]);
 }
 
-/// The nearer of two fragments, of equal depths the first; -1: none yet.
+/// The nearer of two fragments, of equal radii the first; -1: none yet.
 void keep_nearer(const Frame& f, std::int64_t source, std::int64_t& held) {
-  const auto depth = [&](std::int64_t i) { return f.depth[static_cast<std::size_t>(i)]; };
+  const auto coc = [&](std::int64_t i) { return f.coc_quanta[static_cast<std::size_t>(i)]; };
   const bool is_nearer =
-      held < 0 || depth(source) < depth(held) || (depth(source) == depth(held) && source < held);
+      held < 0 || coc(source) < coc(held) || (coc(source) == coc(held) && source < held);
   if (is_nearer) held = source;
 }
 
@@ -182,8 +181,8 @@ RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSourc
                            const Progress& progress) {
   const std::size_t pixels = f.pixels(), channels = f.channels.size();
   std::vector<Plane> sum(channels, Plane(pixels));
-  std::vector<std::vector<bool>> varies(channels, std::vector<bool>(pixels));
-  std::vector<std::size_t> first(pixels), filled(pixels);
+  std::vector<bool> differs(pixels);  // any colour from the pixel's own
+  std::vector<std::size_t> filled(pixels);
   RayResult out{sum, std::vector<std::uint32_t>(pixels)};
   const bool has_light = lights && !lights->empty();
   std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
@@ -196,24 +195,22 @@ RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSourc
   const auto add = [&](std::size_t target, std::size_t source, bool arrived) {
     if (has_light && arrived) winner.back()[target] = static_cast<std::int32_t>(source);
     if (is_cut_off(plan, f.width, target, plan.cells.centres[cell - 1])) return;
-    if (filled[target]++ == 0) first[target] = source;
+    ++filled[target];
     if (f.coverage.empty() || f.coverage[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
     if (plan.wants_nearest && arrived && f.data_pixel(source) != DEFRAY_EMPTY) {
       keep_nearer(f, static_cast<std::int64_t>(source), nearest[target]);
     }
     for (std::size_t c = 0; c < channels; ++c) {
       sum[c][target] += f.channels[c][source];
-      if (source != first[target] && f.channels[c][source] != f.channels[c][first[target]]) {
-        varies[c][target] = true;
-      }
+      const float own = f.channels[c][f.front_of(target)];
+      if (std::memcmp(&f.channels[c][source], &own, sizeof own) != 0) differs[target] = true;
     }
   };
   for_each_winner(f, plan, begin, add, progress);
   for (std::size_t c = 0; c < channels; ++c) {
     for (std::size_t i = 0; i < pixels; ++i) {
-      const std::size_t one = filled[i] == 0 ? f.front_of(i) : first[i];  // without a ray: its own
-      out.means[c][i] =
-          varies[c][i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][one];
+      out.means[c][i] = differs[i] ? sum[c][i] / static_cast<float>(filled[i])
+                                   : f.channels[c][f.front_of(i)];
     }
   }
   if (has_light) add_light(*lights, f, plan, winner, out.means);

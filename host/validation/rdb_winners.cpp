@@ -1,7 +1,5 @@
 #include "validation/rdb_winners.h"
 
-#include <bit>
-
 #include "device/rdb_run.h"
 #include "reference/reference.h"
 
@@ -16,12 +14,13 @@ std::size_t words(int width, int height, int cells) {
          static_cast<std::size_t>(cells * cells);
 }
 
-std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, std::span<const float> depth) {
-  if (w.source == DEFRAY_EMPTY) return w.depth_bits == DEFRAY_EMPTY ? -1 : -2;
+std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window,
+                            std::span<const std::int32_t> coc) {
+  if (w.source == DEFRAY_EMPTY) return w.key == DEFRAY_EMPTY ? -1 : -2;
   const std::int64_t index = window + w.source;
-  const bool is_there = index < static_cast<std::int64_t>(depth.size());
-  const bool is_its_own = is_there && std::bit_cast<std::uint32_t>(
-                                          depth[static_cast<std::size_t>(index)]) == w.depth_bits;
+  const bool is_there = index < static_cast<std::int64_t>(coc.size());
+  const bool is_its_own =
+      is_there && coc[static_cast<std::size_t>(index)] + (std::int64_t{1} << 31) == w.key;
   return is_its_own ? index : -2;
 }
 
@@ -41,7 +40,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const std::size_t cell = i / band + size(pass.first_cell);
       all[cell * pixels + first + i % band] =
-          index_in_frame(winners[i], window, frame.depth.host());
+          index_in_frame(winners[i], window, frame.coc_quanta.host());
     }
   }
   return all;

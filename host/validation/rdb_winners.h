@@ -10,7 +10,7 @@
 namespace defray::validation {
 
 /// Every cell's winner, [cell][pixel]: the fragment's index in the frame, or -1 where no ray
-/// arrives. -2 where the depth beside a winner is not its own.
+/// arrives. -2 where the key beside a winner is not its own.
 std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame,
                                             const RayPlan& plan);
 std::vector<std::int64_t> winners_of_twin(const Frame& frame, const RayPlan& plan);

@@ -1,6 +1,5 @@
 // Kernel rdb_scatter against its scalar twin, and the twin against the paper's definition.
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "device/rdb_run.h"
@@ -14,9 +13,9 @@ namespace {
 constexpr double radii[] = {0, 0.3, 1.7, 8, 32, 1000, 4194303};
 
 /// The definition, word for word: of all source pixels p with x - p - r u in [-1/2, 1/2)^2 the
-/// nearest, the first of equals. Integer numerators over 2^24.
+/// nearest, the one of the smallest radius, the first of equals. Integer numerators over 2^24.
 std::int64_t winner_by_definition(Size size, int x, int y, std::array<std::int32_t, 2> u,
-                                  const std::vector<std::int32_t>& coc, const Plane& depth) {
+                                  const std::vector<std::int32_t>& coc) {
   std::int64_t best = -1;
   for (int py = 0; py < size.height; ++py) {
     for (int px = 0; px < size.width; ++px) {
@@ -25,7 +24,7 @@ std::int64_t winner_by_definition(Size size, int x, int y, std::array<std::int32
       const std::int64_t dx = (x - px) * one - static_cast<std::int64_t>(coc[p]) * u[0];
       const std::int64_t dy = (y - py) * one - static_cast<std::int64_t>(coc[p]) * u[1];
       if (dx < -half || dx >= half || dy < -half || dy >= half) continue;
-      if (best < 0 || depth[p] < depth[static_cast<std::size_t>(best)]) {
+      if (best < 0 || coc[p] < coc[static_cast<std::size_t>(best)]) {
         best = static_cast<std::int64_t>(p);
       }
     }
@@ -36,7 +35,7 @@ std::int64_t winner_by_definition(Size size, int x, int y, std::array<std::int32
 /// One cell's winners over the frame as the device found them: source index, or -1.
 using CellWinners = std::vector<std::vector<std::int64_t>>;
 
-/// Every cell's winners, [cell][pixel], gathered from all passes; checks the depths beside them.
+/// Every cell's winners, [cell][pixel], gathered from all passes; checks the keys beside them.
 CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings,
                               const std::vector<std::int32_t>& coc, const Plane& depth) {
   const Frame frame{size.width, size.height, coc, depth, std::vector<Plane>{depth}};
@@ -60,9 +59,7 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
         ADD_FAILURE() << "winner " << found << " lies outside the frame";
         continue;
       }
-      std::uint32_t bits;
-      std::memcpy(&bits, &depth[static_cast<std::size_t>(found)], sizeof(bits));
-      EXPECT_EQ(w.depth_bits, bits);
+      EXPECT_EQ(w.key, coc[static_cast<std::size_t>(found)] + (std::int64_t{1} << 31));
     }
   }
   return all;
@@ -119,7 +116,7 @@ TEST(RdbScatter, TwinIsTheDefinition) {
             reference::rdb_scatter({size.width, size.height, coc, depth}, {cells}, cell);
         for (std::size_t i = 0; i < twin.size(); ++i) {
           const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
-          ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc, depth))
+          ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc))
               << "cell " << cell << " of pixel (" << x << ", " << y << "), CoC up to " << radius;
         }
       }

@@ -18,11 +18,18 @@ enum class Method {
 /// "rdb", as on the command line.
 DEFRAY_API const char* to_string(Method method);
 
+/// How rays are followed: the same picture, bit for bit.
+enum class RaysBy {
+  gather,   ///< From where they end. Jitter, and lenses with more segments than fit, go by scatter.
+  scatter,  ///< From where they begin, as the paper does.
+};
+
 /// The ray distribution buffer as the paper has it.
 struct RdbSettings {
   int cells_per_side = 9;  ///< Of the lens, 1 to 64.
   bool jitter = false;     ///< Shifts each pixel's lens samples: noise instead of patterns.
   std::uint32_t seed = 0;
+  RaysBy rays = RaysBy::gather;
 };
 
 /// What is taken to be outside the frame. The data window is the frame: overscan is used as it is.
@@ -48,6 +55,7 @@ struct ChainSettings {
   bool repair_depth = true;
   bool highlights = true;
   bool soften = true;
+  RaysBy rays = RaysBy::gather;
   Border border = Border::clamp;
   Aperture aperture;
 };

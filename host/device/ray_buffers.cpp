@@ -1,0 +1,84 @@
+#include "device/ray_buffers.h"
+
+#include <algorithm>
+
+#include "rdb/rdb_plan.h"
+
+namespace defray {
+
+RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
+                       const LightSources* lights, std::size_t pixels, std::size_t winner_cells)
+    : lens(session.view(plan.cells.centres)),
+      rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
+      rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
+      winner(session.buffer(pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
+      seen(session.buffer(pixels * sizeof(cl_uint))),
+      light_first(lens),
+      session_(session),
+      frame_(frame),
+      plan_(plan),
+      lights_(lights && !lights->empty() ? lights : nullptr) {
+  for (cl::Buffer& mean : means) mean = session.buffer(pixels * sizeof(cl_float));
+  if (plan.wants_nearest) nearest_ = session.buffer(pixels * sizeof(cl_uint2));
+  if (!lights_) return;
+  light_first = session.view(lights_->first);
+  list_ = session.view(lights_->list);
+  where_ = session.view(lights_->where);
+  excess_ = session.view(lights_->excess);
+  table_ = session.view(lights_->table);
+  cell_map_ = session.view(lights_->cell_map);
+}
+
+DefrayRdbParams RayBuffers::params() const {
+  DefrayRdbParams p{};
+  p.width = word(frame_.width);
+  p.jitter_lens = plan_.cells.jitter;
+  p.seed = plan_.seed;
+  p.layers = word(frame_.layers);
+  p.has_coverage = !frame_.coverage.empty();
+  p.origin_x = plan_.origin_x;
+  p.origin_y = plan_.origin_y;
+  p.has_rim = !plan_.rim_x.empty();
+  p.all_cells = static_cast<std::uint32_t>(plan_.cells.centres.size());
+  p.has_data_of = !frame_.data_of.empty();
+  return p;
+}
+
+void RayBuffers::find_nearest(const DefrayRdbParams& p, const RayWindow& window) {
+  if (!plan_.wants_nearest) return;
+  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.data_of, lens, rim_x,
+                  rim_y, nearest_);
+}
+
+void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {
+  if (!lights_) return;
+  const DefrayLightParams l{word(lights_->tiles_x), lights_->share_of_light};
+  session_.launch("highlights_add", {p.width, p.band_rows}, p, l, light_first, list_, where_,
+                  excess_, table_, cell_map_, winner, window.coc, window.coverage, rim_x, rim_y,
+                  means);
+}
+
+void RayBuffers::read(const DefrayRdbParams& p, RayResult& out) {
+  const std::size_t first = std::size_t{p.width} * p.band_y;
+  const std::size_t count = std::size_t{p.width} * p.band_rows;
+  const auto place = [&](auto& plane) {
+    return plane.begin() + static_cast<std::ptrdiff_t>(first);
+  };
+  for (std::size_t c = 0; c < out.means.size(); ++c) {
+    session_.look_at<cl_float>(means[c], count, [&](std::span<const cl_float> mean) {
+      std::copy(mean.begin(), mean.end(), place(out.means[c]));
+    });
+  }
+  session_.look_at<cl_uint>(seen, count, [&](std::span<const cl_uint> band) {
+    std::copy(band.begin(), band.end(), place(out.seen));
+  });
+  if (!plan_.wants_nearest) return;
+  const std::size_t window = std::size_t{p.window_y} * p.layers * p.width;
+  session_.look_at<RdbWinner>(nearest_, count, [&](std::span<const RdbWinner> nearest) {
+    std::transform(nearest.begin(), nearest.end(), place(out.nearest), [&](const RdbWinner& w) {
+      return w.source == DEFRAY_EMPTY ? DEFRAY_EMPTY : frame_.data_pixel(window + w.source);
+    });
+  });
+}
+
+}  // namespace defray

@@ -1,0 +1,51 @@
+#pragma once
+// What the kernels of the ray distribution buffer write for a band of rows, and what comes after
+// the means: light sources and nearest hits.
+#include <array>
+
+#include "frame/stages.h"
+#include "opencl/session.h"
+#include "rdb/light_sources.h"
+#include "rdb/rdb.h"
+
+namespace defray {
+
+/// Source planes on the device, of the window or of all rows.
+struct RayWindow {
+  cl::Buffer coc, depth, coverage, data_of;
+  std::array<cl::Buffer, 4> channels;
+};
+
+class RayBuffers {
+ public:
+  /// For bands of at most so many pixels and winners of so many cells. All must stay alive.
+  RayBuffers(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
+             std::size_t pixels, std::size_t winner_cells);
+
+  bool has_lights() const { return lights_ != nullptr; }
+
+  /// What does not change from band to band.
+  DefrayRdbParams params() const;
+
+  /// Looks for the nearest hit among the winners, if the plan wants it.
+  void find_nearest(const DefrayRdbParams& p, const RayWindow& window);
+
+  /// Adds the light sources to the means.
+  void add_light(const DefrayRdbParams& p, const RayWindow& window);
+
+  /// Copies a band's part of the result.
+  void read(const DefrayRdbParams& p, RayResult& out);
+
+  cl::Buffer lens, rim_x, rim_y, winner, seen;
+  std::array<cl::Buffer, 4> means;  ///< Planes; kernels write missing channels too.
+  cl::Buffer light_first;           ///< LightSources::first; anything without lights.
+
+ private:
+  Session& session_;
+  const Frame& frame_;
+  const RayPlan& plan_;
+  const LightSources* lights_;
+  cl::Buffer nearest_, list_, where_, excess_, table_, cell_map_;
+};
+
+}  // namespace defray

@@ -1,0 +1,98 @@
+#include "rdb/segments.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+namespace defray {
+namespace {
+
+constexpr int ray_bits = DEFRAY_COC_FRACTION_BITS + DEFRAY_LENS_FRACTION_BITS;
+constexpr std::int64_t half_pixel = std::int64_t{1} << (ray_bits - 1);
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
+std::int64_t floor_of(std::int64_t a, std::int64_t b) {
+  return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
+}
+
+/// One axis of a lens point: rays of radius r land `landing` px away, the one d with
+/// d - r u in [-1/2, 1/2).
+struct Axis {
+  std::int64_t u;
+
+  std::int64_t landing(std::int64_t r) const { return (r * u + half_pixel - 1) >> ray_bits; }
+
+  /// The first radius that lands elsewhere than r, and than those between.
+  std::int64_t next(std::int64_t r) const {
+    const std::int64_t d = landing(r);
+    // d + 1 begins where r u >= ((d + 1) << bits) - half + 1; d ends where r u <= (d << bits) - half.
+    if (u > 0) return floor_of(((d + 1) << ray_bits) - half_pixel, u) + 1;
+    if (u < 0) return floor_of(half_pixel - 1 - (d << ray_bits), -u) + 1;
+    return never;
+  }
+
+  /// The radii that land less than `side` px away, and a few more at most.
+  std::int64_t limit(int side) const {
+    return u == 0 ? never : ((std::int64_t{side} << ray_bits) / std::abs(u)) + 1;
+  }
+};
+
+void add_cell(const Axis& x, const Axis& y, std::int64_t least, std::int64_t largest, int width,
+              int height, std::vector<Segment>& segments) {
+  const std::int64_t limit = std::min(x.limit(width), y.limit(height));
+  const std::int64_t end = limit == never ? largest : std::min(largest, limit);
+  std::int64_t r = limit == never ? least : std::max(least, -limit);
+  while (r <= end) {
+    const std::int64_t dx = x.landing(r), dy = y.landing(r);
+    const std::int64_t last = std::min({x.next(r), y.next(r), largest + 1}) - 1;
+    if (std::abs(dx) < width && std::abs(dy) < height) {
+      segments.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy),
+                          static_cast<std::int32_t>(r), static_cast<std::int32_t>(last - r)});
+    }
+    r = last + 1;
+  }
+}
+
+}  // namespace
+
+RadiusBins::RadiusBins(std::int32_t from, std::int32_t to, int longest_side_px)
+    : least(from), largest(to) {
+  const std::int64_t most = std::int64_t{longest_side_px} << DEFRAY_COC_FRACTION_BITS;
+  const std::int64_t lo = std::max<std::int64_t>(least, -most);
+  const std::int64_t hi = std::max<std::int64_t>(lo, std::min<std::int64_t>(largest, most));
+  while ((hi >> shift) - (lo >> shift) >= DEFRAY_RAY_BINS) ++shift;
+  first_bin = static_cast<int>(lo >> shift);
+}
+
+std::int64_t RadiusBins::first_radius(int bin) const {
+  const std::int64_t from = (std::int64_t{first_bin} + bin) << shift;
+  return bin == 0 ? std::min<std::int64_t>(from, least) : from;
+}
+
+std::int64_t RadiusBins::largest_of(int bin) const {
+  const bool is_last = bin == DEFRAY_RAY_BINS - 1;
+  const std::int64_t end = first_radius(bin + 1) - 1;
+  const std::int64_t last = is_last ? std::max<std::int64_t>(end, largest) : end;
+  return std::max(std::abs(first_radius(bin)), std::abs(last));
+}
+
+std::optional<SegmentTable> SegmentTable::of(const LensCells& cells, const RadiusBins& bins,
+                                             int width, int height, std::size_t most_bytes) {
+  SegmentTable table;
+  for (const auto& centre : cells.centres) {
+    auto at = table.segments.size();
+    add_cell({centre[0]}, {centre[1]}, bins.least, bins.largest, width, height, table.segments);
+    if (table.segments.size() * sizeof(Segment) > most_bytes) return std::nullopt;
+    for (int b = 0; b < DEFRAY_RAY_BINS; ++b) {
+      const auto ends_before = [&](const Segment& s) {
+        return std::int64_t{s[2]} + static_cast<std::uint32_t>(s[3]) < bins.first_radius(b);
+      };
+      while (at < table.segments.size() && ends_before(table.segments[at])) ++at;
+      table.first.push_back(static_cast<std::int32_t>(at));
+    }
+    table.first.push_back(static_cast<std::int32_t>(table.segments.size()));
+  }
+  return table;
+}
+
+}  // namespace defray

@@ -1,0 +1,92 @@
+// rdb_pad, rdb_tiles, rdb_reach: a window of the frame made ready for rdb_gather.
+//
+// rdb_pad copies planes [window_rows][layers][width] to padded ones, [layers][rows][stride], with a
+// strip's columns and rows of nothing around them:
+//   key       the signed CoC radius, 1/256 px; DEFRAY_NO_KEY where there is no fragment
+//   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
+//   coverage  as it is; if has_coverage
+//   channels  as they are
+// Global size: (stride, padded rows x layers).
+//
+// rdb_tiles finds the bins of CoC radii that a tile holds, in two sets of bits: those of whole
+// surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other tiles
+// that may reach it, along x and then, on its own result, along y: `near` says which bins reach from
+// how many tiles away, and a square dilates one axis at a time.
+// tiles     [tiles_y][tiles_x][2][words]
+// near      [reach_tiles + 1][words]
+// Global size of both: (tiles_x, tiles_y). Integers only: the same on every device.
+#include "colour.clh"
+#include "pcg3d.clh"
+#include "rays.clh"
+
+__kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc_quanta,
+                      __global const uint* restrict depth_bits,
+                      __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
+                      __global int* restrict padded_key, __global uint* restrict padded_sending,
+                      __global uint* restrict padded_coverage, WRITTEN_CHANNELS(padded)) {
+  const uint column = get_global_id(0), line = get_global_id(1);
+  const uint rows = p.window_rows + 2u * DEFRAY_RAY_ROWS;
+  if (column >= p.stride || line >= rows * p.layers) return;
+  const uint layer = line / rows;
+  const int x = (int)column - DEFRAY_RAY_RUN, y = (int)(line % rows) - DEFRAY_RAY_ROWS;
+  const size_t to = (size_t)line * p.stride + column;
+  const bool is_inside = x >= 0 && x < (int)p.width && y >= 0 && y < (int)p.window_rows;
+  const size_t from = is_inside ? ((size_t)y * p.layers + layer) * p.width + (uint)x : 0;
+  const uint share = p.has_coverage ? coverage[from] & ~DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
+  const bool is_there = is_inside && depth_bits[from] != DEFRAY_EMPTY && share > 0u;
+  padded_key[to] = is_there ? coc_quanta[from] : DEFRAY_NO_KEY;
+  set_colour(CHANNELS(padded), to,
+             is_inside ? colour_at(CHANNELS(channel), from) : (float4)(0.0f));
+  if (!p.has_coverage) return;
+  const uint2 at = (uint2)((uint)(x + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
+  const uint turn = pcg3d((uint3)(at, 0u)).z & 0xffffu;
+  padded_sending[to] = is_there ? turn | (share - 1u) << 16 : 0u;
+  padded_coverage[to] = is_inside ? coverage[from] : 0u;
+}
+
+__kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict key,
+                        __global const uint* restrict coverage, __global ulong* restrict tiles) {
+  const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
+  if (tile_x >= p.tiles_x || tile_y >= p.tiles_y) return;
+  const int x0 = (int)tile_x * DEFRAY_RAY_TILE, y0 = (int)tile_y * DEFRAY_RAY_TILE;
+  const int x1 = min(x0 + DEFRAY_RAY_TILE, (int)p.width);
+  const int y1 = min(y0 + DEFRAY_RAY_TILE, (int)p.window_rows);
+  ulong found[2 * DEFRAY_RAY_WORDS];
+  for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) found[w] = 0ul;
+  for (uint layer = 0; layer < p.layers; ++layer) {
+    for (int y = y0; y < y1; ++y) {
+      const size_t row = padded_layer(p) * layer + padded_at(p, 0, y);
+      for (int x = x0; x < x1; ++x) {
+        const int quanta = key[row + x];
+        if (quanta == DEFRAY_NO_KEY) continue;
+        const bool is_plain = layer == 0u && (!p.has_coverage || coverage[row + x] == DEFRAY_WHOLE);
+        const int bin = clamp((quanta >> p.bin_shift) - p.first_bin, 0, DEFRAY_RAY_BINS - 1);
+        found[(is_plain ? 0 : DEFRAY_RAY_WORDS) + bin / 64] |= 1ul << (bin % 64);
+      }
+    }
+  }
+  const size_t to = (size_t)(tile_y * p.tiles_x + tile_x) * (2 * DEFRAY_RAY_WORDS);
+  for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) tiles[to + w] = found[w];
+}
+
+__kernel void rdb_reach(const DefrayRaysParams p, __global const ulong* restrict near,
+                        __global const ulong* restrict tiles, __global ulong* restrict reach) {
+  const int tile_x = (int)get_global_id(0), tile_y = (int)get_global_id(1);
+  if (tile_x >= (int)p.tiles_x || tile_y >= (int)p.tiles_y) return;
+  const int here = p.along_y ? tile_y : tile_x;
+  const int last = min(here + p.reach_tiles, (int)(p.along_y ? p.tiles_y : p.tiles_x) - 1);
+  const int step = p.along_y ? (int)p.tiles_x : 1;
+  const int own = tile_y * (int)p.tiles_x + tile_x;
+  ulong found[2 * DEFRAY_RAY_WORDS];
+  for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) found[w] = 0ul;
+  for (int i = max(here - p.reach_tiles, 0); i <= last; ++i) {
+    const size_t theirs = (size_t)(own + (i - here) * step) * (2 * DEFRAY_RAY_WORDS);
+    const size_t away = (size_t)abs(i - here) * DEFRAY_RAY_WORDS;
+    for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) {
+      found[w] |= tiles[theirs + w] & near[away + w % DEFRAY_RAY_WORDS];
+    }
+  }
+  for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) {
+    reach[(size_t)own * (2 * DEFRAY_RAY_WORDS) + w] = found[w];
+  }
+}
