@@ -104,8 +104,7 @@ __kernel void highlights_add(
     __global const float4* restrict excess, __global const uint* restrict table,
     __global const uint* restrict cell_at, __global const uint2* restrict winner,
     __global const int* restrict coc_quanta, __global const uint* restrict coverage,
-    __global const int* restrict rim_x, __global const int* restrict rim_y,
-    WRITTEN_CHANNELS(sum)) {
+    __global const int* restrict rim_x, __global const int* restrict rim_y, WRITTEN_CHANNELS(sum)) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;

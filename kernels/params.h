@@ -146,7 +146,8 @@ typedef struct {
   DEFRAY_UINT tiles_y;
   DEFRAY_INT reach_tiles;  ///< Tiles on each side from which a CoC can reach a tile.
   DEFRAY_UINT along_y;     ///< rdb_reach: 0 looks along x, 1 along y.
-  DEFRAY_INT first_bin;    ///< Radii from first_bin << bin_shift on are in bin 0, as are smaller ones.
+  DEFRAY_INT
+  first_bin;  ///< Radii from first_bin << bin_shift on are in bin 0, as are smaller ones.
   DEFRAY_UINT bin_shift;
   DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
   DEFRAY_UINT has_rim;       ///< 1: the lens's rim cuts off cells, see rim.clh.

@@ -2,11 +2,11 @@
 // section 4, step 5).
 //
 // Cells that no ray reached take what lies behind the pixel or beside it, if anything, or else do
-// not count. Where all cells have the pixel's own colour, as in focus, or there are none, that comes
-// out bit for bit, not as a rounded mean; elsewhere colours are simply added: sums of differences to
-// one of them would lose dark cells beside a bright one. The cells come in
-// passes, and sums run over them in lens order whatever the passes: one result, bit for bit, for
-// every band height and memory budget.
+// not count. Where all cells have the pixel's own colour, as in focus, or there are none, that
+// comes out bit for bit, not as a rounded mean; elsewhere colours are simply added: sums of
+// differences to one of them would lose dark cells beside a bright one. The cells come in passes,
+// and sums run over them in lens order whatever the passes: one result, bit for bit, for every band
+// height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // coverage, coc_quanta  [window_rows][layers][width]  as in rdb_scatter
@@ -41,11 +41,10 @@ uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict cove
 
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
                         __global const uint* restrict coverage,
-                        __global const int* restrict coc_quanta,
-                        __global const int2* restrict lens, __global const int* restrict rim_x,
-                        __global const int* restrict rim_y, CHANNEL_PARAMETERS(channel),
-                        WRITTEN_CHANNELS(sum), __global uint* restrict filled,
-                        __global uint* restrict seen) {
+                        __global const int* restrict coc_quanta, __global const int2* restrict lens,
+                        __global const int* restrict rim_x, __global const int* restrict rim_y,
+                        CHANNEL_PARAMETERS(channel), WRITTEN_CHANNELS(sum),
+                        __global uint* restrict filled, __global uint* restrict seen) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;

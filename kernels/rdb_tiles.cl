@@ -9,12 +9,11 @@
 // Global size: (stride, padded rows x layers).
 //
 // rdb_tiles finds the bins of CoC radii that a tile holds, in two sets of bits: those of whole
-// surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other tiles
-// that may reach it, along x and then, on its own result, along y: `near` says which bins reach from
-// how many tiles away, and a square dilates one axis at a time.
-// tiles     [tiles_y][tiles_x][2][words]
-// near      [reach_tiles + 1][words]
-// Global size of both: (tiles_x, tiles_y). Integers only: the same on every device.
+// surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other
+// tiles that may reach it, along x and then, on its own result, along y: `near` says which bins
+// reach from how many tiles away, and a square dilates one axis at a time. tiles
+// [tiles_y][tiles_x][2][words] near      [reach_tiles + 1][words] Global size of both: (tiles_x,
+// tiles_y). Integers only: the same on every device.
 #include "colour.clh"
 #include "pcg3d.clh"
 #include "rays.clh"
@@ -35,8 +34,7 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
   const uint share = p.has_coverage ? coverage[from] & ~DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
   const bool is_there = is_inside && depth_bits[from] != DEFRAY_EMPTY && share > 0u;
   padded_key[to] = is_there ? coc_quanta[from] : DEFRAY_NO_KEY;
-  set_colour(CHANNELS(padded), to,
-             is_inside ? colour_at(CHANNELS(channel), from) : (float4)(0.0f));
+  set_colour(CHANNELS(padded), to, is_inside ? colour_at(CHANNELS(channel), from) : (float4)(0.0f));
   if (!p.has_coverage) return;
   const uint2 at = (uint2)((uint)(x + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
   const uint turn = pcg3d((uint3)(at, 0u)).z & 0xffffu;

@@ -33,8 +33,8 @@ RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const Ligh
   const RadiusBins bins(least, largest, std::max(frame.width, frame.height));
   std::optional<SegmentTable> table;
   if (plan.by == RaysBy::gather && plan.cells.jitter == 0) {
-    table = SegmentTable::of(plan.cells, bins, frame.width, frame.height,
-                             session_.memory_bytes() / 4);
+    table =
+        SegmentTable::of(plan.cells, bins, frame.width, frame.height, session_.memory_bytes() / 4);
   }
   if (table) {
     RaysGather(session_, frame, plan, bins, *table, lights).run(out, progress);

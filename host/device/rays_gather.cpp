@@ -26,19 +26,18 @@ std::vector<BinSet> bins_by_distance(const RadiusBins& bins, int tiles) {
   std::vector<BinSet> near;
   for (int away = 0; away <= tiles; ++away) {
     const std::int64_t gap_px = std::max(away - 1, 0) * std::int64_t{DEFRAY_RAY_TILE};
-    near.push_back(bins_that([&](int b) {
-      return (bins.largest_of(b) >> DEFRAY_COC_FRACTION_BITS) + 1 >= gap_px;
-    }));
+    near.push_back(bins_that(
+        [&](int b) { return (bins.largest_of(b) >> DEFRAY_COC_FRACTION_BITS) + 1 >= gap_px; }));
   }
   return near;
 }
 
-int rows_of_band(const Session& session, const Frame& frame, bool wants_winners, int cells) {
-  if (!wants_winners) return rows_at_once;
-  const auto passes =
-      plan_rdb_passes(frame.width, frame.height, cells, 0, session.memory_bytes(), true);
-  const int rows = passes.front().band_rows;
-  return rows < DEFRAY_RAY_ROWS ? 1 : rows / DEFRAY_RAY_ROWS * DEFRAY_RAY_ROWS;
+/// Rows of a band; winners of all its cells, where somebody wants them, take half the memory.
+int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_cells) {
+  if (winner_cells == 0) return rows_at_once;
+  const std::size_t row = size(frame.width) * winner_cells * sizeof(RdbWinner);
+  const auto rows = std::min<std::size_t>(session.memory_bytes() / 2 / row, rows_at_once);
+  return rows < DEFRAY_RAY_ROWS ? 1 : static_cast<int>(rows / DEFRAY_RAY_ROWS * DEFRAY_RAY_ROWS);
 }
 
 int in_tiles(int pixels) { return (pixels + DEFRAY_RAY_TILE - 1) / DEFRAY_RAY_TILE; }
@@ -52,11 +51,11 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       frame_(frame),
       reach_px_(std::min(rdb_reach(std::max(std::abs(bins.least), std::abs(bins.largest))),
                          std::max(frame.width, frame.height))),
-      rows_(rows_of_band(session, frame, plan.wants_nearest || (lights && !lights->empty()),
-                         static_cast<int>(plan.cells.centres.size()))),
-      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_),
-               plan.wants_nearest || (lights && !lights->empty()) ? plan.cells.centres.size() : 0),
-      segments_(session.view(table.segments)),
+      winner_cells_(plan.wants_nearest || (lights && !lights->empty()) ? plan.cells.centres.size()
+                                                                       : 0),
+      rows_(rows_of_band(session, frame, winner_cells_)),
+      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_),
+      segments_(table.segments.empty() ? session.view(table.first) : session.view(table.segments)),
       first_(session.view(table.first)) {
   DefrayRaysParams& p = params_;
   p.width = word(frame.width);
@@ -76,8 +75,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
   p.origin_y = plan.origin_y;
   p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
   p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
-  const BinSet sharp =
-      bins_that([&](int b) { return bins.largest_of(b) < DEFRAY_SHARP_QUANTA; });
+  const BinSet sharp = bins_that([&](int b) { return bins.largest_of(b) < DEFRAY_SHARP_QUANTA; });
   sharp_ = session.buffer(sizeof sharp);
   session.write(sharp_, sharp.data(), sizeof sharp);
   const auto near = bins_by_distance(bins, p.reach_tiles);

@@ -27,7 +27,8 @@ class RaysGather {
   Session& session_;
   const Frame& frame_;
   int reach_px_;
-  int rows_;  ///< Most of a band.
+  std::size_t winner_cells_;  ///< 0: nobody wants winners.
+  int rows_;                  ///< Most of a band.
   RayBuffers buffers_;
   DefrayRaysParams params_{};
   RayWindow window_;

@@ -20,8 +20,8 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
                               session.memory_bytes(), lights && !lights->empty())),
       buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().band_rows),
                size(passes_.front().cell_count)),
-      filled_(session.buffer(size(frame.width) * size(passes_.front().band_rows) *
-                             sizeof(cl_uint))) {}
+      filled_(
+          session.buffer(size(frame.width) * size(passes_.front().band_rows) * sizeof(cl_uint))) {}
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
   return size(pass.first_cell + pass.cell_count) == cells_;

@@ -25,7 +25,8 @@ struct Axis {
   /// The first radius that lands elsewhere than r, and than those between.
   std::int64_t next(std::int64_t r) const {
     const std::int64_t d = landing(r);
-    // d + 1 begins where r u >= ((d + 1) << bits) - half + 1; d ends where r u <= (d << bits) - half.
+    // d + 1 begins where r u >= ((d + 1) << bits) - half + 1; d ends where r u <= (d << bits) -
+    // half.
     if (u > 0) return floor_of(((d + 1) << ray_bits) - half_pixel, u) + 1;
     if (u < 0) return floor_of(half_pixel - 1 - (d << ray_bits), -u) + 1;
     return never;

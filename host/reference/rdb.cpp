@@ -209,8 +209,8 @@ RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSourc
   for_each_winner(f, plan, begin, add, progress);
   for (std::size_t c = 0; c < channels; ++c) {
     for (std::size_t i = 0; i < pixels; ++i) {
-      out.means[c][i] = differs[i] ? sum[c][i] / static_cast<float>(filled[i])
-                                   : f.channels[c][f.front_of(i)];
+      out.means[c][i] =
+          differs[i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][f.front_of(i)];
     }
   }
   if (has_light) add_light(*lights, f, plan, winner, out.means);
