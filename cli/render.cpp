@@ -1,6 +1,4 @@
 // defray render: one picture or a sequence through the lens.
-#include "render.h"
-
 #include <filesystem>
 
 #include "commands.h"
@@ -11,6 +9,7 @@
 #include "image/sequence.h"
 #include "progress.h"
 #include "render_job.h"
+#include "render_report.h"
 
 namespace defray::cli {
 namespace {

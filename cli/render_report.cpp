@@ -1,10 +1,11 @@
 // What defray render prints about a frame.
+#include "render_report.h"
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
-#include "render.h"
 
 namespace defray::cli {
 namespace {

@@ -4,21 +4,20 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/random.h"
 #include "device/device_stages.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
-#include "methods/tiltshift.h"
+#include "opencl/launch_table.h"
 #include "rdb/rdb.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "validation/checks_patterns.h"
 #include "validation/rdb_winners.h"
+#include "validation/stage_input.h"
+#include "validation/work.h"
 
 namespace defray::validation {
 namespace {
-
-double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 
 template <typename Range>
 Outcome integers(const Range& values) {
@@ -61,8 +60,6 @@ Outcome run_rdb_clear(Stages& stages, const Case& c, const Input&) {
       [&] { return cleared_twin(c.width, c.height, c.cells); }));
 }
 
-double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
-
 Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
   const RayPlan plan = ray_plan(c);
   return {either(
@@ -70,12 +67,6 @@ Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
               [&](DeviceStages& d) { return winners_on_device(d.session(), in.fragments, plan); },
               [&] { return winners_of_twin(in.fragments, plan); }),
           {}};
-}
-
-double rdb_work(const Case& c) {
-  const double side = c.jitter ? 2 * (c.coc_px / c.cells + 1) + 1 : 1;
-  const double rays = pixels(c) * c.cells * c.cells;
-  return 4 * rays * (1 + std::min(square(side), pixels(c))) + band_work(c) * c.cells * c.cells;
 }
 
 /// A pass of so many rows with one cell.
@@ -120,9 +111,9 @@ double one_division(const Case&) { return 12; }
 int reach_px(const Case& c) { return static_cast<int>(c.coc_px + 0.5); }
 double side_px(const Case& c) { return 2.0 * reach_px(c) + 1; }
 
-double linear_work(const Case& c) {
-  if (c.coc_px > linear_max_radius_px) return HUGE_VAL;
-  return pixels(c) * square(side_px(c)) * (1 + c.channels);
+/// Larger ones it does not take.
+double linear_cost(const Case& c) {
+  return c.coc_px > linear_max_radius_px ? HUGE_VAL : linear_work(c);
 }
 
 std::size_t linear_memory(const Case& c, const Input& in) {
@@ -146,16 +137,6 @@ double linear_roundings(const Case& c) { return square(side_px(c)) * 12 * (reach
 
 // tiltshift ---------------------------------------------------------------------------------------
 
-DefrayTiltshiftParams tiltshift_case(const Case& c) {
-  Random random(0, 0, c.seed);
-  TiltshiftSettings s;
-  s.band_centre = random.next();
-  s.band_width = random.next();
-  s.max_blur_px = std::min(c.coc_px, static_cast<double>(linear_max_radius_px));
-  const int first_row = static_cast<int>(20 * random.next()) - 10;
-  return tiltshift_params(s, c.width, c.height, first_row, c.height + 5);
-}
-
 Outcome run_tiltshift(Stages& stages, const Case& c, const Input&) {
   return integers(stages.tiltshift(tiltshift_case(c)));
 }
@@ -177,10 +158,6 @@ template <GatherKind kind>
 Outcome run_gather(Stages& stages, const Case& c, const Input& in) {
   return {{}, stages.gather(frame_of(c, in), gather_settings<kind>(c))};
 }
-
-double gather_work(const Case& c) { return pixels(c) * c.samples * (4 + 2.0 * c.channels); }
-
-double tiles_work(const Case& c) { return pixels(c) + square(pixels(c) / 256 + 1); }
 
 /// n samples of differences <= 2 L, their weights from a root 6 u off of distances up to the search
 /// radius and a quotient 5 u off, times the area that a near sample stands for.
@@ -221,15 +198,10 @@ constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 }  // namespace
 
-RayPlan ray_plan(const Case& c) {
-  RayPlan plan = plan_rays({c.cells, c.jitter, c.seed});
-  plan.origin_x = static_cast<int>(c.seed % 5) - 2;
-  plan.origin_y = static_cast<int>(c.seed % 3);
-  if (c.seed % 4 == 1) {
-    for (int x = 0; x < c.width; ++x) plan.rim_x.push_back(2000 * (x - c.width / 2));
-    for (int y = 0; y < c.height; ++y) plan.rim_y.push_back(-1500 * (y - c.height / 3));
-  }
-  return plan;
+std::size_t band_memory(const char* kernel, const Case& c, int layers) {
+  const Launch& launch = launch_of(kernel);
+  const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_bands
+  return size(rows) * size(c.width) * size(layers) * launch.bytes_a_surface;
 }
 
 const std::vector<KernelCheck>& kernel_checks() {
@@ -241,7 +213,7 @@ const std::vector<KernelCheck>& kernel_checks() {
       {"gather_literal", bits_rule, run_gather<literal>, gather_work, one_division},
       {"gather_reach", integer_rule, run_reach, tiles_work},
       {"gather_tiles", integer_rule, run_tiles, tiles_work},
-      {"linear_psf", bits_rule, run_linear, linear_work, linear_roundings, exact_linear,
+      {"linear_psf", bits_rule, run_linear, linear_cost, linear_roundings, exact_linear,
        linear_memory},
       {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
       {"rdb_merge", bits_rule, run_rdb_merge, rdb_work, one_division, exact_rdb, rdb_memory},

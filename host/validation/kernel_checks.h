@@ -31,7 +31,7 @@ struct KernelCheck {
   /// On a device, or by the twins.
   Outcome (*run)(Stages&, const Case&, const Input&);
 
-  /// Operations of the twin: a grid leaves out what takes too long.
+  /// Operations of the twin (work.h); infinite where it does not take such a case.
   double (*work)(const Case&);
 
   /// Roundings u = 2^-24 of the largest input L by which floats may differ on a device that does
@@ -42,8 +42,7 @@ struct KernelCheck {
   /// twin's bits too.
   Exact (*exact)(const Case&, const Input&) = nullptr;
 
-  /// What a session may take where the case wants bands; null: its rows and those that the launch
-  /// table says it looks at.
+  /// What a session may take where the case wants bands; null: band_memory of one layer.
   std::size_t (*memory)(const Case&, const Input&) = nullptr;
 
   bool needs_two_passes = false;  ///< Runs without 64-bit atomics.
@@ -53,12 +52,9 @@ struct KernelCheck {
 std::vector<KernelCheck> stage_checks();
 std::vector<KernelCheck> highlight_checks();
 
-/// What a launch a band adds to the work: it costs some devices (Mesa's, which compiles for each
-/// launch anew) milliseconds.
-double band_work(const Case& c);
-
-/// What the case's rays go through.
-RayPlan ray_plan(const Case& c);
+/// What bands of the case's rows take, with the rows that a kernel looks at beyond them by the
+/// launch table.
+std::size_t band_memory(const char* kernel, const Case& c, int layers);
 
 /// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();

@@ -8,7 +8,6 @@
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "device/device_stages.h"
-#include "opencl/launch_table.h"
 #include "reference/twin_stages.h"
 #include "validation/oclgrind_log.h"
 #include "validation/worst_picture.h"
@@ -134,13 +133,6 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
   return run.finish(watch.seconds());
 }
 
-std::size_t band_memory(const KernelCheck& check, const Case& c, const Input& input) {
-  if (check.memory) return check.memory(c, input);
-  const Launch& launch = launch_of(check.name);
-  const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_bands
-  return std::max<std::size_t>(1, size(rows) * size(c.width) * launch.bytes_a_surface);
-}
-
 }  // namespace
 
 bool DeviceResult::passed() const {
@@ -162,7 +154,10 @@ Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, co
   session.set_work_group(size(c.group_x), size(c.group_y));
   const bool has_bands = c.band_rows > 0;
   session.set_copies(has_bands);
-  session.set_memory(has_bands ? band_memory(check, c, input) : default_memory_bytes);
+  const auto memory = [&] {
+    return check.memory ? check.memory(c, input) : band_memory(check.name, c, 1);
+  };
+  session.set_memory(has_bands ? memory() : default_memory_bytes);
   DeviceStages device(session);
   Outcome outcome = check.run(device, c, input);
   session.set_copies(false);

@@ -144,6 +144,13 @@ TEST_F(Compare, SheetShowsBothAndTheirDifference) {
   EXPECT_EQ(red(sheet, 2, 30, 5), 1);  // equal: white
   EXPECT_LT(red(sheet, 0, 2, 9), red(sheet, 1, 2, 9));
   EXPECT_LT(red(sheet, 2, 2, 9), 1);
+  for (int panel = 0; panel < 3; ++panel) {  // each below its caption
+    int ink = 0;
+    for (int y = -30; y < -4; ++y) {
+      for (int x = 4; x < 14; ++x) ink += red(sheet, panel, x, y) < 0.5f;
+    }
+    EXPECT_GT(ink, 5) << panel;
+  }
   ASSERT_EQ(code("a.exr b.exr --sheet faint.png --amplify 0.5"), 0);
   const LdrPicture faint = read_ldr(folder_ / "faint.png", Content::data);
   EXPECT_GT(red(faint, 2, 2, 9), red(sheet, 2, 2, 9));

@@ -2,6 +2,7 @@
 #include "measure/psf.h"
 
 #include <cmath>
+#include <fstream>
 
 #include "measure/psf_report.h"
 #include "reference/reference.h"
@@ -170,6 +171,72 @@ TEST(PsfReport, BroadbandLightWashesTheFringesOut) {
   }
 }
 
+TEST(PsfReport, RadiiSpanTheDiscAndItsRingsFourOrMoreARing) {
+  for (const double depth : {3.0, 3.02, 3.2, 4.0}) {
+    for (const double fstop : {2.8, 11.0, 22.0}) {
+      const PsfReport report = report_of(depth, {450, 650}, fstop);
+      const PointImage image = image_of(depth, 3, fstop);
+      const std::vector<double>& r = report.radii_px;
+      const double disc = geometric_radius_m(image) / image.pixel_m;
+      const double ring = airy_radius_m(image, 450e-9) / image.pixel_m;
+      EXPECT_EQ(r.front(), 0);
+      EXPECT_GE(r.back(), disc + 4 * ring) << depth << " " << fstop;
+      EXPECT_GE(r.back(), 0.5);
+      EXPECT_LE(r.back(), std::max(1.5 * disc + 10 * ring, 1.0));
+      EXPECT_GE(r.size(), 200u);
+      EXPECT_LE(r.size(), 500u);
+      for (std::size_t i = 1; i < r.size(); ++i) {
+        EXPECT_NEAR(r[i], r.back() * i / (r.size() - 1), 1e-9 * r.back());
+      }
+      EXPECT_TRUE(r[1] <= ring / 4 || r.size() == 500);
+    }
+  }
+}
+
+TEST(PsfReport, BroadbandIsTheMeanOverTheBand) {
+  for (const double depth : {3.05, 3.6}) {
+    const PsfReport report = report_of(depth, {450, 600}, 8);
+    const PointImage image = image_of(depth, 3, 8);
+    for (const std::size_t i : {0u, 20u, 100u}) {
+      const double r = report.radii_px[i] * image.pixel_m;
+      double mean = 0;
+      for (int k = 0; k < 200; ++k) {
+        const double wavelength = (450 + 150 * (k + 0.5) / 200) * 1e-9;
+        mean += DiffractionPsf(image, wavelength, r).density_per_m2(r) / 200;
+      }
+      const double density = mean * image.pixel_m * image.pixel_m;
+      EXPECT_NEAR(report.broadband_per_px2[i], density, 2e-3 * report.broadband_per_px2[0])
+          << depth << " " << i;
+    }
+  }
+}
+
+TEST(PsfReport, TheTableHasARowARadius) {
+  const PsfReport report = report_of(4, {450, 650});
+  const Folder folder;
+  write_psf_csv(folder / "psf.csv", report);
+  std::ifstream table(folder / "psf.csv");
+  std::string line;
+  std::getline(table, line);
+  for (std::size_t i = 0; i < report.radii_px.size(); ++i) {
+    std::array<double, 6> row{};
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      ASSERT_TRUE(std::getline(table, line, c + 1 < row.size() ? ',' : '\n'));
+      row[c] = std::stod(line);
+    }
+    const std::array<double, 6> expected{report.radii_px[i],
+                                         report.radii_px[i] * report.pixel_um,
+                                         report.geometric_per_px2[i],
+                                         report.broadband_per_px2[i],
+                                         report.monochrome[0].density_per_px2[i],
+                                         report.monochrome[1].density_per_px2[i]};
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      EXPECT_NEAR(row[c], expected[c], 1e-7 * expected[c]) << i << " " << c;
+    }
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
 TEST(PsfReport, OneWavelengthIsItsOwnBand) {
   const PsfReport report = report_of(4, {550});
   EXPECT_EQ(report.broadband_per_px2, report.monochrome[0].density_per_px2);
@@ -210,9 +277,14 @@ TEST(PsfReport, ChartMarksThePixelAndLeavesOutAGeometricPoint) {
   const Plot plot = psf_plot(report_of(4, {550}), true);
   EXPECT_TRUE(plot.y_log);
   EXPECT_EQ(plot.series.back().points.back().x, 0.5);
+  double largest = 0, least = HUGE_VAL;
   for (const Series& series : plot.series) {
-    for (const Point& point : series.points) EXPECT_GT(point.y, 0);
+    for (const Point& point : series.points) {
+      if (series.name == "550 nm") largest = std::max(largest, point.y);
+      least = std::min(least, point.y);
+    }
   }
+  EXPECT_NEAR(least / largest, 1e-6, 1e-9);
 }
 
 TEST(PsfReport, RefusesImpossibleWavelengths) {

@@ -32,6 +32,16 @@ TEST(Units, ChangeNoCoc) {
   }
 }
 
+/// The scene's size is seen in metres, whatever its unit: focused at 3 m it looks as if at 6 cm.
+TEST(Units, ChangeNoPerceivedDistance) {
+  for (const double unit : {0.001, 1.0, 10.0}) {
+    CameraValues values = camera(unit);
+    values.perceived_distance_m = 0.06;
+    EXPECT_NEAR(make_lens(values, unit, LensModel::cg, 0).aperture_diameter_mm, 25 * 3 / 0.06,
+                1e-9);
+  }
+}
+
 // The thin lens, from its definition: z behind the lens at 1 / (1/f - 1/z), a disc of
 // aperture x |image distance difference| / image distance.
 TEST(Units, CocIsTheThinLens) {

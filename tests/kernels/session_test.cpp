@@ -198,7 +198,10 @@ TEST(Session, FastArithmeticBuildsAndStaysNear) {
 }
 
 TEST(Session, ErrorNames) {
+  EXPECT_EQ(opencl_error_name(-1), "CL_DEVICE_NOT_FOUND");
+  EXPECT_EQ(opencl_error_name(-5), "CL_OUT_OF_RESOURCES");
   EXPECT_EQ(opencl_error_name(-30), "CL_INVALID_VALUE");
+  EXPECT_EQ(opencl_error_name(-37), "CL_INVALID_HOST_PTR");
   EXPECT_EQ(opencl_error_name(-9999), "OpenCL error -9999");
 }
 

@@ -117,6 +117,32 @@ TEST(KernelChecks, OneCaseOfEachAgreesWithItsTwin) {
   session_without_int64().set_work_group(0, 0);
 }
 
+/// Copies to the device and back of one case that wants bands of so many rows.
+std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
+  Session& own = check.needs_two_passes ? session_without_int64() : session();
+  c.band_rows = band_rows;
+  const std::size_t before = own.traffic().uploads + own.traffic().downloads;
+  run_kernel(own, check, c, make_input(c));
+  own.set_work_group(0, 0);
+  return own.traffic().uploads + own.traffic().downloads - before;
+}
+
+/// Not of `highlights` and `fill`: where discs are large they see more, and `fill` goes by tiles.
+TEST(KernelChecks, BandsHaveTheCasesRows) {
+  const Case c = parse_case("16x48,ties,coc=0.3,cells=2,seed=2");
+  for (const char* kernel :
+       {"assemble", "edges", "linear_psf", "patterns_match", "rdb_merge", "rdb_merge_seen",
+        "rdb_nearest", "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
+    const KernelCheck& check = find_check(kernel);
+    // 24, 8 and 2 bands: each takes as many copies.
+    const std::size_t by_2 = copies_in_bands(check, c, 2), by_6 = copies_in_bands(check, c, 6),
+                      by_24 = copies_in_bands(check, c, 24);
+    EXPECT_GT(by_6, by_24) << kernel;
+    EXPECT_EQ((by_2 - by_6) / (24 - 8), (by_6 - by_24) / (8 - 2)) << kernel;
+    EXPECT_EQ((by_6 - by_24) % (8 - 2), 0u) << kernel;
+  }
+}
+
 /// A rule alone, for values made by hand.
 KernelCheck rule() { return {"", "", nullptr, nullptr, nullptr}; }
 

@@ -1,0 +1,127 @@
+#include "validation/stage_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "lens/aperture_mask.h"
+#include "methods/linear.h"
+#include "methods/tiltshift.h"
+#include "reference/twin_stages.h"
+
+namespace defray::validation {
+
+StageFrame::StageFrame(const Case& c, const Input& in) : frame(frame_of(c, in)) {
+  std::vector<std::int32_t> coc_quanta;
+  Plane inverse;
+  const int width = c.width, height = c.height;
+  const bool has_blocks =
+      c.seed % 4 != 0 && (c.pattern == Pattern::random || c.pattern == Pattern::ties ||
+                          c.pattern == Pattern::checker || c.pattern == Pattern::converging);
+  const double slant = c.coc_px >= 1 ? c.seed % 3 : 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool is_thin = x % 23 == 11;
+      const int from_x = has_blocks && !is_thin ? x / 9 * 9 : x;
+      const int from_y = has_blocks ? y / 6 * 6 : y;
+      const auto from = static_cast<std::size_t>(from_y) * static_cast<std::size_t>(width) +
+                        static_cast<std::size_t>(from_x);
+      const double coc = in.coc_quanta[from] + slant * (24 * x - 16 * y);
+      const double limit = DEFRAY_COC_LIMIT_QUANTA;
+      coc_quanta.push_back(static_cast<std::int32_t>(std::clamp(coc, -limit, limit)));
+      const float depth = in.depth[from];
+      const float background = static_cast<float>(slant * 0.001 * (x + y));
+      inverse.push_back(background + (std::isfinite(depth) ? 1 / depth : 0));
+    }
+  }
+  frame.coc_quanta = std::move(coc_quanta);
+  frame.inverse = std::move(inverse);
+  mixed = reference::TwinStages().edges(frame);
+}
+
+Frame blurred(const Case& c, Frame frame) {
+  const auto seed = static_cast<int>(c.seed % 8);
+  const int along_x = seed % 4 != 1, along_y = seed % 4 == 0 ? 0 : seed % 4 == 3 ? -1 : 1;
+  const int count = 2 + seed / 4;
+  std::vector<std::int32_t> out;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      std::int64_t sum = 0;
+      for (int k = 0; k < count; ++k) {
+        const int px = std::clamp(x + k * along_x, 0, frame.width - 1);
+        const int py = std::clamp(y + k * along_y, 0, frame.height - 1);
+        sum +=
+            frame.coc_quanta[static_cast<std::size_t>(py) * static_cast<std::size_t>(frame.width) +
+                             static_cast<std::size_t>(px)];
+      }
+      out.push_back(static_cast<std::int32_t>(sum / count));
+    }
+  }
+  frame.coc_quanta = std::move(out);
+  return frame;
+}
+
+Frame soft_fragments(const Case& c, const Input& in) {
+  const StageFrame stage(c, in);
+  Frame f = in.fragments;
+  const auto coc = f.coc_quanta.edit();
+  for (int y = 0; y < c.height; ++y) {
+    for (int layer = 0; layer < f.layers; ++layer) {
+      for (int x = 0; x < c.width; ++x) {
+        if (layer > 0 && c.seed % 2 != 0) continue;
+        coc[f.index(x, y, layer)] = stage.frame.coc_quanta[stage.frame.index(x, y)];
+      }
+    }
+  }
+  return f;
+}
+
+Frame bright_fragments(const Input& in) {
+  Frame f = in.fragments;
+  if (f.coverage.empty()) f.coverage = Words(f.surfaces(), DEFRAY_WHOLE);
+  const auto coverage = f.coverage.edit();
+  for (std::size_t i = 0; i < coverage.size(); ++i) {
+    if (!is_fragment(f.depth[i])) coverage[i] = 0;
+  }
+  for (auto& channel : f.channels) {
+    const auto plane = channel.edit();
+    for (std::size_t i = 5; i < plane.size(); i += 13) plane[i] *= 500;
+  }
+  return f;
+}
+
+const ApertureTable& lopsided_aperture() {
+  static const ApertureTable table = [] {
+    ApertureMask mask;
+    for (int row = 0; row < ApertureMask::side; ++row) {
+      for (int column = 0; column < ApertureMask::side; ++column) {
+        mask.coverage.push_back(static_cast<std::uint8_t>((column / 3 + row / 2 * 3) % 256));
+      }
+    }
+    return make_aperture_table(mask);
+  }();
+  return table;
+}
+
+RayPlan ray_plan(const Case& c) {
+  RayPlan plan = plan_rays({c.cells, c.jitter, c.seed});
+  plan.origin_x = static_cast<int>(c.seed % 5) - 2;
+  plan.origin_y = static_cast<int>(c.seed % 3);
+  if (c.seed % 4 == 1) {
+    for (int x = 0; x < c.width; ++x) plan.rim_x.push_back(2000 * (x - c.width / 2));
+    for (int y = 0; y < c.height; ++y) plan.rim_y.push_back(-1500 * (y - c.height / 3));
+  }
+  return plan;
+}
+
+DefrayTiltshiftParams tiltshift_case(const Case& c) {
+  Random random(0, 0, c.seed);
+  TiltshiftSettings s;
+  s.band_centre = random.next();
+  s.band_width = random.next();
+  s.max_blur_px = std::min(c.coc_px, static_cast<double>(linear_max_radius_px));
+  const int first_row = static_cast<int>(20 * random.next()) - 10;
+  return tiltshift_params(s, c.width, c.height, first_row, c.height + 5);
+}
+
+}  // namespace defray::validation

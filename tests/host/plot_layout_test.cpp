@@ -1,0 +1,122 @@
+// Where texts and lines of a chart stand: by their ticks, in the middle of what they name, apart.
+#include <cmath>
+
+#include "image/ldr.h"
+#include "measure/plot.h"
+#include "measure/plot_axis.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+/// What is drawn in a rectangle.
+struct Ink {
+  int left = 9999, top = 9999, right = -1, bottom = -1;
+  bool is_empty() const { return right < 0; }
+  double x() const { return (left + right) / 2.0; }
+  double y() const { return (top + bottom) / 2.0; }
+};
+
+class PlotLayout : public testing::Test {
+ protected:
+  PlotLayout() {
+    plot_.series.push_back({"one", {{0, 0}, {10, 4}}, true, true});
+    plot_.series.push_back({"", {{2, 1}}, false, true});
+    plot_.series.push_back({"three", {{4, 1}}, true, true});
+    write_plot(folder_ / "plot.png", plot_);
+    picture_ = read_ldr(folder_ / "plot.png", Content::data);
+    const auto low = plot_position(plot_, {0, 0}), high = plot_position(plot_, {10, 4});
+    left_ = std::lround(low[0]), bottom_ = std::lround(low[1]);
+    right_ = std::lround(high[0]), top_ = std::lround(high[1]);
+  }
+
+  std::array<long, 3> colour(int x, int y) const {
+    const std::size_t i = size(y) * size(picture_.width) + size(x);
+    return {std::lround(255 * picture_.planes[0][i]), std::lround(255 * picture_.planes[1][i]),
+            std::lround(255 * picture_.planes[2][i])};
+  }
+
+  /// Of what `counts`, in columns x0 up to x1 and rows y0 up to y1.
+  template <typename Counts>
+  Ink ink(int x0, int y0, int x1, int y1, const Counts& counts) const {
+    Ink box;
+    for (int y = std::max(0, y0); y < std::min(y1, plot_height_px); ++y) {
+      for (int x = std::max(0, x0); x < std::min(x1, plot_width_px); ++x) {
+        if (!counts(colour(x, y))) continue;
+        box.left = std::min(box.left, x), box.right = std::max(box.right, x);
+        box.top = std::min(box.top, y), box.bottom = std::max(box.bottom, y);
+      }
+    }
+    return box;
+  }
+  Ink text(int x0, int y0, int x1, int y1) const {
+    return ink(x0, y0, x1, y1, [](const auto& c) { return c[0] < 128 && c[0] == c[2]; });
+  }
+
+  Folder folder_;
+  Plot plot_{"A title", "the x axis", "the y axis"};
+  LdrPicture picture_;
+  int left_, right_, top_, bottom_;
+};
+
+TEST_F(PlotLayout, TickLinesCrossTheAxesAreaAndTheirNamesStandBesideThem) {
+  const Axis x_axis("x", {0, 10}, false), y_axis("y", {0, 4}, false);
+  const auto is_drawn = [](const auto& c) { return c[0] < 250; };
+  for (const double tick : x_axis.ticks()) {
+    const int x = static_cast<int>(std::lround(plot_position(plot_, {tick, 0})[0]));
+    // Clear of the series in the lower right corner and of lines across.
+    const Ink line = ink(x - 1, bottom_ - 12, x + 2, bottom_ - 2, is_drawn);
+    EXPECT_TRUE(line.top <= bottom_ - 12 && line.bottom >= bottom_ - 3) << tick;
+    const Ink name = text(x - 25, bottom_ + 7, x + 26, bottom_ + 30);
+    EXPECT_NEAR(name.x(), x, 2) << tick;
+    EXPECT_GT(name.bottom - name.top, 6);
+    EXPECT_LT(name.bottom, bottom_ + 26);
+  }
+  EXPECT_TRUE(ink(left_ + 30, bottom_ - 12, left_ + 40, bottom_ - 2, is_drawn).is_empty());
+  for (const double tick : y_axis.ticks()) {
+    const int y = static_cast<int>(std::lround(plot_position(plot_, {0, tick})[1]));
+    const Ink line = ink(right_ - 14, y - 1, right_ - 2, y + 2, is_drawn);
+    EXPECT_TRUE(tick == 4 || (line.left <= right_ - 14 && line.right >= right_ - 3)) << tick;
+    const Ink name = text(left_ - 42, y - 12, left_ - 7, y + 13);
+    EXPECT_NEAR(name.y(), y, 2) << tick;
+    EXPECT_NEAR(left_ - name.right, 10, 4) << tick;
+  }
+}
+
+TEST_F(PlotLayout, TitlesStandInTheMiddleOfWhatTheyName) {
+  const Ink title = text(0, 0, plot_width_px, top_ - 8);
+  EXPECT_NEAR(title.x(), plot_width_px / 2.0, 4);
+  EXPECT_GT(title.top, 4);
+  const Ink x_name = text(0, bottom_ + 30, plot_width_px, plot_height_px);
+  EXPECT_NEAR(x_name.x(), (left_ + right_) / 2.0, 4);
+  EXPECT_LT(x_name.bottom, plot_height_px - 4);
+  EXPECT_GT(x_name.top, bottom_ + 30);
+  const Ink y_name = text(0, 0, 32, plot_height_px);
+  EXPECT_NEAR(y_name.y(), (top_ + bottom_) / 2.0, 4);
+  EXPECT_GT(y_name.bottom - y_name.top, 3 * (y_name.right - y_name.left));  // upright
+  EXPECT_GT(y_name.left, 2);
+  EXPECT_LT(y_name.right, 30);
+}
+
+TEST_F(PlotLayout, TheLegendHasALineASeriesWithAName) {
+  const auto has = [](std::array<long, 3> wanted) {
+    return [=](const std::array<long, 3>& c) { return c == wanted; };
+  };
+  const Ink one = ink(right_ + 8, 0, plot_width_px, plot_height_px, has({0, 114, 178}));
+  const Ink unnamed = ink(right_ + 8, 0, plot_width_px, plot_height_px, has({213, 94, 0}));
+  const Ink three = ink(right_ + 8, 0, plot_width_px, plot_height_px, has({0, 158, 115}));
+  EXPECT_TRUE(unnamed.is_empty());
+  EXPECT_GT(one.left, right_ + 10);
+  EXPECT_NEAR(one.right - one.left, 24, 2);
+  EXPECT_EQ(one.left, three.left);
+  EXPECT_GT(three.top, one.bottom + 8);
+  for (const Ink& sign : {one, three}) {
+    const Ink name = text(sign.right + 2, sign.top - 6, plot_width_px, sign.bottom + 7);
+    EXPECT_NEAR(name.y(), sign.y(), 3);
+    EXPECT_NEAR(name.left, sign.right + 8, 4);
+    EXPECT_LT(name.right, plot_width_px - 4);
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
