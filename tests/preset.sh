@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Builds an instrumented variant in build/NAME and runs the whole suite in it.
-# preset.sh asan|tsan|coverage [gtest arguments]. Coverage ends with its figures and a page.
+# preset.sh tsan|coverage [gtest arguments]. Coverage ends with its figures and a page.
 export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libclang-rt-14-dev gcovr"
 name=${1:-}
 shift || true
 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 if [ ! -f "$tests/presets/$name.cmake" ]; then
-  echo "usage: preset.sh asan|tsan|coverage [gtest arguments]" >&2
+  echo "usage: preset.sh tsan|coverage [gtest arguments]" >&2
   exit 2
 fi
 source "$tests/../cli/setup.sh"

@@ -10,6 +10,7 @@ export OCL_ICD_VENDORS=/etc/OpenCL/vendors/pocl.icd
 export LSAN_OPTIONS=suppressions=$tests/presets/lsan.supp:print_suppressions=0
 # Leaks are sought in the library: asking each of 600 processes takes minutes.
 case $program in *command_tests) export ASAN_OPTIONS=detect_leaks=0 ;; esac
+export DEFRAY_TEST_PROGRAM=$(realpath "$(dirname "$program")")/defray
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # Left out what only costs time there, and runs without instruments: cold kernel caches, damaged
@@ -18,11 +19,13 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
+perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
-  longer=Arithmetic.*:PerfCommand.*:ReportCommand.*:Rdb.Huge*:*EqualsTwin*:*EqualTwins*
+  longer=Arithmetic.*:$perf:Rdb.Huge*:*EqualsTwin*:*EqualTwins*
   DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"
 fi
 case $name in
+  asan) left_out+=:$perf ;;  # defray-perf is not built there
   tsan)
     left_out+=:*EveryDamagedFile*  # minutes, in OpenEXR's threads and not ours
     export DEFRAY_TEST_EXEC=1 ;;   # it takes no forks of a process with threads

@@ -28,8 +28,7 @@ else
 fi
 step() { echo "[$((SECONDS - begin)) s] $1"; }
 step "Building"
-build "$folder" -C "$project/tests/presets/tests.cmake"
-[ -z "$full" ] || build "$folder/asan" -C "$project/tests/presets/asan.cmake"
+build "$folder" -C "$project/tests/presets/tests.cmake" -DDEFRAY_SANITIZED_TESTS=${full:+ON}
 
 # Kernels are compiled anew for each build, and leave the user's cache alone.
 export POCL_CACHE_DIR=$folder/kernel-cache

@@ -12,11 +12,9 @@
 #include <vector>
 
 #include "program.h"
+#include "run.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));
-
-/// The program's own main, see CMakeLists.txt.
-int defray_main(int argc, char** argv);
 
 namespace defray::test {
 namespace {
@@ -49,7 +47,7 @@ void end_here(int status, void*) {
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
-  std::exit(defray_main(static_cast<int>(words.we_wordc), words.we_wordv));
+  std::exit(cli::run(static_cast<int>(words.we_wordc), words.we_wordv));
 }
 
 /// A text with its length before it.

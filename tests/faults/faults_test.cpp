@@ -20,6 +20,16 @@ using namespace defray::validation;
 constexpr const char* quick = "-cl-opt-disable";
 constexpr int group = 64;
 
+/// PoCL reads its built-in functions, nine megabytes of them, for the first of the contexts that
+/// are alive: one is, from the first test to the last.
+class OneContext : public testing::Environment {
+  void SetUp() override { context_ = cl::Context(device_under_test().device); }
+  void TearDown() override { context_ = cl::Context(); }
+  cl::Context context_;
+};
+
+[[maybe_unused]] const auto* const one_context = testing::AddGlobalTestEnvironment(new OneContext);
+
 /// The file that holds a kernel.
 std::string file_of(const std::string& kernel) {
   for (const KernelFile& file : kernel_files) {

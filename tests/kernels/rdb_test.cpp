@@ -148,13 +148,17 @@ TEST(Rdb, FewerChannelsGiveTheSamePlanes) {
 
 /// Rows [first, first + rows) of a frame whose every value is a formula of its place.
 Input formula_rows(int width, int first, int rows) {
-  Input in{{width, rows}, {}, {}, {{}}};
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
+  Input in{{width, rows}, std::vector<std::int32_t>(pixels), Plane(pixels), {Plane(pixels)}};
+  // Without vectors' functions: a hundred million pixels, and tests are not optimised.
+  std::int32_t* coc = in.coc.data();
+  float *depth = in.depth.data(), *channel = in.channels[0].data();
   for (int y = first; y < first + rows; ++y) {
     for (int x = 0; x < width; ++x) {
       const int block = (x / 64 + y / 48) % 5;
-      in.coc.push_back(256 * (block - 2) * 5);
-      in.depth.push_back(1.0f + static_cast<float>(block));
-      in.channels[0].push_back(static_cast<float>((x * 7 + y * 13) % 101));
+      *coc++ = 256 * (block - 2) * 5;
+      *depth++ = 1.0f + static_cast<float>(block);
+      *channel++ = static_cast<float>((x * 7 + y * 13) % 101);
     }
   }
   return in;

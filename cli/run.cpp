@@ -1,0 +1,160 @@
+// defray: reads the command line, runs one command, turns an Error into one line and an exit code.
+#include "run.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "commands.h"
+#include "defray/defray.h"
+#include "exit_code.h"
+#include "image/safe_output.h"
+#include "option_table.h"
+
+namespace defray::cli {
+namespace {
+
+constexpr const char* about = R"(defray: depth of field for pinhole renders with depth, on OpenCL.
+
+It turns a picture with depth into the picture a real lens takes, and can say how far from the
+truth a fast setting is.)";
+
+constexpr const char* footer = R"(Examples:
+  defray render beauty.exr -o out.exr --focus 3 --fstop 2.8 --focal-length 50
+  defray render 'shot.####.exr' -o 'out/shot.####.exr' --frames 1-8 --camera camera.json
+  defray devices
+
+'defray COMMAND --help' explains a command.
+Exit codes: 0 done; 1 some frames failed, a comparison missed its bound, or a kernel failed; 2 wrong usage;
+3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray;
+130, 143 interrupted, terminated.)";
+
+/// Every option name, or every command name, that `app` knows.
+std::vector<std::string> known_words(const CLI::App& app) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) words.push_back("-" + name);
+  }
+  for (const CLI::App* sub : app.get_subcommands({})) words.push_back(sub->get_name());
+  return words;
+}
+
+/// "unknown option '--focsu'. Did you mean '--focus'?"
+std::string explain_extras(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& scope = chosen.empty() ? app : *chosen.front();
+  const std::vector<std::string> extras = app.remaining(true);
+  std::string word = extras.empty() ? "" : extras.front();
+  word = word.substr(0, word.find('='));
+  const char* kind = word.rfind('-', 0) == 0 ? "option" : chosen.empty() ? "command" : "argument";
+  const std::string help =
+      chosen.empty() ? "defray --help" : "defray " + scope.get_name() + " --help";
+  return fmt::format("unknown {} '{}'.{} See '{}'.", kind, word,
+                     did_you_mean(word, known_words(scope)), help);
+}
+
+/// "--cats-eye: 'abc' cannot be read as a number. Vignetting: offset of ..."; other errors as they
+/// are.
+std::string explain_value(const CLI::ParseError& error, const CLI::App& app) {
+  const std::string message = error.what();
+  const auto has = [&](const std::string& part) { return message.find(part) != std::string::npos; };
+  const CLI::Option* option = nullptr;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (const CLI::Option* o : command->get_options()) {
+      const bool is_longer = !option || o->get_name().size() > option->get_name().size();
+      if (has(o->get_name()) && is_longer) option = o;
+    }
+  }
+  if (!option) return message;
+  const auto explain = [&](const std::string& what) {
+    return fmt::format("{}: {}. {}", option->get_name(), what, option->get_description());
+  };
+  if (has("Could not convert")) {
+    const std::string type = option->get_type_name();
+    return explain(fmt::format("'{}' cannot be read as {}", join(option->results(), ","),
+                               type.empty()      ? "true or false"
+                               : type == "FLOAT" ? "a number"
+                                                 : "a whole number"));
+  }
+  if (has("required") && has("missing")) return explain("a value is missing");
+  if (has("required but received")) return explain("it is given more than once");
+  return message;
+}
+
+int fail_with(ErrorKind kind, const std::string& message) {
+  fmt::print(stderr, "defray: error: {}\n", message);
+  return exit_code(kind);
+}
+
+/// A shell's unset variable must not pass for an option that was left out.
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (!value.empty()) continue;
+      fail(ErrorKind::usage, "{} is empty: give a value, or leave the option out",
+           option->get_name());
+    }
+  }
+}
+
+int run_command(int argc, char** argv) {
+  CLI::App app{about, "defray"};
+  app.footer(footer);
+  app.set_version_flag("--version", std::string("defray ") + version());
+  app.option_defaults()->always_capture_default();
+  std::vector<std::pair<CLI::App*, Run>> commands;
+  for (const auto add :
+       {add_render, add_devices, add_scene, add_compare, add_sheet, add_psf, add_validate}) {
+    const Run command = add(app);
+    commands.emplace_back(app.get_subcommands({}).back(), command);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return fail_with(ErrorKind::usage, explain_extras(app));
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::ParseError& error) {
+    return fail_with(ErrorKind::usage, explain_value(error, app));
+  }
+  for (const auto& [app_of, command] : commands) {
+    if (!app_of->parsed()) continue;
+    refuse_empty_values(*app_of);
+    const int code = command();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+      return fail_with(ErrorKind::output, "cannot write to standard output");
+    }
+    return code;
+  }
+  fmt::print("{}", app.help());
+  return ExitCode::wrong_usage;
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+  // OpenCV must not open an OpenCL context of its own beside ours.
+  setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
+  remove_temporary_on_signal();
+  try {
+    return run_command(argc, argv);
+  } catch (const Error& error) {
+    return fail_with(error.kind(), message_of(error));
+  } catch (const std::bad_alloc&) {
+    return fail_with(ErrorKind::input, "not enough memory for this picture");
+  } catch (const std::system_error& error) {  // fmt's, from a broken standard output
+    return fail_with(ErrorKind::output, error.what());
+  } catch (const std::exception& error) {
+    return fail_with(ErrorKind::internal, error.what());
+  }
+}
+
+}  // namespace defray::cli
