@@ -9,7 +9,7 @@
 // height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
-// coverage, coc_quanta  [window_rows][layers][width]  as in rdb_scatter
+// coc_quanta, depth_bits, coverage  [window_rows][layers][width]  as in rdb_scatter
 // lens            [cells]                          u_k, 2^-16 of the aperture radius
 // rim_x, rim_y    [width], [band_y + band_rows]    centre of the rim; if has_rim: cells that
 //                                                  it cuts off do not count
@@ -24,15 +24,16 @@
 
 // What shows through where no ray arrives: the farthest fragment behind the pixel and those around
 // it. Windows reach one row beyond their band: no band changes the answer.
-uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict coverage,
-                     __global const int* restrict coc_quanta, const int2 target) {
+uint farthest_behind(const DefrayRdbParams p, __global const int* restrict coc_quanta,
+                     __global const uint* restrict depth_bits,
+                     __global const uint* restrict coverage, const int2 target) {
   uint found = DEFRAY_EMPTY;
   if (p.layers < 2u || !p.has_coverage) return found;
   const int row = (int)(p.band_y - p.window_y) + target.y;
   for (int y = max(row - 1, 0); y <= min(row + 1, (int)p.window_rows - 1); ++y) {
     for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
       const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
-      if (coverage[i] == 0u) continue;
+      if (depth_bits[i] == DEFRAY_EMPTY || (coverage[i] & ~DEFRAY_SYNTHESISED) == 0u) continue;
       if (found == DEFRAY_EMPTY || coc_quanta[i] > coc_quanta[found]) found = i;
     }
   }
@@ -40,8 +41,9 @@ uint farthest_behind(const DefrayRdbParams p, __global const uint* restrict cove
 }
 
 __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict winner,
-                        __global const uint* restrict coverage,
-                        __global const int* restrict coc_quanta, __global const int2* restrict lens,
+                        __global const int* restrict coc_quanta,
+                        __global const uint* restrict depth_bits,
+                        __global const uint* restrict coverage, __global const int2* restrict lens,
                         __global const int* restrict rim_x, __global const int* restrict rim_y,
                         CHANNEL_PARAMETERS(channel), WRITTEN_CHANNELS(sum),
                         __global uint* restrict filled, __global uint* restrict seen) {
@@ -59,7 +61,8 @@ __kernel void rdb_merge(const DefrayRdbParams p, __global const uint2* restrict 
   bool differs = state != count;
   uint seen_count = p.is_first_pass ? 0u : seen[target];
 
-  const uint behind = farthest_behind(p, coverage, coc_quanta, (int2)((int)x, (int)row));
+  const uint behind =
+      farthest_behind(p, coc_quanta, depth_bits, coverage, (int2)((int)x, (int)row));
 
   for (uint cell = 0; cell < p.cell_count; ++cell) {
     const uint held = winner[cell * cell_stride + target].x;

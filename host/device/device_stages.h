@@ -3,6 +3,7 @@
 #include "chain/patterns.h"
 #include "frame/stages.h"
 #include "opencl/session.h"
+#include "rdb/ray_tiles.h"
 
 namespace defray {
 
@@ -44,6 +45,9 @@ class DeviceStages : public Stages {
   /// from, for each tile.
   std::vector<std::int32_t> gather_tiles(const Frame& frame);
   std::vector<std::int32_t> gather_reach(const Frame& frame);
+
+  /// `rdb_pad`, `rdb_tiles`, `rdb_reach` over a whole frame.
+  RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 
   Session& session() { return session_; }
 

@@ -8,6 +8,9 @@
 namespace defray {
 namespace {
 
+/// A table of segments that is made whatever the memory.
+constexpr std::size_t small_table = std::size_t{16} << 20;
+
 void scatter(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
              const Progress& progress, RayResult& out) {
   RdbRun run(session, frame, plan, lights);
@@ -29,12 +32,11 @@ RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const Ligh
   RayResult out{std::vector<Plane>(frame.channels.size(), Plane(frame.pixels())),
                 std::vector<std::uint32_t>(frame.pixels())};
   if (plan.wants_nearest) out.nearest.resize(frame.pixels());
-  const auto [least, largest] = std::ranges::minmax(frame.coc_quanta.host());
-  const RadiusBins bins(least, largest, std::max(frame.width, frame.height));
+  const RadiusBins bins = bins_of(frame);
   std::optional<SegmentTable> table;
   if (plan.by == RaysBy::gather && plan.cells.jitter == 0) {
-    table =
-        SegmentTable::of(plan.cells, bins, frame.width, frame.height, session_.memory_bytes() / 4);
+    table = SegmentTable::of(plan.cells, bins, frame.width, frame.height,
+                             std::max(session_.memory_bytes() / 4, small_table));
   }
   if (table) {
     RaysGather(session_, frame, plan, bins, *table, lights).run(out, progress);
@@ -42,6 +44,12 @@ RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const Ligh
     scatter(session_, frame, plan, lights, progress, out);
   }
   return out;
+}
+
+RayTiles DeviceStages::ray_tiles(const Frame& frame, const RayPlan& plan) {
+  RayTileWindow window(session_, frame, plan, bins_of(frame));
+  window.prepare({0, frame.height, 0, frame.height});
+  return window.read();
 }
 
 }  // namespace defray

@@ -72,9 +72,9 @@ void RdbRun::scatter(const RdbPass& pass) {
 void RdbRun::merge(const RdbPass& pass) {
   view_window(pass);
   const DefrayRdbParams p = params_of(pass);
-  session_.launch("rdb_merge", {p.width, p.band_rows}, p, buffers_.winner, window_.coverage,
-                  window_.coc, buffers_.lens, buffers_.rim_x, buffers_.rim_y, window_.channels,
-                  buffers_.means, filled_, buffers_.seen);
+  session_.launch("rdb_merge", {p.width, p.band_rows}, p, buffers_.winner, window_.coc,
+                  window_.depth, window_.coverage, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
+                  window_.channels, buffers_.means, filled_, buffers_.seen);
   buffers_.find_nearest(p, window_);
   if (is_last_of_band(pass)) buffers_.add_light(p, window_);
 }

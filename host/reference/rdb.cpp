@@ -133,7 +133,7 @@ std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
   for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
     for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
       const std::size_t i = f.index(x, y, 1);
-      if (f.coverage[i] == 0) continue;
+      if (!is_fragment(f.depth[i]) || (f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0) continue;
       if (found < 0 || f.coc_quanta[i] > f.coc_quanta[static_cast<std::size_t>(found)]) {
         found = static_cast<std::int64_t>(i);
       }

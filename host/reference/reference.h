@@ -9,6 +9,7 @@
 #include "lens/lens.h"
 #include "methods/gather.h"
 #include "rdb/light_sources.h"
+#include "rdb/ray_tiles.h"
 #include "rdb/rdb.h"
 
 namespace defray::reference {
@@ -20,6 +21,10 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units);
 /// Twin of kernel `rdb_scatter` for one lens cell over the whole frame: index of the nearest
 /// surface whose ray arrives at each target pixel, or -1.
 std::vector<std::int64_t> rdb_scatter(const Frame& frame, const RayPlan& plan, std::size_t cell);
+
+/// Twins of kernels `rdb_pad`, `rdb_tiles` and `rdb_reach` over a whole frame: each bin by its
+/// radii, each tile against each.
+RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 
 /// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
 /// winners, [cell][pixel], -1 where no ray arrives.

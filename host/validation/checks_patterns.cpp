@@ -9,11 +9,6 @@
 namespace defray::validation {
 namespace {
 
-template <typename T>
-Outcome integers(const std::vector<T>& values) {
-  return {{values.begin(), values.end()}, {}};
-}
-
 Outcome run_difference(Stages& stages, const Case& c, const Input& in) {
   const PatternCase p(c, in, true);
   auto* const device = dynamic_cast<DeviceStages*>(&stages);
@@ -50,9 +45,6 @@ std::size_t match_memory(const Case& c, const Input& in) {
 /// with its products. It counts twice, above and below the line, times differences up to 2 L, and
 /// once more in the gain.
 double match_roundings(const Case&) { return 3 * 2 * 72 + 20; }
-
-constexpr const char* integer_rule = "equal: integer arithmetic";
-constexpr const char* bits_rule = "equal bits: + - x / in one order";
 
 }  // namespace
 

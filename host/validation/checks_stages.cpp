@@ -86,9 +86,6 @@ Outcome run_soften(Stages& stages, const Case& c, const Input& in) {
   return layers_of(f, stages.soften(f, c.cells * c.cells));
 }
 
-constexpr const char* integer_rule = "equal: integer arithmetic";
-constexpr const char* bits_rule = "equal bits: + - x / in one order";
-
 }  // namespace
 
 std::vector<KernelCheck> stage_checks() {

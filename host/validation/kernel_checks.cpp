@@ -8,21 +8,13 @@
 #include "methods/gather.h"
 #include "methods/linear.h"
 #include "opencl/launch_table.h"
-#include "rdb/rdb.h"
-#include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "validation/checks_patterns.h"
-#include "validation/rdb_winners.h"
 #include "validation/stage_input.h"
 #include "validation/work.h"
 
 namespace defray::validation {
 namespace {
-
-template <typename Range>
-Outcome integers(const Range& values) {
-  return {{values.begin(), values.end()}, {}};
-}
 
 double square(double x) { return x * x; }
 
@@ -43,68 +35,6 @@ Exact exact_coc(const Case& c, const Input& in) {
   }
   return {{exact}, 8};
 }
-
-// RDB ---------------------------------------------------------------------------------------------
-
-/// Kernels that no stage shows by itself: the device's own, or else the twin's.
-template <typename OnDevice, typename ByTwin>
-auto either(Stages& stages, const OnDevice& on_device, const ByTwin& by_twin) {
-  auto* const device = dynamic_cast<DeviceStages*>(&stages);
-  return device ? on_device(*device) : by_twin();
-}
-
-Outcome run_rdb_clear(Stages& stages, const Case& c, const Input&) {
-  return integers(either(
-      stages,
-      [&](DeviceStages& d) { return cleared_on_device(d.session(), c.width, c.height, c.cells); },
-      [&] { return cleared_twin(c.width, c.height, c.cells); }));
-}
-
-Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
-  const RayPlan plan = ray_plan(c);
-  return {either(
-              stages,
-              [&](DeviceStages& d) { return winners_on_device(d.session(), in.fragments, plan); },
-              [&] { return winners_of_twin(in.fragments, plan); }),
-          {}};
-}
-
-/// A pass of so many rows with one cell.
-std::size_t rdb_memory(const Case& c, const Input&) {
-  return size(c.band_rows) * size(c.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-}
-
-Outcome run_rdb_merge(Stages& stages, const Case& c, const Input& in) {
-  return {{}, stages.rays(in.fragments, ray_plan(c)).means};
-}
-
-Outcome run_rdb_seen(Stages& stages, const Case& c, const Input& in) {
-  return integers(stages.rays(in.fragments, ray_plan(c)).seen);
-}
-
-/// The case's fragments; those that were made up have no data, and others that of any pixel.
-Outcome run_rdb_nearest(Stages& stages, const Case& c, const Input& in) {
-  Frame f = in.fragments;
-  std::vector<std::uint32_t> data;
-  for (std::size_t i = 0; i < f.coverage.size(); ++i) {
-    const bool is_made_up = (f.coverage[i] & DEFRAY_SYNTHESISED) != 0;
-    data.push_back(is_made_up ? DEFRAY_EMPTY : static_cast<std::uint32_t>(i));
-  }
-  f.data_of = std::move(data);
-  RayPlan plan = ray_plan(c);
-  plan.wants_nearest = true;
-  return integers(stages.rays(f, plan).nearest);
-}
-
-/// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
-/// (n n L u) / n + 5 L u.
-Exact exact_rdb(const Case& c, const Input& in) {
-  const double cells = static_cast<double>(make_lens_cells(c.cells, c.jitter).centres.size());
-  return {reference::exact_rays(in.fragments, ray_plan(c)), cells + 5};
-}
-
-/// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
-double one_division(const Case&) { return 12; }
 
 // linear ------------------------------------------------------------------------------------------
 
@@ -183,7 +113,7 @@ Outcome run_reach(Stages& stages, const Case& c, const Input& in) {
 /// The whole table, by name.
 std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
   for (const std::vector<KernelCheck>& more :
-       {stage_checks(), highlight_checks(), pattern_checks()}) {
+       {stage_checks(), rdb_checks(), highlight_checks(), pattern_checks()}) {
     checks.insert(checks.end(), more.begin(), more.end());
   }
   std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {
@@ -191,10 +121,6 @@ std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
   });
   return checks;
 }
-
-constexpr const char* winners_rule = "equal winners: integer arithmetic";
-constexpr const char* integer_rule = "equal: integer arithmetic";
-constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 }  // namespace
 
@@ -215,13 +141,6 @@ const std::vector<KernelCheck>& kernel_checks() {
       {"gather_tiles", integer_rule, run_tiles, tiles_work},
       {"linear_psf", bits_rule, run_linear, linear_cost, linear_roundings, exact_linear,
        linear_memory},
-      {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
-      {"rdb_merge", bits_rule, run_rdb_merge, rdb_work, one_division, exact_rdb, rdb_memory},
-      {"rdb_merge_seen", integer_rule, run_rdb_seen, rdb_work, nullptr, nullptr, rdb_memory},
-      {"rdb_nearest", integer_rule, run_rdb_nearest, rdb_work, nullptr, nullptr, rdb_memory},
-      {"rdb_scatter", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr, rdb_memory},
-      {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr,
-       rdb_memory, true},
       {"tiltshift", bits_rule, run_tiltshift, pixels},
   });
   return checks;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/stages.h"
+#include "device/device_stages.h"
 #include "rdb/rdb.h"
 #include "validation/case.h"
 #include "validation/input.h"
@@ -50,11 +50,30 @@ struct KernelCheck {
 
 /// Those of the stages before the RDB: a part of the table.
 std::vector<KernelCheck> stage_checks();
+std::vector<KernelCheck> rdb_checks();
 std::vector<KernelCheck> highlight_checks();
 
 /// What bands of the case's rows take, with the rows that a kernel looks at beyond them by the
 /// launch table.
 std::size_t band_memory(const char* kernel, const Case& c, int layers);
+
+/// Kernels that no stage shows by itself: the device's own, or else the twin's.
+template <typename OnDevice, typename ByTwin>
+auto either(Stages& stages, const OnDevice& on_device, const ByTwin& by_twin) {
+  auto* const device = dynamic_cast<DeviceStages*>(&stages);
+  return device ? on_device(*device) : by_twin();
+}
+
+template <typename Range>
+Outcome integers(const Range& values) {
+  return {{values.begin(), values.end()}, {}};
+}
+
+/// One quotient <= 2 L, 2.5 ulp = 5 u off in the kernel, and the sum after it rounded anew.
+inline double one_division(const Case&) { return 12; }
+
+inline constexpr const char* integer_rule = "equal: integer arithmetic";
+inline constexpr const char* bits_rule = "equal bits: + - x / sqrt in one order";
 
 /// At least one entry a kernel.
 const std::vector<KernelCheck>& kernel_checks();

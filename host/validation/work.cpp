@@ -61,6 +61,10 @@ double rdb_work(const Case& c) {
   return 4 * rays * (1 + std::min(square(side), pixels(c))) + band_work(c) * c.cells * c.cells;
 }
 
+double ray_tiles_work(const Case& c) {
+  return 64 * pixels(c) + square(pixels(c) / 256 + 1) * DEFRAY_RAY_BINS;
+}
+
 double repair_work(const Case& c) { return 100 * pixels(c) + band_work(c); }
 
 double soften_work(const Case& c) { return 300 * pixels(c) + band_work(c); }

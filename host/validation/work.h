@@ -16,6 +16,7 @@ double gather_work(const Case& c);
 double highlights_work(const Case& c);
 double linear_work(const Case& c);
 double match_work(const Case& c);
+double ray_tiles_work(const Case& c);
 double rdb_work(const Case& c);
 double repair_work(const Case& c);
 double soften_work(const Case& c);

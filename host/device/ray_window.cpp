@@ -1,0 +1,101 @@
+#include "device/ray_window.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "rdb/rdb_plan.h"
+
+namespace defray {
+namespace {
+
+int reach_of(const Frame& frame, const RadiusBins& bins) {
+  const std::int32_t largest = std::max(std::abs(bins.least), std::abs(bins.largest));
+  return std::min(rdb_reach(largest), std::max(frame.width, frame.height));
+}
+
+template <typename T>
+void read_all(Session& session, const cl::Buffer& buffer, std::size_t count, std::vector<T>& to) {
+  to.resize(count);
+  session.read(buffer, to.data(), count * sizeof(T));
+}
+
+}  // namespace
+
+RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan& plan,
+                             const RadiusBins& bins)
+    : session_(session), frame_(frame), reach_px_(reach_of(frame, bins)) {
+  params.width = word(frame.width);
+  params.layers = word(frame.layers);
+  params.channels = static_cast<std::uint32_t>(frame.channels.size());
+  params.stride = word(padded_stride(frame.width));
+  params.cells = static_cast<std::uint32_t>(plan.cells.centres.size());
+  params.tiles_x = word(ray_tiles_along(frame.width));
+  params.reach_tiles = ray_tiles_along(reach_px_) + 1;
+  params.first_bin = bins.first_bin;
+  params.bin_shift = word(bins.shift);
+  params.has_coverage = !frame.coverage.empty();
+  params.has_rim = !plan.rim_x.empty();
+  params.origin_x = plan.origin_x;
+  params.origin_y = plan.origin_y;
+  const auto near = bins_by_distance(bins, params.reach_tiles);
+  near_ = session.buffer(near.size() * sizeof(BinSet));
+  session.write(near_, near.data(), near.size() * sizeof(BinSet));
+}
+
+std::vector<BandRows> RayTileWindow::windows() const {
+  const std::size_t a_surface =
+      sizeof(cl_int) + 4 * sizeof(cl_float) + (params.has_coverage ? 2 * sizeof(cl_uint) : 0);
+  return cut_into_bands(frame_.height, reach_px_ + 1, DEFRAY_RAY_TILE,
+                        params.stride * size(frame_.layers) * a_surface,
+                        session_.memory_bytes() / 2);
+}
+
+void RayTileWindow::prepare(const BandRows& rows) {
+  Band band(session_, "rdb_pad", frame_, rows);
+  planes = {band.in(frame_.coc_quanta), band.in(frame_.depth), band.in(frame_.coverage),
+            band.in(frame_.data_of), band.in(frame_.channels)};
+  params.window_y = word(rows.window_y);
+  params.window_rows = word(rows.window_rows);
+  params.tiles_y = word(ray_tiles_along(rows.window_rows));
+  const auto plane = [&](bool is_needed) {
+    return session_.buffer((is_needed ? lines() * params.stride : 1) * sizeof(cl_int));
+  };
+  keys = plane(true);
+  sending = plane(params.has_coverage);
+  coverage = plane(params.has_coverage);
+  for (std::size_t c = 0; c < 4; ++c) {
+    channels[c] = c < params.channels ? plane(true) : channels[c - 1];
+  }
+  session_.launch("rdb_pad", {params.stride, lines()}, params, planes.coc, planes.depth,
+                  planes.coverage, planes.channels, keys, sending, coverage, channels);
+
+  const std::size_t bytes = std::size_t{params.tiles_x} * params.tiles_y * sizeof(TileBins);
+  tiles_ = session_.buffer(bytes);
+  reach = session_.buffer(bytes);
+  const cl::Buffer along_x = session_.buffer(bytes);
+  const std::vector<std::size_t> all{params.tiles_x, params.tiles_y};
+  DefrayRaysParams along_y = params;
+  along_y.along_y = 1;
+  session_.launch("rdb_tiles", all, params, keys, coverage, tiles_);
+  session_.launch("rdb_reach", all, params, near_, tiles_, along_x);
+  session_.launch("rdb_reach", all, along_y, near_, along_x, reach);
+}
+
+RayTiles RayTileWindow::read() {
+  const std::size_t surfaces = lines() * params.stride;
+  RayTiles out;
+  read_all(session_, keys, surfaces, out.padded.keys);
+  if (params.has_coverage) {
+    read_all(session_, sending, surfaces, out.padded.sending);
+    read_all(session_, coverage, surfaces, out.padded.coverage);
+  }
+  for (std::size_t c = 0; c < params.channels; ++c) {
+    read_all(session_, channels[c], surfaces, out.padded.channels.emplace_back());
+  }
+  const std::size_t tiles = std::size_t{params.tiles_x} * params.tiles_y;
+  read_all(session_, tiles_, tiles, out.held);
+  read_all(session_, reach, tiles, out.reach);
+  return out;
+}
+
+}  // namespace defray

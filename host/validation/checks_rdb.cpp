@@ -1,0 +1,148 @@
+// The checks of kernels rdb_*.
+#include <algorithm>
+
+#include "device/device_stages.h"
+#include "rdb/rdb_plan.h"
+#include "reference/reference.h"
+#include "validation/kernel_checks.h"
+#include "validation/rdb_winners.h"
+#include "validation/stage_input.h"
+#include "validation/work.h"
+
+namespace defray::validation {
+namespace {
+
+RayPlan scatter_plan(const Case& c) {
+  RayPlan plan = ray_plan(c);
+  plan.by = RaysBy::scatter;
+  return plan;
+}
+
+/// Without jitter, whatever the case says: rdb_gather has none.
+RayPlan gather_plan(const Case& c) {
+  Case still = c;
+  still.jitter = false;
+  return ray_plan(still);
+}
+
+Outcome run_rdb_clear(Stages& stages, const Case& c, const Input&) {
+  return integers(either(
+      stages,
+      [&](DeviceStages& d) { return cleared_on_device(d.session(), c.width, c.height, c.cells); },
+      [&] { return cleared_twin(c.width, c.height, c.cells); }));
+}
+
+Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
+  const RayPlan plan = scatter_plan(c);
+  return {either(
+              stages,
+              [&](DeviceStages& d) { return winners_on_device(d.session(), in.fragments, plan); },
+              [&] { return winners_of_twin(in.fragments, plan); }),
+          {}};
+}
+
+/// A pass of so many rows with one cell.
+std::size_t rdb_memory(const Case& c, const Input&) {
+  return size(c.band_rows) * size(c.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+}
+
+template <auto plan_of>
+Outcome run_means(Stages& stages, const Case& c, const Input& in) {
+  return {{}, stages.rays(in.fragments, plan_of(c)).means};
+}
+
+template <auto plan_of>
+Outcome run_seen(Stages& stages, const Case& c, const Input& in) {
+  return integers(stages.rays(in.fragments, plan_of(c)).seen);
+}
+
+/// The case's fragments; those that were made up have no data, and others that of any pixel.
+template <auto plan_of>
+Outcome run_nearest(Stages& stages, const Case& c, const Input& in) {
+  Frame f = in.fragments;
+  std::vector<std::uint32_t> data;
+  for (std::size_t i = 0; i < f.coverage.size(); ++i) {
+    const bool is_made_up = (f.coverage[i] & DEFRAY_SYNTHESISED) != 0;
+    data.push_back(is_made_up ? DEFRAY_EMPTY : static_cast<std::uint32_t>(i));
+  }
+  f.data_of = std::move(data);
+  RayPlan plan = plan_of(c);
+  plan.wants_nearest = true;
+  return integers(stages.rays(f, plan).nearest);
+}
+
+/// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
+/// (n n L u) / n + 5 L u.
+template <auto plan_of>
+Exact exact_means(const Case& c, const Input& in) {
+  const RayPlan plan = plan_of(c);
+  const auto cells = static_cast<double>(plan.cells.centres.size());
+  return {reference::exact_rays(in.fragments, plan), cells + 5};
+}
+
+// Tiles of rdb_gather.
+
+RayTiles tiles_of(Stages& stages, const Case& c, const Input& in) {
+  const RayPlan plan = gather_plan(c);
+  return either(
+      stages, [&](DeviceStages& d) { return d.ray_tiles(in.fragments, plan); },
+      [&] { return reference::ray_tiles(in.fragments, plan); });
+}
+
+Outcome run_pad(Stages& stages, const Case& c, const Input& in) {
+  const PaddedPlanes padded = tiles_of(stages, c, in).padded;
+  Outcome out = integers(padded.keys);
+  out.integers.insert(out.integers.end(), padded.sending.begin(), padded.sending.end());
+  out.integers.insert(out.integers.end(), padded.coverage.begin(), padded.coverage.end());
+  out.planes = padded.channels;
+  return out;
+}
+
+/// Tile by tile, the words of both sets.
+Outcome words_of(const std::vector<TileBins>& tiles) {
+  Outcome out;
+  for (const TileBins& tile : tiles) {
+    for (const BinSet& set : {tile.plain, tile.special}) {
+      for (const std::uint64_t word : set) {
+        out.integers.push_back(static_cast<std::int64_t>(word));
+      }
+    }
+  }
+  return out;
+}
+
+Outcome run_ray_tiles(Stages& stages, const Case& c, const Input& in) {
+  return words_of(tiles_of(stages, c, in).held);
+}
+
+Outcome run_ray_reach(Stages& stages, const Case& c, const Input& in) {
+  return words_of(tiles_of(stages, c, in).reach);
+}
+
+constexpr const char* winners_rule = "equal winners: integer arithmetic";
+
+}  // namespace
+
+std::vector<KernelCheck> rdb_checks() {
+  constexpr auto scatter = scatter_plan, gather = gather_plan;
+  return {
+      {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
+      {"rdb_gather", bits_rule, run_means<gather>, rdb_work, one_division, exact_means<gather>,
+       rdb_memory},
+      {"rdb_gather_seen", integer_rule, run_seen<gather>, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_gather_winners", integer_rule, run_nearest<gather>, rdb_work, nullptr, nullptr,
+       rdb_memory},
+      {"rdb_merge", bits_rule, run_means<scatter>, rdb_work, one_division, exact_means<scatter>,
+       rdb_memory},
+      {"rdb_merge_seen", integer_rule, run_seen<scatter>, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_nearest", integer_rule, run_nearest<scatter>, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_pad", integer_rule, run_pad, ray_tiles_work},
+      {"rdb_reach", integer_rule, run_ray_reach, ray_tiles_work},
+      {"rdb_scatter", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr, rdb_memory},
+      {"rdb_scatter_two_pass", winners_rule, run_rdb_scatter, rdb_work, nullptr, nullptr,
+       rdb_memory, true},
+      {"rdb_tiles", integer_rule, run_ray_tiles, ray_tiles_work},
+  };
+}
+
+}  // namespace defray::validation
