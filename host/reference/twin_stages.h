@@ -19,7 +19,7 @@
 // Neither sees what device and twins share: chain/ (border, layers, light taken, shifts found and
 // blended) and lens/ (apertures, samples). There tests have oracles of their own:
 // picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
-// pattern_picture_test, pattern_search_test, chain_parts_test.
+// pattern_picture_test, *_search_test, chain_parts_test, layers_test.
 #include <cstdint>
 #include <vector>
 
