@@ -9,15 +9,17 @@
 //                      and tiltshift
 //   from a definition  patterns (whole windows), gather_reach (each tile against each)
 //   the kernel's way   edges, repair    edges_test: steps and slopes drawn with known answers
-//                      fill             fill_test: planes, slants and stripes that must go on
-//                      split, assemble  split_test: coverage and colours mixed by hand come back
+//                      fill             fill_test, stage_oracles_test: planes, slants and stripes
+//                                       that must go on
+//                      split, assemble  split_test: coverage and colours mixed by hand come back;
+//                                       stage_oracles_test: shares sought, not computed
 //                      soften           soften_test: overlaps of squares, in double
 //                      highlights*      highlight_disc_test: exact areas of polygons; lamp_test
 //                      gather_aware     gather_test: variances, what must stay clean
 // Neither sees what device and twins share: chain/ (border, layers, light taken, shifts found and
 // blended) and lens/ (apertures, samples). There tests have oracles of their own:
 // picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
-// pattern_picture_test.
+// pattern_picture_test, *_search_test, chain_parts_test, layers_test.
 #include <cstdint>
 #include <vector>
 

@@ -74,19 +74,8 @@ Outcome run_tiltshift(Stages& stages, const Case& c, const Input&) {
 // gather ------------------------------------------------------------------------------------------
 
 template <GatherKind kind>
-GatherSettings gather_settings(const Case& c) {
-  GatherSettings s;
-  s.kind = kind;
-  s.samples = c.samples;
-  s.passes = 1 + static_cast<int>(c.seed % 2);
-  s.rotate = c.jitter;
-  s.seed = c.seed;
-  return s;
-}
-
-template <GatherKind kind>
 Outcome run_gather(Stages& stages, const Case& c, const Input& in) {
-  return {{}, stages.gather(frame_of(c, in), gather_settings<kind>(c))};
+  return {{}, stages.gather(frame_of(c, in), gather_case(kind, c))};
 }
 
 /// n samples of differences <= 2 L, their weights from a root 6 u off of distances up to the search

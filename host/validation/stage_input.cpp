@@ -124,4 +124,14 @@ DefrayTiltshiftParams tiltshift_case(const Case& c) {
   return tiltshift_params(s, c.width, c.height, first_row, c.height + 5);
 }
 
+GatherSettings gather_case(GatherKind kind, const Case& c) {
+  GatherSettings s;
+  s.kind = kind;
+  s.samples = c.samples;
+  s.passes = 1 + static_cast<int>(c.seed % 2);
+  s.rotate = c.jitter;
+  s.seed = c.seed;
+  return s;
+}
+
 }  // namespace defray::validation

@@ -1,6 +1,7 @@
 #pragma once
 // What kernels are given beside a case's planes: made from these, and from the case's seed.
 #include "lens/aperture_table.h"
+#include "methods/gather.h"
 #include "rdb/rdb.h"
 #include "validation/input.h"
 
@@ -33,5 +34,6 @@ const ApertureTable& lopsided_aperture();
 RayPlan ray_plan(const Case& c);
 
 DefrayTiltshiftParams tiltshift_case(const Case& c);
+GatherSettings gather_case(GatherKind kind, const Case& c);
 
 }  // namespace defray::validation

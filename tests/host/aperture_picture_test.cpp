@@ -140,6 +140,28 @@ TEST(AperturePicture, SamplesFollowItsLight) {
   }
 }
 
+TEST(AperturePicture, AllLightOfALoneTexelIsThere) {
+  const Folder folder;
+  for (const auto& [x, y] : {std::pair{0, 0},
+                             {side - 1, 0},
+                             {0, side - 1},
+                             {side - 1, side - 1},
+                             {side / 2, side / 2},
+                             {17, 300}}) {
+    Plane light(static_cast<std::size_t>(side * side));
+    light[static_cast<std::size_t>(y * side + x)] = 3;
+    const Aperture lone = picture(write_grey(folder, side, side, light));
+    constexpr int texel = 2 * 65536 / side;
+    const int left = x * texel - 65536, top = y * texel - 65536;
+    const ApertureTable table = make_aperture_table(rasterise(lone));
+    EXPECT_EQ(light_in_box(table, left, top, left + texel, top + texel), table.total());
+    for (const auto& [u, v] : make_lens_samples(lone, 5).centres) {
+      EXPECT_TRUE(u >= left && u <= left + texel && v >= top && v <= top + texel)
+          << x << " " << y << ": " << u << " " << v;
+    }
+  }
+}
+
 TEST(AperturePicture, SamplesOfASymmetricPictureMoveNothing) {
   const Folder folder;
   const Size size{9, 6};

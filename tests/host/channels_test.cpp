@@ -90,6 +90,21 @@ TEST(Channels, MultiPartStereo) {
   EXPECT_EQ(choose_depth("f.exr", parts, right, colour(parts, right)).part, 3);
 }
 
+/// Only "_left" and ".left" at a name's end are the view's.
+TEST(Channels, ViewsInNamesOfParts) {
+  for (const auto& [name, layer] : {std::pair{"rgba_left", "rgba"},
+                                    {"rgba.LEFT", "rgba"},
+                                    {"my_tone", "my_tone"},
+                                    {"bleft", "bleft"},
+                                    {"left", "left"},
+                                    {"a-left", "a-left"},
+                                    {"_left", ""}}) {
+    const std::vector<PartInfo> parts{part({"R", "G", "B"}, name, "left"),
+                                      part({"Z"}, "depth_left", "left")};
+    EXPECT_EQ(colour(parts).layer, layer) << name;
+  }
+}
+
 TEST(Channels, PartsNamedAsLayers) {
   const std::vector<PartInfo> parts{part({"R", "G", "B"}, "beauty"),
                                     part({"R", "G", "B"}, "diffuse"), part({"Z"}, "depth")};

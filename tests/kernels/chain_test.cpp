@@ -141,6 +141,25 @@ TEST(Chain, RepairsDepthWhereOneEdgePixelIn20IsBetween) {
   EXPECT_GT(left_often, 4);
 }
 
+/// A pixel between two surfaces gets one's depth, and with it that one's data: its own are
+/// nobody's.
+TEST(Chain, RepairedPixelsLendNoData) {
+  Bar bar(36);
+  for (std::int32_t& coc : bar.coc) coc += 8 * 256;  // the bar in focus hides nothing beside it
+  const Words source = device().repair(bar.frame());
+  const auto data_from_between = [&](bool repairs) {
+    ChainSettings settings;
+    settings.repair_depth = repairs;
+    std::size_t count = 0;
+    for (const std::uint32_t i : run_chain(bar.frame(), settings, device(), true).nearest) {
+      count += source[i] != i;
+    }
+    return count;
+  };
+  EXPECT_EQ(data_from_between(true), 0u);
+  EXPECT_GT(data_from_between(false), 0u);
+}
+
 TEST(Chain, LeavesDepthAloneWhereAskedTo) {
   ChainSettings settings;
   settings.repair_depth = false;

@@ -216,6 +216,11 @@ TEST(Gather, RefusesAbsurdCounts) {
   for (const int passes : {0, 9}) {
     expect_error(ErrorKind::usage, {"passes", "1 to 8"},
                  [&] { validate(settings_of(GatherKind::aware, 1, passes, false)); });
+    for (Stages* on : device_and_twins()) {
+      const Frame frame{1, 1, {0}, {}, {Plane{1}}};
+      expect_error(ErrorKind::usage, {"passes"},
+                   [&] { on->gather(frame, settings_of(GatherKind::aware, 1, passes, false)); });
+    }
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"
+#include "rdb/rdb.h"
+#include "rdb/rdb_plan.h"
 #include "stages_support.h"
 
 namespace defray::test {
@@ -16,6 +18,12 @@ Frame tall_frame() {
   f.add_bar(15, 25);
   Frame frame = f.view();
   frame.coverage = Words(std::vector<std::uint32_t>(f.count(), DEFRAY_WHOLE));
+  return frame;
+}
+
+Frame tall_frame_with_depth() {
+  Frame frame = tall_frame();
+  frame.depth = Plane(frame.pixels(), 2.0f);
   return frame;
 }
 
@@ -54,6 +62,33 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
     stage.run();
     const auto made = static_cast<double>(session().traffic().made - before);
     EXPECT_NEAR(made / static_cast<double>(rows * row_bytes), 1, 0.01) << stage.kernel;
+  }
+}
+
+TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
+  const Frame frame = tall_frame_with_depth();
+  for (const bool wants_nearest : {false, true}) {
+    RayPlan plan = plan_rays({9});
+    plan.wants_nearest = wants_nearest;
+    const std::size_t cells = plan.cells.centres.size(), given = 40 * 40 * 20 * rdb_bytes_a_cell;
+    const InBands bands(session(), given);
+    std::size_t windows = 0, band_pixels = 0, most_cells = 0;
+    int last_y = -1;
+    for (const RdbPass& pass :
+         plan_rdb_passes(40, 600, static_cast<int>(cells), rdb_reach(2 * 256), given, false)) {
+      if (pass.band_y != last_y) windows += 40 * size(pass.window_rows);
+      last_y = pass.band_y;
+      band_pixels = std::max(band_pixels, 40 * size(pass.band_rows));
+      most_cells = std::max(most_cells, size(pass.cell_count));
+    }
+    // CoC, depth, coverage and four channels of windows; cells' winners, and sums: four channels,
+    // two counts of what was filled, one of what was seen, the nearest's depth and source.
+    const std::size_t a_pixel = most_cells * 8 + 4 * (4 + 2 + 1 + (wants_nearest ? 2 : 0));
+    const std::size_t before = session().traffic().made;
+    device().rays(frame, plan);
+    EXPECT_EQ(session().traffic().made - before,
+              windows * 4 * 7 + band_pixels * a_pixel + cells * 2 * 4);
+    EXPECT_LE(band_pixels * most_cells * 8, given);
   }
 }
 

@@ -2,6 +2,7 @@
 // window lies in it.
 #include <cmath>
 
+#include "chain/chain.h"
 #include "lens/cats_eye.h"
 #include "methods/method.h"
 #include "support.h"
@@ -63,6 +64,30 @@ TEST(Rim, LampsLoseTheirOuterSide) {
   const auto [low_x, low_y] = shift_of(60, 60, 30, 30, 0, 140, 60, 200);
   EXPECT_NEAR(low_x, 0, 0.05);
   EXPECT_LT(low_y, -0.3);
+}
+
+/// Of an even wall the input determines all rays that pass the rim, however few, where they do not
+/// come from beyond the frame.
+TEST(Rim, ClosedCellsDoNotCountAsUnseen) {
+  constexpr int width = 70, height = 50, reach = 5;
+  const std::size_t count = width * height;
+  Frame frame{width,
+              height,
+              std::vector<std::int32_t>(count, 3 * 256),
+              Plane(count, 4),
+              {random_plane({width, height}, 3)}};
+  ChainSettings settings;
+  settings.aperture.cats_eye = 1;
+  const auto confidence = run_chain(frame, settings, device()).confidence;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const bool is_inside =
+        std::min(std::min(x, width - 1 - x), std::min(y, height - 1 - y)) >= reach;
+    if (is_inside) {
+      EXPECT_EQ(confidence[i], 1.0f) << x << " " << y;
+    }
+  }
+  EXPECT_LT(confidence[count / 2 / width * width], 1.0f);  // the left edge
 }
 
 }  // namespace

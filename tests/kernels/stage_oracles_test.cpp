@@ -1,0 +1,238 @@
+// `split` and `fill` a second time, on random frames: twins go their kernels' way, these go by what
+// the stages are for. Shares are sought, not computed; what lies behind is known beforehand.
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "stages_support.h"
+
+namespace defray::test {
+namespace {
+
+using Colour = std::array<double, 4>;
+
+double distance2(const Colour& a, const Colour& b) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 4; ++c) sum += (a[c] - b[c]) * (a[c] - b[c]);
+  return sum;
+}
+
+Colour mixture(double share, const Colour& front, const Colour& behind) {
+  Colour c;
+  for (std::size_t i = 0; i < 4; ++i) c[i] = share * front[i] + (1 - share) * behind[i];
+  return c;
+}
+
+Colour colour_of(const Planes& channels, std::size_t i) {
+  return {channels[0][i], channels[1][i], channels[2][i], channels[3][i]};
+}
+
+/// A wall, and near rectangles on it whose outlines cover their pixels in part; depth sees either.
+Canvas random_canvas(std::uint32_t seed) {
+  Canvas f(46, 34);
+  Random random(5, 6, seed);
+  f.each([&](int x, int y) {
+    Random noise(x, y, seed + 100);
+    f.paint(x, y, static_cast<float>(0.2 + 0.05 * noise.next()), 0.3f,
+            static_cast<float>(1.5 + 0.2 * noise.next()));
+  });
+  for (int i = 0; i < 3; ++i) {
+    const int x0 = 3 + 14 * i + static_cast<int>(3 * random.next());
+    const int y0 = 4 + static_cast<int>(9 * random.next());
+    const int x1 = x0 + 6 + static_cast<int>(3 * random.next());
+    const int y1 = y0 + 8 + static_cast<int>(9 * random.next());
+    const auto coc = static_cast<std::int32_t>(-2000 * random.next());
+    const Colour front{0.5 + random.next(), random.next(), 0.2 * random.next(), 1};
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const bool is_edge = x == x0 || y == y0 || x == x1 - 1 || y == y1 - 1;
+        const double share = is_edge ? random.next() : 1;
+        const std::size_t at = f.at(x, y);
+        const Colour c = mixture(share, front, colour_of(f.view().channels, at));
+        f.paint(x, y, static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+        if (share < 0.2 || (is_edge && random.next() < 0.3)) continue;  // depth sees the wall
+        f.coc[at] = coc;
+        f.inverse[at] = 0.5f;
+      }
+    }
+  }
+  return f;
+}
+
+/// Of a mixed pixel.
+struct Around {
+  int nearest = 1 << 30, farthest = -(1 << 30);
+  Colour front{};
+  double weights = 0;
+};
+
+Around around(const Canvas& f, const Words& mixed, int x, int y) {
+  Around a;
+  const auto at = [&](int i, int j) {
+    return f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1));
+  };
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      a.nearest = std::min(a.nearest, f.coc[at(i, j)]);
+      a.farthest = std::max(a.farthest, f.coc[at(i, j)]);
+    }
+  }
+  const int middle = a.nearest + (a.farthest - a.nearest) / 2;
+  for (int j = -3; j <= 3; ++j) {
+    for (int i = -3; i <= 3; ++i) {
+      if (mixed[at(i, j)] || f.coc[at(i, j)] >= middle) continue;
+      const double weight = std::pow(std::hypot(i, j), -4);
+      const Colour c = colour_of(f.view().channels, at(i, j));
+      for (std::size_t k = 0; k < 4; ++k) a.front[k] += weight * c[k];
+      a.weights += weight;
+    }
+  }
+  for (double& v : a.front) v /= a.weights;
+  return a;
+}
+
+/// Where a parabola over 0...1 is lowest, sought.
+template <typename Cost>
+double lowest(const Cost& cost) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double third = (high - low) / 3;
+    (cost(low + third) < cost(high - third) ? high : low) +=
+        cost(low + third) < cost(high - third) ? -third : third;
+  }
+  return (low + high) / 2;
+}
+
+/// Nearest to the pixel's colour, drawn to what is likely as the colours are alike, and the less
+/// taken apart the more of the pixel both leave unexplained.
+double sought_share(const Colour& c, const Colour& front, const Colour& behind, bool saw_front) {
+  const double share = lowest([&](double a) { return distance2(mixture(a, front, behind), c); });
+  const double contrast = distance2(front, behind);
+  const double unsure = 1e-3 * (distance2(front, {}) + distance2(behind, {}));
+  const double likely = saw_front ? 0.75 : 0.25;
+  const double drawn = lowest([&](double a) {
+    return contrast * (a - share) * (a - share) + unsure * (a - likely) * (a - likely);
+  });
+  const double left = distance2(mixture(share, front, behind), c);
+  const double fit = 1 / (1 + left / (contrast + unsure));
+  return saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
+}
+
+/// What became of mixed pixels.
+struct Counts {
+  int fronts = 0, behinds = 0, wholes = 0;
+};
+
+void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, const Surfaces& s,
+                  int x, int y, Counts& counts) {
+  const std::size_t i = f.at(x, y);
+  const Around a = around(f, mixed, x, y);
+  const bool saw_front = f.coc[i] < a.nearest + (a.farthest - a.nearest) / 2;
+  // Two surfaces, both in pure pixels.
+  if (a.weights == 0 || (!saw_front && std::abs(filled.coc_quanta[i] - f.coc[i]) > 256)) return;
+  const Colour c = colour_of(f.view().channels, i);
+  const double share = sought_share(c, a.front, colour_of(filled.channels, i), saw_front);
+  if (std::fabs(share - 0.03) < 1e-3 || std::fabs(share - 0.97) < 1e-3) return;
+  const bool is_whole = saw_front ? share > 0.97 || std::abs(a.nearest) < 256 : share < 0.03;
+  const double kept = saw_front ? std::max(share, 0.25) : std::min(share, 0.75);
+  const double coverage = s.front.coverage[i] / 65536.0;
+  SCOPED_TRACE(testing::Message() << x << " " << y << ", " << share);
+  EXPECT_NEAR(coverage, is_whole ? 1 : kept, 1e-4);
+  EXPECT_EQ(s.behind.inverse[i] < 0, is_whole && !saw_front);
+  const Colour front = colour_of(s.front.channels, i), behind = colour_of(s.behind.channels, i);
+  if (is_whole) {
+    ++counts.wholes;
+    EXPECT_LT(distance2(front, c), 1e-12);
+    return;
+  }
+  (saw_front ? counts.fronts : counts.behinds) += 1;
+  // What is left for the surface that was seen, once the other has its part; never below 0.
+  Colour rest = mixture(1 / (saw_front ? coverage : 1 - coverage), c, saw_front ? behind : front);
+  for (double& v : rest) v = std::max(v, 0.0);
+  EXPECT_LT(distance2(saw_front ? front : behind, rest), 1e-9);
+}
+
+TEST(Split, SharesAreThoseASearchFinds) {
+  Counts counts;
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    Canvas f = random_canvas(seed);
+    const Words mixed = f.mixed();
+    const Frame filled = f.filled();
+    const Surfaces surfaces = device().split(f.view(), mixed, filled);
+    f.each([&](int x, int y) {
+      const bool is_split = mixed[f.at(x, y)] && filled.inverse[f.at(x, y)] >= 0;
+      if (is_split) expect_share(f, mixed, filled, surfaces, x, y, counts);
+    });
+  }
+  EXPECT_GT(counts.fronts, 50);
+  EXPECT_GT(counts.behinds, 50);
+  EXPECT_GT(counts.wholes, 20);
+}
+
+/// A plane of one colour that slants any way, and a rectangle in front of it.
+struct Plate {
+  int x0, y0, x1, y1, coc;
+  double slant_x, slant_y;
+  double plane(int x, int y) const { return 2500 + slant_x * (x - 32) + slant_y * (y - 24); }
+  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+};
+
+TEST(Fill, BehindAnyRectangleThePlaneGoesOnAsFarAsTheLensSees) {
+  int found = 0, hidden = 0;
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    Random random(7, 8, seed);
+    const auto any = [&](double low, double high) { return low + (high - low) * random.next(); };
+    const Plate p{static_cast<int>(any(8, 20)),
+                  static_cast<int>(any(6, 14)),
+                  static_cast<int>(any(34, 56)),
+                  static_cast<int>(any(26, 42)),
+                  static_cast<int>(any(-2000, 500)),
+                  any(-15, 15),
+                  any(-15, 15)};
+    Canvas f(64, 48);
+    f.each([&](int x, int y) {
+      f.coc[f.at(x, y)] = static_cast<std::int32_t>(std::lround(p.plane(x, y)));
+      f.inverse[f.at(x, y)] = static_cast<float>(1 - p.plane(x, y) / 8000);
+      f.paint(x, y, 0.25f, 0.5f, 0.75f);
+      if (!p.contains(x, y)) return;
+      f.coc[f.at(x, y)] = p.coc;
+      f.inverse[f.at(x, y)] = 0.95f;
+      f.paint(x, y, 1, 0, 1);
+    });
+    // The colours of mixed pixels count for nothing.
+    const Words mixed = f.mixed();
+    f.each([&](int x, int y) {
+      if (mixed[f.at(x, y)]) f.paint(x, y, 9, 9, 9);
+    });
+    const Frame behind = device().fill(f.view(), mixed);
+    const double slant = std::fabs(p.slant_x) + std::fabs(p.slant_y);
+    for (int y = p.y0; y < p.y1; ++y) {
+      for (int x = p.x0; x < p.x1; ++x) {
+        const std::size_t i = f.at(x, y);
+        SCOPED_TRACE(testing::Message() << seed << ": " << x << " " << y);
+        // Straight out to the four sides; a little less than the reach is surely seen, and past the
+        // nearest point nothing is.
+        const int out =
+            std::min(std::min(x - p.x0, p.x1 - 1 - x), std::min(y - p.y0, p.y1 - 1 - y)) + 1;
+        const double reach = (2500 - p.coc) / 256.0, slack = 2 + slant * 40 / 256 + out / 16.0;
+        if (out < reach - slack) EXPECT_GE(behind.inverse[i], 0);
+        if (out > reach + slack) EXPECT_EQ(behind.inverse[i], -1);
+        if (behind.inverse[i] < 0) {
+          ++hidden;
+          continue;
+        }
+        ++found;
+        // Sources lie up to half a pixel off their ways.
+        EXPECT_NEAR(behind.coc_quanta[i], p.plane(x, y), slant + 2);
+        EXPECT_NEAR(behind.inverse[i], 1 - p.plane(x, y) / 8000, (slant + 2) / 8000);
+        EXPECT_NEAR(behind.channels[0][i], 0.25f, 1e-6);
+        EXPECT_NEAR(behind.channels[2][i], 0.75f, 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(found, 1000);
+  EXPECT_GT(hidden, 100);
+}
+
+}  // namespace
+}  // namespace defray::test
