@@ -7,7 +7,7 @@
 namespace defray {
 namespace {
 
-constexpr int rows_at_once = 256;  ///< Of a launch, for the progress bar.
+constexpr int rows_at_once = 64;  ///< Of a launch, for the progress bar.
 
 /// Cells whose winners somebody asks for: the light sources, or the nearest hits.
 std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
@@ -38,8 +38,10 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       first_(session.view(table.first)),
       sharp_(session.buffer(sizeof(BinSet))) {
   DefrayRaysParams& p = window_.params;
-  p.band_x = word(frame.margin / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE);
-  p.band_end = word(frame.width - frame.margin);
+  // Those who ask for winners look at all columns.
+  const int margin = winner_cells_ > 0 ? 0 : frame.margin;
+  p.band_x = word(margin / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE);
+  p.band_end = word(frame.width - margin);
   p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
   p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
   const BinSet sharp = sharp_bins(bins);
@@ -74,7 +76,8 @@ void RaysGather::run(RayResult& out, const Progress& progress) {
     const int from = std::max(rows.y, first), to = std::min(rows.y + rows.rows, end);
     if (from >= to) continue;
     window_.prepare(rows);
-    for (int y = from / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE; y < to; y += rows_) {
+    const int step = std::min(rows_, DEFRAY_RAY_ROWS);  // no strip lies across two tiles
+    for (int y = from / step * step; y < to; y += rows_) {
       const int last = std::min(y + rows_, to);
       gather(y, last - y, out);
       if (progress) progress(static_cast<double>(last - first) / (end - first));

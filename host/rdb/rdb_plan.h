@@ -15,7 +15,7 @@ struct RdbWinner {
 /// Memory of one cell of one pixel with the pixel's sums, its nearest hit among them: the least
 /// that a pass can work with.
 inline constexpr std::size_t rdb_bytes_a_cell = sizeof(RdbWinner);
-inline constexpr std::size_t rdb_bytes_a_sum = 4 * sizeof(float) + 5 * sizeof(std::uint32_t);
+inline constexpr std::size_t rdb_bytes_a_sum = 4 * sizeof(float) + 4 * sizeof(std::uint32_t);
 
 /// One pass: which target rows, which lens cells, and which source rows can reach them.
 struct RdbPass {

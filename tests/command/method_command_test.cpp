@@ -42,6 +42,17 @@ TEST_F(MethodCommand, MethodsAndTheirOptionsChangeThePicture) {
   expect_new("--method tiltshift --max-blur 4");
 }
 
+TEST_F(MethodCommand, RaysGiveOnePictureHoweverTheyAreFollowed) {
+  const std::string both = lens + "--rdb 5 ";
+  for (const std::string more : {"", "--literal ", "--literal --jitter "}) {
+    EXPECT_EQ(rendered(folder, both + more + "--rays gather"),
+              rendered(folder, both + more + "--rays scatter"))
+        << more;
+  }
+  expect_refused(lens + "--rays shoot", {"--rays", "'shoot'", "gather", "scatter"});
+  expect_refused(lens + "--method linear --rays gather", {"--rays", "rdb"});
+}
+
 TEST_F(MethodCommand, ReferenceGivesTheKernelsBits) {
   for (const std::string options :
        {"--method linear", "--method gather --rotate", "--method gather --gather literal"}) {

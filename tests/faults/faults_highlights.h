@@ -8,8 +8,6 @@ namespace defray::test {
 
 inline std::vector<Fault> highlight_faults() {
   return {
-      {"rdb_merge", "nothing shows through", {"held == DEFRAY_EMPTY ? behind : held", "held"}},
-      {"rdb_merge", "what is not there shows through", {"if (coverage[i] == 0u) continue;", ""}},
       {"highlights",
        "half as many dim samples suffice",
        {"dim <= count / 2u", "dim <= count / 4u"}},
@@ -74,7 +72,9 @@ inline std::vector<Fault> highlight_faults() {
        "sharp edges hide lights in front of them",
        {"is_sharp_edge && own_coc < h.z - DEFRAY_JUMP_QUANTA", "is_sharp_edge"}},
       {"highlights_add", "sharp edges hide twice", {"is_veiled && held.x == own", "false"}},
-      {"highlights_add", "in the means' place", {"sum[target] += light;", "sum[target] = light;"}},
+      {"highlights_add",
+       "in the means' place",
+       {"colour_at(CHANNELS(sum), target) + light", "sum[target] = light;"}},
   };
 }
 

@@ -69,6 +69,7 @@ TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
   const Frame frame = tall_frame_with_depth();
   for (const bool wants_nearest : {false, true}) {
     RayPlan plan = plan_rays({9});
+    plan.by = RaysBy::scatter;
     plan.wants_nearest = wants_nearest;
     const std::size_t cells = plan.cells.centres.size(), given = 40 * 40 * 20 * rdb_bytes_a_cell;
     const InBands bands(session(), given);
@@ -82,8 +83,8 @@ TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
       most_cells = std::max(most_cells, size(pass.cell_count));
     }
     // CoC, depth, coverage and four channels of windows; cells' winners, and sums: four channels,
-    // two counts of what was filled, one of what was seen, the nearest's depth and source.
-    const std::size_t a_pixel = most_cells * 8 + 4 * (4 + 2 + 1 + (wants_nearest ? 2 : 0));
+    // counts of what was filled and of what was seen, the nearest's key and source.
+    const std::size_t a_pixel = most_cells * 8 + 4 * (4 + 1 + 1 + (wants_nearest ? 2 : 0));
     const std::size_t before = session().traffic().made;
     device().rays(frame, plan);
     EXPECT_EQ(session().traffic().made - before,

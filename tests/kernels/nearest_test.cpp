@@ -74,14 +74,14 @@ TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
   }
 }
 
-TEST(Nearest, IsTheSmallestDepthOfAllCellsWinners) {
+TEST(Nearest, IsTheSmallestRadiusOfAllCellsWinners) {
   const Scene s = random_scene({23, 17}, 3);
   const RayPlan plan = plan_rays({5});
-  std::vector<std::set<std::pair<float, std::int64_t>>> met(s.count());
+  std::vector<std::set<std::pair<std::int32_t, std::int64_t>>> met(s.count());
   for (std::size_t cell = 0; cell < plan.cells.centres.size(); ++cell) {
     const auto winner = reference::rdb_scatter(s.frame(), plan, cell);
     for (std::size_t i = 0; i < winner.size(); ++i) {
-      if (winner[i] >= 0) met[i].emplace(s.depth[static_cast<std::size_t>(winner[i])], winner[i]);
+      if (winner[i] >= 0) met[i].emplace(s.coc[static_cast<std::size_t>(winner[i])], winner[i]);
     }
   }
   const auto nearest = hits(s, 5, device());
