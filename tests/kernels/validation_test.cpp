@@ -136,8 +136,10 @@ INSTANTIATE_TEST_SUITE_P(Cases, KernelCase,
 std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
   Session& own = check.needs_two_passes ? session_without_int64() : session();
   c.band_rows = band_rows;
+  const std::size_t memory = own.memory_bytes();
   const std::size_t before = own.traffic().uploads + own.traffic().downloads;
   run_kernel(own, check, c, make_input(c));
+  EXPECT_EQ(own.memory_bytes(), memory) << check.name << " leaves the session as it was";
   own.set_work_group(0, 0);
   return own.traffic().uploads + own.traffic().downloads - before;
 }
