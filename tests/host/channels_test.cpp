@@ -90,6 +90,23 @@ TEST(Channels, MultiPartStereo) {
   EXPECT_EQ(choose_depth("f.exr", parts, right, colour(parts, right)).part, 3);
 }
 
+TEST(Channels, OfManyThatAreNoColourTwoDozenAreNamed) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 27; ++i) names.push_back(fmt::format("c{:02}", i));
+  const auto message = [&](std::size_t count) {
+    try {
+      colour({part({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)})});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_TRUE(message(27).ends_with("It has: c00 " + message(24).substr(message(24).find("c01")) +
+                                    " and 3 more"))
+      << message(27);
+  EXPECT_TRUE(message(24).ends_with(" c22 c23")) << message(24);
+}
+
 /// Only "_left" and ".left" at a name's end are the view's.
 TEST(Channels, ViewsInNamesOfParts) {
   for (const auto& [name, layer] : {std::pair{"rgba_left", "rgba"},

@@ -85,6 +85,53 @@ TEST(Depth, DistanceAlongTheRayKnowsThePixelsPlaceInTheDisplayWindow) {
   }
 }
 
+TEST(Depth, DistanceKnowsWhereTheDisplayWindowBegins) {
+  DepthSettings settings;
+  settings.kind = DepthKind::distance;
+  const Window data{35, -22, 4, 3}, display{30, -20, 21, 11};
+  Plane distance;
+  for (int y = -22; y < -19; ++y) {
+    for (int x = 35; x < 39; ++x) {
+      const double right = x + 0.5 - 40.5, down = y + 0.5 + 14.5;
+      distance.push_back(static_cast<float>(3 * std::hypot(100, right, down) / 100));
+    }
+  }
+  for (const float z : converted(distance, settings, nullptr, data, display)) {
+    EXPECT_NEAR(z, 3, 1e-6);
+  }
+}
+
+TEST(Depth, BackgroundsBeginWhereTheyAreSaidTo) {
+  const auto before = [](float v) { return std::nextafter(v, 0.0f); };
+  EXPECT_EQ(converted({1e9f, before(1e9f), before(65504), 65505, 1e-40f}, {}),
+            (Plane{inf, before(1e9f), before(65504), 65505, 1e-40f}));
+  DepthSettings inverse;
+  inverse.kind = DepthKind::inverse;
+  DepthReport report;
+  // 1/z of a denormal is farther than floats go.
+  EXPECT_EQ(converted({1e-40f, -1, 1e-30f, 4, 2}, inverse, &report),
+            (Plane{inf, inf, 1e30f, 0.25f, 0.5f}));
+  EXPECT_EQ(report.background, 2u);
+  EXPECT_EQ(report.nearest_units, 0.25);
+  EXPECT_NEAR(report.farthest_units, 1e30, 1e24);
+}
+
+TEST(Depth, NormalizedOutsideItsRangeIsCounted) {
+  DepthSettings settings;
+  settings.kind = DepthKind::normalized;
+  settings.near_units = 2;
+  settings.far_units = 10;
+  DepthReport report;
+  converted({0, 1, -0.125f, 1.125f, inf}, settings, &report);
+  EXPECT_EQ(report.outside_range, 2u);
+  EXPECT_EQ(report.background, 1u);
+  EXPECT_EQ(report.nearest_units, 1);
+  EXPECT_EQ(report.farthest_units, 11);
+  DepthReport planar;
+  converted({0.5f, 2, 3, 4, 5}, {}, &planar);
+  EXPECT_EQ(planar.outside_range, 0u);
+}
+
 TEST(Depth, SettingsThatContradictEachOther) {
   DepthSettings settings;
   settings.invert = true;
@@ -93,7 +140,14 @@ TEST(Depth, SettingsThatContradictEachOther) {
   settings.near_units = 1;
   expect_error(ErrorKind::usage, {"near_units", "normalized"}, [&] { validate(settings); });
   settings.kind = DepthKind::normalized;
-  expect_error(ErrorKind::usage, {"near_units < far_units"}, [&] { validate(settings); });
+  for (const auto& [near, far] : {std::pair{1.0, 0.0}, {0.0, 3.0}, {2.0, 2.0}, {1.0, HUGE_VAL}}) {
+    settings.near_units = near;
+    settings.far_units = far;
+    expect_error(ErrorKind::usage, {"near_units < far_units"}, [&] { validate(settings); });
+  }
+  settings = {};
+  settings.far_units = 3;
+  expect_error(ErrorKind::usage, {"far_units", "normalized"}, [&] { validate(settings); });
 }
 
 std::string write_text(const Folder& folder, const std::string& text) {

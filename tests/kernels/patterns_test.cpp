@@ -65,6 +65,24 @@ TEST(Patterns, KernelsEqualTwinsBitForBitWhateverBandsAndWorkGroups) {
   }
 }
 
+TEST(Patterns, BandsTakeTheMemoryTheyAreReckonedWith) {
+  const PatternScene s = random_scene({90, 120}, 0.3);
+  const PatternSettings settings;
+  const std::vector<PatternShift> shifts{{10, -20}, {0, 15}};
+  const PatternMargins margins(shifts, settings.window_px);
+  for (const int rows : {20, 60}) {
+    const std::size_t given = pattern_band_bytes(90, margins, rows);
+    const InBands in_bands(session(), given);
+    const std::size_t before = session().traffic().made;
+    device().patterns(s.frame(), s.hidden(), s.words(), shifts, settings);
+    const auto made = static_cast<double>(session().traffic().made - before);
+    const double reckoned = static_cast<double>(given) * 120 / rows;
+    // The first and the last band have less above and below.
+    EXPECT_LE(made / reckoned, 1) << rows;
+    EXPECT_GT(made / reckoned, 0.85) << rows;
+  }
+}
+
 TEST(Patterns, TheLargestWindowFullOfTheLargestDifferencesFits) {
   if (is_slow_device()) GTEST_SKIP() << "too large for a simulator";
   PatternScene s({100, 100});

@@ -215,8 +215,12 @@ TEST(Fill, BehindAnyRectangleThePlaneGoesOnAsFarAsTheLensSees) {
         const int out =
             std::min(std::min(x - p.x0, p.x1 - 1 - x), std::min(y - p.y0, p.y1 - 1 - y)) + 1;
         const double reach = (2500 - p.coc) / 256.0, slack = 2 + slant * 40 / 256 + out / 16.0;
-        if (out < reach - slack) EXPECT_GE(behind.inverse[i], 0);
-        if (out > reach + slack) EXPECT_EQ(behind.inverse[i], -1);
+        if (out < reach - slack) {
+          EXPECT_GE(behind.inverse[i], 0);
+        }
+        if (out > reach + slack) {
+          EXPECT_EQ(behind.inverse[i], -1);
+        }
         if (behind.inverse[i] < 0) {
           ++hidden;
           continue;

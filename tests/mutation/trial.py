@@ -15,6 +15,8 @@ PROGRAMS = ["kernels_tests", "host_tests", "command_tests", "properties_tests"]
 BUDGET = 1 / 3          # of a mutant's tests, quickest first: a minute of three on two idle cores
 QUICK = 1 / 20          # those that together take so much, 3 of 4 tests, go first
 COMPILE_SECONDS = 300   # some take ten on an idle core
+VALIDATE_SECONDS = 200  # of some kernels it takes twenty on idle cores
+HANGS = 30, 6           # seconds, and times the usual time, from where on tests count as hanging
 # A header that more sources include is left out, frames and defaults among them: 1 in 75 of all
 # places, which would take minutes each to compile.
 OBJECTS = 40
@@ -216,7 +218,8 @@ def try_mutant(worker, path, text, near, far, tests, kernels):
 
     if kernels:
         wanted = " ".join(f"--kernel {kernel}" for kernel in kernels)
-        code, said = worker.run(f"{program('defray')} validate -o {worker.folder}/scratch/v {wanted}", 200, environment)
+        code, said = worker.run(f"{program('defray')} validate -o {worker.folder}/scratch/v {wanted}", VALIDATE_SECONDS,
+                                environment)
         if code != 0:
             return "timed out in validate" if code is None else "killed by validate"
     count = 0
@@ -226,7 +229,7 @@ def try_mutant(worker, path, text, near, far, tests, kernels):
         usual = sum(tests[i].seconds for i in indices)
         filters = ":".join(tests[i].name for i in indices)
         code, said = worker.run([program(name), f"--gtest_filter={filters}", "--gtest_fail_fast"],
-                                30 + 6 * usual, environment)
+                                HANGS[0] + HANGS[1] * usual, environment)
         if code != 0:
             return f"timed out in {name}" if code is None else f"killed by {first_failure(said)}"
         count += len(indices)

@@ -1,0 +1,166 @@
+// What is taken out of a frame as highlights: how much light, from where, listed in which tiles,
+// and which lens cell stands for which part of the lens.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/random.h"
+#include "chain/highlights.h"
+#include "lens/aperture_mask.h"
+#include "lens/lens_samples.h"
+#include "support.h"
+
+namespace defray::test {
+namespace {
+
+constexpr int width = 150, height = 100, tile = DEFRAY_LIGHT_TILE;
+
+/// Two layers; every third highlight behind, some of them made up, some shares of their pixel.
+struct Scene {
+  Frame frame;
+  std::vector<float> kept;
+  std::vector<std::size_t> sources;
+
+  explicit Scene(std::uint32_t seed, int channels = 3) {
+    frame.width = width;
+    frame.height = height;
+    frame.layers = 2;
+    std::vector<std::int32_t> coc(frame.surfaces(), 100);
+    Plane depth(frame.surfaces(), 3);
+    std::vector<std::uint32_t> coverage(frame.surfaces(), DEFRAY_WHOLE);
+    kept.assign(frame.surfaces(), 1);
+    Random random(1, 2, seed);
+    for (int i = 0; i < 12; ++i) {
+      const std::size_t at = frame.index(static_cast<int>(width * random.next()),
+                                         static_cast<int>(height * random.next()), i % 3 == 0);
+      coc[at] = static_cast<std::int32_t>(256 * (i < 2 ? 90 : 20) * (2 * random.next() - 1));
+      depth[at] = static_cast<float>(1 + 5 * random.next());
+      coverage[at] = i % 4 == 0   ? 16384
+                     : i % 4 == 1 ? DEFRAY_WHOLE | DEFRAY_SYNTHESISED
+                                  : DEFRAY_WHOLE;
+      kept[at] = static_cast<float>(0.5 * random.next());
+      sources.push_back(at);
+    }
+    std::sort(sources.begin(), sources.end());
+    frame.coc_quanta = coc;
+    frame.depth = depth;
+    frame.coverage = coverage;
+    for (int c = 0; c < channels; ++c) {
+      frame.channels.emplace_back(
+          random_plane({width, 2 * height}, seed + static_cast<std::uint32_t>(c)));
+    }
+  }
+};
+
+const ApertureTable& aperture() {
+  static const ApertureTable table = make_aperture_table(rasterise(Aperture{}));
+  return table;
+}
+
+LightSources taken(Scene& s, int light_channels) {
+  return take_light(s.frame, s.kept, light_channels, aperture(), make_lens_samples({}, 60));
+}
+
+TEST(LightSources, AreWhatIsNotKept) {
+  for (std::uint32_t seed = 0; seed < 3; ++seed) {
+    Scene s(seed);
+    const Frame before = s.frame;
+    const LightSources lights = taken(s, 3);
+    ASSERT_EQ(lights.where.size(), s.sources.size());
+    for (std::size_t k = 0; k < s.sources.size(); ++k) {
+      const std::size_t i = s.sources[k];
+      const auto& [x, y, coc, depth] = lights.where[k];
+      EXPECT_EQ(x, static_cast<int>(i % width));
+      EXPECT_EQ(y, static_cast<int>(i / width / 2));
+      EXPECT_EQ(coc, before.coc_quanta[i]);
+      EXPECT_EQ(std::bit_cast<float>(depth), before.depth[i]);
+      const double share = (before.coverage[i] & 0x7fffffff) / 65536.0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double colour = before.channels[c][i], kept = colour * s.kept[i];
+        EXPECT_NEAR(s.frame.channels[c][i], kept, 1e-6 * std::fabs(colour));
+        EXPECT_NEAR(lights.excess[k][c], (colour - kept) * share, 1e-6 * std::fabs(colour));
+      }
+      EXPECT_EQ(lights.excess[k][3], 0);
+    }
+    EXPECT_NEAR(lights.share_of_light * aperture().total(), 1, 1e-6);
+  }
+}
+
+TEST(LightSources, AreListedWhereTheirDiscsMayReach) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) {
+    Scene s(seed);
+    const LightSources lights = taken(s, 3);
+    const int across = (width + tile - 1) / tile, down = (height + tile - 1) / tile;
+    EXPECT_EQ(lights.tiles_x, across);
+    ASSERT_EQ(lights.first.size(), static_cast<std::size_t>(across * down + 1));
+    EXPECT_EQ(lights.first.back(), lights.list.size());
+    for (int t = 0; t < across * down; ++t) {
+      const auto begin = lights.list.begin() + lights.first[static_cast<std::size_t>(t)];
+      const auto end = lights.list.begin() + lights.first[static_cast<std::size_t>(t + 1)];
+      EXPECT_TRUE(std::is_sorted(begin, end));
+      for (std::uint32_t k = 0; k < lights.where.size(); ++k) {
+        const auto& [x, y, coc, depth] = lights.where[k];
+        // From the source to the nearest pixel of the tile.
+        const auto off = [](int at, int first) {
+          return std::max({first - at, at - first - tile + 1, 0});
+        };
+        const int away = std::max(off(x, t % across * tile), off(y, t / across * tile));
+        const double radius = std::abs(coc) / 256.0;
+        const bool is_listed = std::find(begin, end, k) != end;
+        if (away <= radius + 1) {
+          EXPECT_TRUE(is_listed) << t << " " << k;
+        }
+        if (away > radius + 2) {
+          EXPECT_FALSE(is_listed) << t << " " << k;
+        }
+      }
+    }
+  }
+}
+
+TEST(LightSources, AlphaBelongsToTheLightAsFarAsItStandsOut) {
+  // A light of alpha 1 on glass of alpha 0.25 that covers more than half of what is around it; on
+  // another, less than half.
+  for (const auto& [glass_from, around] : {std::pair{60, 0.25f}, {80, 0.0f}}) {
+    Scene s(1, 4);
+    s.kept.assign(s.kept.size(), 1);
+    const std::size_t light = s.frame.index(75, 50, 0);
+    s.kept[light] = 0.5f;
+    std::vector<std::int32_t> coc(s.frame.surfaces(), 10 * 256);
+    s.frame.coc_quanta = coc;
+    Plane alpha(s.frame.surfaces());
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+      alpha[i] = static_cast<int>(i % width) >= glass_from ? 0.25f : 0;
+    }
+    alpha[light] = 1;
+    s.frame.channels[3] = alpha;
+    const std::uint32_t half = 32768;
+    std::vector<std::uint32_t> coverage(s.frame.surfaces(), half);
+    s.frame.coverage = coverage;
+    const LightSources lights = taken(s, 3);
+    ASSERT_EQ(lights.excess.size(), 1u);
+    EXPECT_EQ(lights.excess[0][3], (1 - around) / 2);
+    EXPECT_EQ(s.frame.channels[3][light], around);
+  }
+}
+
+TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
+  const LensCells cells = make_lens_samples({}, 137);
+  const std::vector<std::uint32_t> map = map_cells(cells);
+  constexpr int side = DEFRAY_CELL_MAP;
+  ASSERT_EQ(map.size(), static_cast<std::size_t>(side * side));
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const auto distance = [&](const std::array<std::int32_t, 2>& c) {
+        return std::hypot((2 * i + 1 - side) * 1024.0 - c[0], (2 * j + 1 - side) * 1024.0 - c[1]);
+      };
+      double least = HUGE_VAL;
+      for (const auto& c : cells.centres) least = std::min(least, distance(c));
+      EXPECT_NEAR(distance(cells.centres[map[static_cast<std::size_t>(j * side + i)]]), least,
+                  1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test
