@@ -37,9 +37,8 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
   params.has_rim = !plan.rim_x.empty();
   params.origin_x = plan.origin_x;
   params.origin_y = plan.origin_y;
-  const auto near = bins_by_distance(bins, params.reach_tiles);
-  near_ = session.buffer(near.size() * sizeof(BinSet));
-  session.write(near_, near.data(), near.size() * sizeof(BinSet));
+  near_ = bins_by_distance(bins, params.reach_tiles);
+  near_on_device_ = session.view(near_);
 }
 
 std::vector<BandRows> RayTileWindow::windows() const {
@@ -77,8 +76,8 @@ void RayTileWindow::prepare(const BandRows& rows) {
   DefrayRaysParams along_y = params;
   along_y.along_y = 1;
   session_.launch("rdb_tiles", all, params, keys, coverage, tiles_);
-  session_.launch("rdb_reach", all, params, near_, tiles_, along_x);
-  session_.launch("rdb_reach", all, along_y, near_, along_x, reach);
+  session_.launch("rdb_reach", all, params, near_on_device_, tiles_, along_x);
+  session_.launch("rdb_reach", all, along_y, near_on_device_, along_x, reach);
 }
 
 RayTiles RayTileWindow::read() {

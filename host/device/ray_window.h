@@ -34,7 +34,8 @@ class RayTileWindow {
   Session& session_;
   const Frame& frame_;
   int reach_px_;
-  cl::Buffer near_, tiles_;
+  std::vector<BinSet> near_;
+  cl::Buffer near_on_device_, tiles_;
 };
 
 }  // namespace defray

@@ -34,9 +34,10 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       rows_(rows_of_band(session, frame, winner_cells_)),
       buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_),
       window_(session, frame, plan, bins),
+      sharp_(sharp_bins(bins)),
       segments_(table.segments.empty() ? session.view(table.first) : session.view(table.segments)),
       first_(session.view(table.first)),
-      sharp_(session.buffer(sizeof(BinSet))) {
+      sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
   DefrayRaysParams& p = window_.params;
   // Those who ask for winners look at all columns.
   const int margin = winner_cells_ > 0 ? 0 : frame.margin;
@@ -44,8 +45,6 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
   p.band_end = word(frame.width - margin);
   p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
   p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
-  const BinSet sharp = sharp_bins(bins);
-  session.write(sharp_, sharp.data(), sizeof sharp);
 }
 
 void RaysGather::gather(int y, int rows, RayResult& out) {
@@ -55,9 +54,9 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   const std::size_t strips_x = (p.band_end - p.band_x + DEFRAY_RAY_RUN - 1) / DEFRAY_RAY_RUN;
   const std::size_t strips_y = size((rows + DEFRAY_RAY_ROWS - 1) / DEFRAY_RAY_ROWS);
   session_.launch("rdb_gather", {strips_x, strips_y}, p, window_.keys, window_.sending,
-                  window_.coverage, window_.channels, segments_, first_, window_.reach, sharp_,
-                  buffers_.lens, buffers_.rim_x, buffers_.rim_y, buffers_.light_first,
-                  buffers_.winner, buffers_.means, buffers_.seen);
+                  window_.coverage, window_.channels, segments_, first_, window_.reach,
+                  sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
+                  buffers_.light_first, buffers_.winner, buffers_.means, buffers_.seen);
   DefrayRdbParams r = buffers_.params();
   r.window_y = p.window_y;
   r.window_rows = p.window_rows;

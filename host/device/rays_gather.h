@@ -23,7 +23,8 @@ class RaysGather {
   int rows_;                  ///< Most of a band.
   RayBuffers buffers_;
   RayTileWindow window_;
-  cl::Buffer segments_, first_, sharp_;
+  BinSet sharp_;
+  cl::Buffer segments_, first_, sharp_on_device_;
 };
 
 }  // namespace defray

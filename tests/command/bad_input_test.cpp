@@ -123,7 +123,7 @@ TEST_F(BadInput, OptionValues) {
   }
   expect_render_refused(base + "--background blue", 2, {"'blue'"});
   expect_render_refused(base + "--memory 0", 2, {"--memory is 0"});
-  expect_render_refused(base + "--memory 0.001", 2,
+  expect_render_refused(base + "--rays scatter --memory 0.001", 2,
                         {"--memory is 0.0009995 MiB", "one row", "at least"});
   expect_render_refused(base + "--work-group 0x4", 2, {"'0x4'", "64x1"});
   expect_render_refused(base + "--work-group 99999x99", 2, {"at most"});

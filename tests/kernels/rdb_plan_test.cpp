@@ -29,10 +29,10 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
 
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
   const std::size_t row = 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-  expect_error(ErrorKind::usage, {"memory is 0.004195 MiB", "at least 0.005 MiB"},
+  expect_error(ErrorKind::usage, {"memory is 0.003814 MiB", "at least 0.004 MiB"},
                [&] { plan_rdb_passes(100, 10, 69, 1, row - 1); });
   EXPECT_EQ(plan_rdb_passes(100, 10, 69, 1, row).size(), 690u);
-  EXPECT_NO_THROW(plan_rdb_passes(100, 10, 69, 1, 0.005 * 1048576));
+  EXPECT_NO_THROW(plan_rdb_passes(100, 10, 69, 1, 0.004 * 1048576));
 }
 
 TEST(LensCells, RoundApertureOfThePaper) {
