@@ -26,6 +26,20 @@ int ramp(const int before, const int low, const int middle, const int high, cons
   return abs(from_low) <= abs(to_high) ? -1 : 1;
 }
 
+// Whether all that may be an end of a ramp is close to its middle: then it is none. Of a steep one
+// one end is a jump away at least.
+bool is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta, const int2 at,
+              const int own) {
+  uint largest = 0u;
+  for (int y = -2; y <= 2; ++y) {
+    for (int x = -2; x <= 2; ++x) {
+      const uint q = pixel_at(p.width, p.height, at + (int2)(x, y));
+      largest = max(largest, abs_diff(coc_of(coc_quanta, q), own));
+    }
+  }
+  return largest <= DEFRAY_JUMP_QUANTA;
+}
+
 __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                      __global uint* restrict source) {
   const int2 at = work_item();
@@ -33,7 +47,7 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
   const int2 directions[4] = {(int2)(1, 0), (int2)(0, 1), (int2)(1, 1), (int2)(1, -1)};
   uint found = pixel_at(p.width, p.height, at);
   const int own = coc_of(coc_quanta, found);
-  bool done = false;
+  bool done = is_level(p, coc_quanta, at, own);
   // A ramp may be one or two pixels wide: its ends are looked for one and two pixels away.
   for (int i = 0; i < 16 && !done; ++i) {
     const int2 d = directions[i % 4];

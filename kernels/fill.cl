@@ -11,7 +11,8 @@
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
 // mixed        [height][width]    from `edges`: their colour is two surfaces'
-// active       [tiles_y][tiles_x] 0: nothing to do
+// farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;
+//                                 DEFRAY_NOTHING_BEHIND: none behind them
 // channel0..3  [height][width]
 // behind_coc   [height][width]    signed radius; as given where nothing was found
 // behind_inverse [height][width]  1/depth; negative where nothing was found
@@ -59,9 +60,9 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
 // Walks over the picture; steps grow with the distance. `own` is the CoC of the surface in front.
 Found look_behind(const DefrayFillParams p, __global const int* restrict coc_quanta,
                   __global const float* restrict inverse, __global const uint* restrict mixed,
-                  const int2 start, const float2 direction, const int own) {
+                  const int2 start, const float2 direction, const int own, const int farthest) {
   const Found nothing = {0u, 0.0f, 0.0f, 0.0f, 0.0f};
-  const int reach = (p.farthest_quanta - own) / 256 + 2;
+  const int reach = (farthest - own) / 256 + 2;
   int before = own;
   for (int t = 1, step = 1; t <= reach; t += step) {
     const int2 at = start + convert_int2(rint((float)t * direction));
@@ -132,7 +133,7 @@ Found look_further(const DefrayFillParams p, __global const int* restrict coc_qu
 
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
                    __global const float* restrict inverse, __global const uint* restrict mixed,
-                   __global const uint* restrict active, CHANNEL_PARAMETERS(channel),
+                   __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
                    __global int* restrict behind_coc, __global float* restrict behind_inverse,
                    WRITTEN_CHANNELS(behind)) {
   const int2 at = work_item();
@@ -142,7 +143,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   behind_coc[pixel] = coc_quanta[pixel];
   set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
   const uint tile = (uint)at.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)at.x / DEFRAY_FILL_TILE;
-  if (!active[tile]) return;
+  if (farthest[tile] == DEFRAY_NOTHING_BEHIND) return;
 
   // A mixed pixel has the nearest surface around it in front.
   int own = coc_of(coc_quanta, pixel);
@@ -157,7 +158,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-    Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own);
+    Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own, farthest[tile]);
     if (f.distance == 0.0f) continue;
     f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, sixteenth(i), f);
     found[count] = f;

@@ -51,6 +51,7 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
     light[count] = light_of(colour_at(CHANNELS(channel), front), p.light_channels);
     dim += light[count] * DEFRAY_HIGHLIGHT < own_light ? 1u : 0u;
     ++count;
+    if (count - dim == 16u) return;  // of 32 at most: half are not dim, whatever comes
   }
   if (dim <= count / 2u) return;
   for (uint i = 0; i < count; ++i) {

@@ -40,6 +40,12 @@ ulong light_before(__global const uint* restrict table, const long u, const long
 // Lens coordinate of the border between pixels i and i + 1 to the right of a source.
 long border(const int i, const int coc) { return (2L * i + 1L) * (1L << 23) / coc; }
 
+// Whether a pixel so far from a source along one axis lies beyond its disc: `border` of both sides
+// is beyond the lens.
+bool misses(const int distance, const int coc) {
+  return (2L * (long)abs(distance) - 1L) * 128L >= (long)abs(coc);
+}
+
 // The part of the lens that a source's light passes on its way to a pixel: (left, top, right,
 // bottom), limited to the square around the lens.
 long4 box_between(const int2 distance, const int coc) {
@@ -121,6 +127,7 @@ __kernel void highlights_add(
   for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
     const int4 h = where[list[i]];
     const int2 distance = (int2)((int)x - h.x, (int)y - h.y);
+    if (misses(distance.x, h.z) || misses(distance.y, h.z)) continue;
     const long4 box = box_between(distance, h.z);
     // A pixel that is large beside the disc sees many cells.
     const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;

@@ -37,6 +37,8 @@
 #define DEFRAY_TAME_QUANTA (1 << 28)
 /// Side of the square tiles in which `fill` may have something to do, in pixels.
 #define DEFRAY_FILL_TILE 16
+/// A tile for which `fill` has nothing to do: nearer than every CoC.
+#define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
 /// Directions in which `fill` looks for what goes on behind.
 #define DEFRAY_FILL_DIRECTIONS 16
 /// Most samples a side of the square over which `soften` averages.
@@ -141,7 +143,10 @@ typedef struct {
   DEFRAY_UINT band_end;  ///< One past the last target column.
   DEFRAY_UINT band_y;    ///< First target row, in frame coordinates.
   DEFRAY_UINT band_rows;
-  DEFRAY_UINT cells;  ///< Lens cells, all of them.
+  DEFRAY_UINT first_cell;     ///< First lens cell of this pass.
+  DEFRAY_UINT cell_count;     ///< Lens cells in this pass.
+  DEFRAY_UINT is_first_pass;  ///< 1: sums start at zero.
+  DEFRAY_UINT is_last_pass;   ///< 1: sums become means.
   DEFRAY_UINT tiles_x;
   DEFRAY_UINT tiles_y;
   DEFRAY_INT reach_tiles;  ///< Tiles on each side from which a CoC can reach a tile.
@@ -177,7 +182,6 @@ typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
   DEFRAY_UINT tiles_x;
-  DEFRAY_INT farthest_quanta;  ///< Largest signed CoC of the frame.
 } DefrayFillParams;
 
 /// Colours averaged over what one lens cell sees: `soften`.
@@ -270,7 +274,7 @@ static_assert(sizeof(DefrayHighlightParams) == 16);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayAssembleParams) == 20);
-static_assert(sizeof(DefrayFillParams) == 16);
+static_assert(sizeof(DefrayFillParams) == 12);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayPatternParams) == 56);
 static_assert(sizeof(DefrayLinearParams) == 24);
@@ -279,7 +283,7 @@ static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 76);
-static_assert(sizeof(DefrayRaysParams) == 92);
+static_assert(sizeof(DefrayRaysParams) == 104);
 #endif
 
 #endif

@@ -8,18 +8,21 @@
 // rdb_merge adds them: the same sums.
 //
 // A tile's bins say which radii there are within reach; only segments that meet them are looked at.
+// The cells come in passes: some devices end a kernel's loops after so many turns, or a kernel
+// after so many seconds.
 //
 // keys, sending, coverage, channel0..3   padded planes of the window, from rdb_pad
-// segments        in the order of cells, radii ascending within each
-// first           [cells][bins + 1]  the first segment that reaches into a bin; at the end one past
-//                                    the cell's
+// segments        of the pass, in the order of cells, radii ascending within each
+// first           [cells of the pass][bins + 1]  the first segment that reaches into a bin; last of
+//                                    a cell: one past its own
 // occupied        [tiles][2][words]  from rdb_reach
 // sharp           [words]            bins whose rays end where they begin, whatever the lens point
 // lens, rim_x, rim_y                 as in rdb_merge
 // light_first     [light tiles + 1]  as `first` in highlights_add
 // winner          [cells][band_rows][width]  (x: source in the window, y: key) where highlights_add
 //                                    or rdb_nearest ask for it
-// mean0..3, seen  [band_rows][width]
+// sum0..3         [band_rows][width] colours' sums; after the last pass the means
+// filled, seen    [band_rows][width] as in rdb_merge
 // Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets.
 #include "rdb_gather_any.clh"
 #include "strip.clh"
@@ -30,7 +33,7 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
                                                  const Runs* runs, const bool has_fourth,
                                                  Strip* s) {
   const size_t stride = p.stride;
-  for (uint k = 0; k < p.cells; ++k) {
+  for (uint k = 0; k < p.cell_count; ++k) {
     __global const int* first = r->first + k * (DEFRAY_RAY_BINS + 1);
     const int end_of_cell = first[DEFRAY_RAY_BINS];
     int16 open[ROWS];
@@ -69,7 +72,7 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
 void keep(const DefrayRaysParams p, const Rays* r, Strip* s) {
   EACH_ROW {
     const int16 key = vload16(0, r->keys + s->own + (size_t)j * p.stride);
-    s->seen[j] = (key != DEFRAY_NO_KEY) & (int16)(int)p.cells;
+    s->seen[j] += (key != DEFRAY_NO_KEY) & (int16)(int)p.cell_count;
   }
 }
 
@@ -81,7 +84,7 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const ulong* restrict sharp, __global const int2* restrict lens,
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
                          __global const uint* restrict light_first, __global uint2* winner,
-                         WRITTEN_CHANNELS(mean), __global uint* seen) {
+                         WRITTEN_CHANNELS(sum), __global uint* filled, __global uint* seen) {
   const int x = (int)(p.band_x + get_global_id(0) * DEFRAY_RAY_RUN);
   const int y = (int)(p.band_y + get_global_id(1) * DEFRAY_RAY_ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
@@ -91,12 +94,7 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
   s.x = x;
   s.y = y;
   s.own = padded_at(p, x, y - (int)p.window_y);
-  const int16 lane = (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  EACH_ROW {
-    s.inside[j] = y + j < (int)(p.band_y + p.band_rows) ? (lane + x) < (int)p.width : (int16)(0);
-    s.total0[j] = s.total1[j] = s.total2[j] = s.total3[j] = (float16)(0.0f);
-    s.differs[j] = s.count[j] = s.seen[j] = (int16)(0);
-  }
+  begin(p, sum0, sum1, sum2, sum3, filled, seen, &s);
 
   const uint tile =
       ((uint)y - p.window_y) / DEFRAY_RAY_TILE * p.tiles_x + (uint)x / DEFRAY_RAY_TILE;
@@ -117,21 +115,15 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
   if (is_special != 0ul || p.has_rim || wants_winners) {
     gather_any(p, &r, &runs, &s, lens, rim_x, rim_y, wants_winners, winner);
   } else if (is_blurred != 0ul) {
+    EACH_ROW s.seen[j] -= s.count[j];  // what this pass counts was seen
     if (p.channels > 3u) {
       gather_plain(p, &r, &runs, true, &s);
     } else {
       gather_plain(p, &r, &runs, false, &s);
     }
-    EACH_ROW s.seen[j] = s.count[j];
+    EACH_ROW s.seen[j] += s.count[j];
   } else {
     keep(p, &r, &s);
   }
-  EACH_ROW {
-    const size_t own = s.own + (size_t)j * p.stride;
-    store(p, &s, j, mean_of(s.total0[j], s.count[j], s.differs[j], bits_at(channel0, own)), mean0);
-    store(p, &s, j, mean_of(s.total1[j], s.count[j], s.differs[j], bits_at(channel1, own)), mean1);
-    store(p, &s, j, mean_of(s.total2[j], s.count[j], s.differs[j], bits_at(channel2, own)), mean2);
-    store(p, &s, j, mean_of(s.total3[j], s.count[j], s.differs[j], bits_at(channel3, own)), mean3);
-    store(p, &s, j, s.seen[j], (__global float*)seen);
-  }
+  end(p, &r, &s, sum0, sum1, sum2, sum3, filled, seen);
 }

@@ -9,8 +9,9 @@ namespace defray {
 /// How far `fill` looks from a pixel with CoC `own`, px, as the kernel has it.
 int fill_reach(std::int32_t farthest, std::int32_t own);
 
-/// Tiles of DEFRAY_FILL_TILE pixels a side with a mixed pixel close enough to matter: elsewhere
-/// nothing lies behind. [tiles_y][tiles_x].
-Words tiles_to_fill(const Frame& frame, const Words& mixed);
+/// For each tile of DEFRAY_FILL_TILE pixels a side the farthest CoC that a ray over the picture
+/// from one of its pixels can meet; DEFRAY_NOTHING_BEHIND where no mixed pixel is close enough to
+/// matter: nothing lies behind there. [tiles_y][tiles_x].
+Quanta farthest_to_fill(const Frame& frame, const Words& mixed);
 
 }  // namespace defray

@@ -9,7 +9,7 @@
 namespace defray {
 
 Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
-  const Words active = tiles_to_fill(f, mixed);
+  const Quanta farthest_met = farthest_to_fill(f, mixed);
   const auto coc = f.coc_quanta.host();
   const auto [least, most] = std::minmax_element(coc.begin(), coc.end());
   const std::int32_t nearest = tame(*least), farthest = tame(*most);
@@ -19,10 +19,10 @@ Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
       session_, "fill", f, fill_reach(farthest, nearest),
       [&](Band& band) {
         const BandRows& rows = band.rows();
-        const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x), farthest};
+        const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x)};
         const std::size_t tile = size(rows.window_y / DEFRAY_FILL_TILE) * size(tiles_x);
         const cl::Buffer tiles =
-            session_.view(&active[tile], (active.size() - tile) * sizeof(cl_uint));
+            session_.view(&farthest_met[tile], (farthest_met.size() - tile) * sizeof(cl_int));
         const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
         const auto behind = band.out(out.channels, f.channels.size());
         band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), tiles,

@@ -28,7 +28,6 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
   params.layers = word(frame.layers);
   params.channels = static_cast<std::uint32_t>(frame.channels.size());
   params.stride = word(padded_stride(frame.width));
-  params.cells = static_cast<std::uint32_t>(plan.cells.centres.size());
   params.tiles_x = word(ray_tiles_along(frame.width));
   params.reach_tiles = ray_tiles_along(reach_px_) + 1;
   params.first_bin = bins.first_bin;

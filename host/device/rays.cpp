@@ -8,9 +8,6 @@
 namespace defray {
 namespace {
 
-/// A table of segments that is made whatever the memory.
-constexpr std::size_t small_table = std::size_t{16} << 20;
-
 void scatter(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
              const Progress& progress, RayResult& out) {
   RdbRun run(session, frame, plan, lights);
@@ -32,14 +29,8 @@ RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const Ligh
   RayResult out{std::vector<Plane>(frame.channels.size(), Plane(frame.pixels())),
                 std::vector<std::uint32_t>(frame.pixels())};
   if (plan.wants_nearest) out.nearest.resize(frame.pixels());
-  const RadiusBins bins = bins_of(frame);
-  std::optional<SegmentTable> table;
   if (plan.by == RaysBy::gather && plan.cells.jitter == 0) {
-    table = SegmentTable::of(plan.cells, bins, frame.width, frame.height,
-                             std::max(session_.memory_bytes() / 4, small_table));
-  }
-  if (table) {
-    RaysGather(session_, frame, plan, bins, *table, lights).run(out, progress);
+    RaysGather(session_, frame, plan, lights).run(out, progress);
   } else {
     scatter(session_, frame, plan, lights, progress, out);
   }

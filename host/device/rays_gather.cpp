@@ -26,17 +26,17 @@ int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_
 }  // namespace
 
 RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan,
-                       const RadiusBins& bins, const SegmentTable& table,
                        const LightSources* lights)
     : session_(session),
       frame_(frame),
+      cells_(plan.cells),
+      bins_(bins_of(frame)),
       winner_cells_(winner_cells_of(plan, lights)),
       rows_(rows_of_band(session, frame, winner_cells_)),
       buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_),
-      window_(session, frame, plan, bins),
-      sharp_(sharp_bins(bins)),
-      segments_(table.segments.empty() ? session.view(table.first) : session.view(table.segments)),
-      first_(session.view(table.first)),
+      window_(session, frame, plan, bins_),
+      sharp_(sharp_bins(bins_)),
+      filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
   DefrayRaysParams& p = window_.params;
   // Those who ask for winners look at all columns.
@@ -47,22 +47,44 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
   p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
 }
 
+/// The table of the pass that begins with a cell: of one pass it stays.
+void RaysGather::find_segments(int first_cell) {
+  if (first_cell == table_cell_) return;
+  session_.finish();  // kernels may look at the one before
+  table_.emplace(cells_, first_cell, bins_, frame_.width, frame_.height,
+                 session_.info().most_segments);
+  table_cell_ = first_cell;
+  first_ = session_.view(table_->first);
+  segments_ = table_->segments.empty() ? first_ : session_.view(table_->segments);
+}
+
+void RaysGather::gather_pass(int first_cell) {
+  find_segments(first_cell);
+  DefrayRaysParams& p = window_.params;
+  p.first_cell = word(first_cell);
+  p.cell_count = word(table_->cell_count());
+  p.is_first_pass = first_cell == 0;
+  p.is_last_pass = p.first_cell + p.cell_count == cells_.centres.size();
+  const std::size_t strips_x = (p.band_end - p.band_x + DEFRAY_RAY_RUN - 1) / DEFRAY_RAY_RUN;
+  const std::size_t strips_y = (p.band_rows + DEFRAY_RAY_ROWS - 1) / DEFRAY_RAY_ROWS;
+  session_.launch("rdb_gather", {strips_x, strips_y}, p, window_.keys, window_.sending,
+                  window_.coverage, window_.channels, segments_, first_, window_.reach,
+                  sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
+                  buffers_.light_first, buffers_.winner, buffers_.means, filled_, buffers_.seen);
+}
+
 void RaysGather::gather(int y, int rows, RayResult& out) {
   DefrayRaysParams& p = window_.params;
   p.band_y = word(y);
   p.band_rows = word(rows);
-  const std::size_t strips_x = (p.band_end - p.band_x + DEFRAY_RAY_RUN - 1) / DEFRAY_RAY_RUN;
-  const std::size_t strips_y = size((rows + DEFRAY_RAY_ROWS - 1) / DEFRAY_RAY_ROWS);
-  session_.launch("rdb_gather", {strips_x, strips_y}, p, window_.keys, window_.sending,
-                  window_.coverage, window_.channels, segments_, first_, window_.reach,
-                  sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
-                  buffers_.light_first, buffers_.winner, buffers_.means, buffers_.seen);
+  const int cells = static_cast<int>(cells_.centres.size());
+  for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
   DefrayRdbParams r = buffers_.params();
   r.window_y = p.window_y;
   r.window_rows = p.window_rows;
   r.band_y = p.band_y;
   r.band_rows = p.band_rows;
-  r.cell_count = p.cells;
+  r.cell_count = word(cells);
   r.is_first_pass = r.is_last_pass = 1;
   buffers_.find_nearest(r, window_.planes);
   buffers_.add_light(r, window_.planes);

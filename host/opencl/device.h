@@ -11,6 +11,9 @@ namespace defray {
 /// An OpenCL device.
 struct DeviceInfo : DeviceProperties {
   cl::Device device;
+  /// Segments of rays that a kernel may go through. Mesa's llvmpipe leaves a kernel's loops after
+  /// 65536 turns in all, without a word; a segment takes several.
+  std::size_t most_segments = std::size_t{1} << 16;
 };
 
 /// Every device of every platform, in platform order; empty where there is none.

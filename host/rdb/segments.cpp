@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/plane.h"
+
 namespace defray {
 namespace {
 
@@ -77,23 +79,26 @@ std::int64_t RadiusBins::largest_of(int bin) const {
   return std::max(std::abs(first_radius(bin)), std::abs(last));
 }
 
-std::optional<SegmentTable> SegmentTable::of(const LensCells& cells, const RadiusBins& bins,
-                                             int width, int height, std::size_t most_bytes) {
-  SegmentTable table;
-  for (const auto& centre : cells.centres) {
-    auto at = table.segments.size();
-    add_cell({centre[0]}, {centre[1]}, bins.least, bins.largest, width, height, table.segments);
-    if (table.segments.size() * sizeof(Segment) > most_bytes) return std::nullopt;
+SegmentTable::SegmentTable(const LensCells& cells, int first_cell, const RadiusBins& bins,
+                           int width, int height, std::size_t most) {
+  for (std::size_t cell = size(first_cell); cell < cells.centres.size(); ++cell) {
+    const auto [u, v] = cells.centres[cell];
+    std::size_t at = segments.size();
+    add_cell({u}, {v}, bins.least, bins.largest, width, height, segments);
+    const std::size_t runs = first.size() / 2;
+    if (segments.size() + runs > most && !first.empty()) {
+      segments.resize(at);
+      return;
+    }
     for (int b = 0; b < DEFRAY_RAY_BINS; ++b) {
       const auto ends_before = [&](const Segment& s) {
         return std::int64_t{s[2]} + static_cast<std::uint32_t>(s[3]) < bins.first_radius(b);
       };
-      while (at < table.segments.size() && ends_before(table.segments[at])) ++at;
-      table.first.push_back(static_cast<std::int32_t>(at));
+      while (at < segments.size() && ends_before(segments[at])) ++at;
+      first.push_back(static_cast<std::int32_t>(at));
     }
-    table.first.push_back(static_cast<std::int32_t>(table.segments.size()));
+    first.push_back(static_cast<std::int32_t>(segments.size()));
   }
-  return table;
 }
 
 }  // namespace defray

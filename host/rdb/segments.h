@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "kernels/params.h"
@@ -29,16 +28,19 @@ struct RadiusBins {
   std::int64_t largest_of(int bin) const;
 };
 
-/// Segments that land within a frame of `width` x `height` from any of its pixels, by cell and
-/// ascending radius; and for each cell and bin the first segment that reaches into the bin, at last
-/// one past the cell's.
+/// A pass of cells: the segments that land within a frame of `width` x `height` from any of its
+/// pixels, by cell and ascending radius; and for each cell and bin the first segment that reaches
+/// into the bin, at last one past the cell's.
 struct SegmentTable {
   std::vector<Segment> segments;
   std::vector<std::int32_t> first;  ///< [cells][bins + 1]
 
-  /// None if it takes more than `most_bytes`.
-  static std::optional<SegmentTable> of(const LensCells& cells, const RadiusBins& bins, int width,
-                                        int height, std::size_t most_bytes);
+  /// From `first_cell` on as many cells as have `most` segments together, one at least. The ways
+  /// from one run of bins to the next count too.
+  SegmentTable(const LensCells& cells, int first_cell, const RadiusBins& bins, int width,
+               int height, std::size_t most);
+
+  int cell_count() const { return static_cast<int>(first.size()) / (DEFRAY_RAY_BINS + 1); }
 };
 
 }  // namespace defray

@@ -11,6 +11,9 @@ inline std::vector<Fault> highlight_faults() {
       {"highlights",
        "half as many dim samples suffice",
        {"dim <= count / 2u", "dim <= count / 4u"}},
+      {"highlights",
+       "given up when a quarter is bright",
+       {"count - dim == 16u", "count - dim == 8u"}},
       {"highlights", "alpha is light", {"channels > 3u ? c.w : c.x", "c.w"}},
       {"highlights", "the sample above the median", {"count / 2u) kept", "count / 2u + 1u) kept"}},
       {"highlights",
@@ -25,6 +28,9 @@ inline std::vector<Fault> highlight_faults() {
        {"if (coverage[front] >= DEFRAY_SYNTHESISED) continue;", ""}},
       {"highlights", "sharp fragments too", {"share == 0u || coc == 0 ||", "share == 0u ||"}},
       {"highlights", "stale output", {"  kept[own] = 1.0f;\n", ""}},
+      {"highlights_add",
+       "a disc's outermost pixels",
+       {"(2L * (long)abs(distance) - 1L)", "(2L * (long)abs(distance) + 1L)"}},
       {"highlights_add",
        "disc turned by half a turn",
        {"(2L * i + 1L) * (1L << 23) / coc", "(2L * i + 1L) * (1L << 23) / -coc"}},
@@ -74,7 +80,7 @@ inline std::vector<Fault> highlight_faults() {
       {"highlights_add", "sharp edges hide twice", {"is_veiled && held.x == own", "false"}},
       {"highlights_add",
        "in the means' place",
-       {"colour_at(CHANNELS(sum), target) + light", "sum[target] = light;"}},
+       {"colour_at(CHANNELS(sum), target) + light", "light"}},
   };
 }
 

@@ -27,32 +27,60 @@ std::vector<std::int32_t> tile_coc(Size size, double near_px, double far_px, std
   return coc;
 }
 
-TEST(FillTiles, AreThoseFromWhichAWayCanMeetAMixedPixel) {
-  constexpr Size size{173, 150};
-  constexpr int across = 11, down = 10;
+/// All that a way of `fill` can end on: pixels close enough to be seen past what is in front, and
+/// whether a mixed one lies on the way there. Tile by tile, from each pixel.
+struct Met {
+  std::int32_t farthest = DEFRAY_NOTHING_BEHIND;
+  bool is_mixed_near = false;
+};
+
+Met met_from(const Frame& f, const Words& mixed, int x, int y) {
+  Met met;
+  const int own = f.coc_quanta[f.index(x, y)];
+  for (int v = 0; v < f.height; ++v) {
+    for (int u = 0; u < f.width; ++u) {
+      const int coc = f.coc_quanta[f.index(u, v)];
+      const int away = std::max(std::abs(u - x), std::abs(v - y));
+      if (coc > own && away <= (coc - own) / 256 + 2) met.farthest = std::max(met.farthest, coc);
+    }
+  }
+  const int reach = met.farthest == DEFRAY_NOTHING_BEHIND ? 0 : (met.farthest - own) / 256 + 2;
+  for (int v = std::max(0, y - reach); v <= std::min(f.height - 1, y + reach); ++v) {
+    for (int u = std::max(0, x - reach); u <= std::min(f.width - 1, x + reach); ++u) {
+      met.is_mixed_near |= mixed[f.index(u, v)] != 0;
+    }
+  }
+  return met;
+}
+
+TEST(FillTiles, KnowTheFarthestThatAWayCanMeet) {
+  constexpr Size size{93, 70};
+  constexpr int across = 6, down = 5;
+  int nothing = 0, less_than_all = 0;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
-    const auto coc = tile_coc(size, seed % 2 ? -8 : -30, seed < 3 ? 20 : 60, seed);
+    const auto coc = tile_coc(size, seed % 2 ? -8 : -30, seed < 3 ? 5 : 30, seed);
     std::vector<std::uint32_t> mixed(coc.size());
     Random random(3, 4, seed);
     for (int i = 0; i < 3; ++i) mixed[static_cast<std::size_t>(random.next() * coc.size())] = 1;
     const Frame f{size.width, size.height, coc};
-    const Words active = tiles_to_fill(f, mixed);
-    ASSERT_EQ(active.size(), static_cast<std::size_t>(across * down));
-    const int farthest = *std::max_element(coc.begin(), coc.end());
-    for (int i = 0; i < across * down; ++i) {
-      const int tx = i % across, ty = i / across;
-      // Ways of `fill` from this tile go so far, in whole tiles.
-      const int own = coc[f.index(tx * tile, ty * tile)];
-      const int reach = ((farthest - own) / 256 + 2) / tile + 1;
-      bool is_near = false;
-      for (std::size_t k = 0; k < mixed.size(); ++k) {
-        const int x = static_cast<int>(k) % size.width / tile;
-        const int y = static_cast<int>(k) / size.width / tile;
-        is_near |= mixed[k] && std::max(std::abs(x - tx), std::abs(y - ty)) <= reach;
+    const Quanta farthest = farthest_to_fill(f, mixed);
+    ASSERT_EQ(farthest.size(), static_cast<std::size_t>(across * down));
+    const int all = *std::max_element(coc.begin(), coc.end());
+    for (int y = 0; y < size.height; y += 3) {
+      for (int x = 0; x < size.width; x += 3) {
+        const Met met = met_from(f, mixed, x, y);
+        const int known = farthest[static_cast<std::size_t>(y / tile * across + x / tile)];
+        if (met.is_mixed_near) EXPECT_GE(known, met.farthest) << x << " " << y << " " << seed;
+        EXPECT_LE(known, all);
       }
-      EXPECT_EQ(active[static_cast<std::size_t>(i)], is_near) << tx << " " << ty << " " << seed;
+    }
+    for (const std::int32_t known : farthest) {
+      nothing += known == DEFRAY_NOTHING_BEHIND;
+      less_than_all += known != DEFRAY_NOTHING_BEHIND && known < all;
     }
   }
+  EXPECT_GT(nothing, 10);
+  EXPECT_GT(less_than_all, 10);
 }
 
 TEST(FillTiles, TheNearestAndTheFarthestPixelCount) {
@@ -61,8 +89,8 @@ TEST(FillTiles, TheNearestAndTheFarthestPixelCount) {
   std::vector<std::uint32_t> mixed(coc.size());
   mixed[5] = 1;
   const auto active = [&] {
-    const Words flags = tiles_to_fill({160, 16, coc}, mixed);
-    return std::count(flags.begin(), flags.end(), 1u);
+    const Quanta farthest = farthest_to_fill({160, 16, coc}, mixed);
+    return 10 - std::count(farthest.begin(), farthest.end(), DEFRAY_NOTHING_BEHIND);
   };
   EXPECT_EQ(active(), 2);  // 2 px: no more than the next tile
   coc[40] = -2560;         // in the third tile, 22 px in front of the rest

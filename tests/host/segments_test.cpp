@@ -42,8 +42,7 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
   for (const Range range :
        {Range{-900, 2000}, Range{0, 0}, Range{-70000, -300}, Range{-(1 << 30), 1 << 30}}) {
     const RadiusBins bins(range.least, range.largest, 40);
-    const auto table = SegmentTable::of(cells, bins, 40, 23, plenty);
-    ASSERT_TRUE(table);
+    const SegmentTable table(cells, 0, bins, 40, 23, plenty);
     std::uniform_int_distribution<std::int32_t> any(range.least, range.largest);
     std::uniform_int_distribution<std::int32_t> near(std::max(range.least, -20000),
                                                      std::min(range.largest, 20000));
@@ -52,7 +51,7 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
       const std::int32_t radius = i % 2 ? any(random) : near.min() <= near.max() ? near(random) : 0;
       const int dx = landing(radius, cells.centres[cell][0]);
       const int dy = landing(radius, cells.centres[cell][1]);
-      const Segment* s = find(*table, cell, radius);
+      const Segment* s = find(table, cell, radius);
       const bool stays = std::abs(dx) < 40 && std::abs(dy) < 23;
       ASSERT_EQ(s != nullptr, stays) << radius << " of cell " << cell;
       if (s) EXPECT_EQ((std::array{(*s)[0], (*s)[1]}), (std::array{dx, dy})) << radius;
@@ -63,7 +62,7 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
 TEST(Segments, AscendWithoutGapsAndBeginWhereTheirBinDoes) {
   const LensCells cells = make_lens_samples(Aperture{}, 21);
   const RadiusBins bins(-3000, 5000, 1000);
-  const auto table = *SegmentTable::of(cells, bins, 1000, 1000, plenty);
+  const SegmentTable table(cells, 0, bins, 1000, 1000, plenty);
   for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
     const std::int32_t* first = &table.first[cell * (DEFRAY_RAY_BINS + 1)];
     EXPECT_EQ(table.segments[static_cast<std::size_t>(first[0])][2], -3000);
@@ -80,13 +79,25 @@ TEST(Segments, AscendWithoutGapsAndBeginWhereTheirBinDoes) {
   }
 }
 
-TEST(Segments, NoneWhereTheyTakeMoreThanAllowed) {
+TEST(Segments, ComeInPassesOfNoMoreThanAllowed) {
   const LensCells cells = make_lens_samples(Aperture{}, 21);
   const RadiusBins bins(-3000, 5000, 1000);
-  const auto table = *SegmentTable::of(cells, bins, 1000, 1000, plenty);
-  const std::size_t bytes = table.segments.size() * sizeof(Segment);
-  EXPECT_TRUE(SegmentTable::of(cells, bins, 1000, 1000, bytes));
-  EXPECT_FALSE(SegmentTable::of(cells, bins, 1000, 1000, bytes - 1));
+  const SegmentTable all(cells, 0, bins, 1000, 1000, plenty);
+  EXPECT_EQ(all.cell_count(), 21);
+  for (const std::size_t most : {std::size_t{1}, std::size_t{150}, all.segments.size() - 1}) {
+    std::vector<Segment> together;
+    int passes = 0;
+    for (int cell = 0; cell < 21; ++passes) {
+      const SegmentTable table(cells, cell, bins, 1000, 1000, most);
+      ASSERT_GE(table.cell_count(), 1);
+      if (table.cell_count() > 1) EXPECT_LE(table.segments.size(), most);
+      EXPECT_EQ(static_cast<std::size_t>(table.first.back()), table.segments.size());
+      together.insert(together.end(), table.segments.begin(), table.segments.end());
+      cell += table.cell_count();
+    }
+    EXPECT_EQ(together, all.segments);
+    EXPECT_GT(passes, 1);
+  }
 }
 
 TEST(RadiusBins, HoldAllRadiiOfAFrameOnce) {

@@ -87,6 +87,19 @@ TEST(RdbGather, KeepsToTheRim) {
                "rim");
 }
 
+TEST(RdbGather, GivesTheSameBitsInPassesOfFewCells) {
+  const Frame f = random_frame({61, 43}, 9, 5);
+  RayPlan plan = plan_of(37, true);
+  const RayResult expected = rays(device(), f, plan, RaysBy::gather);
+  DeviceInfo short_of_breath = device_under_test();
+  for (const std::size_t most : {1, 2000, 9000}) {
+    short_of_breath.most_segments = most;
+    Session s(short_of_breath);
+    DeviceStages stages(s);
+    expect_equal(rays(stages, f, plan, RaysBy::gather), expected, fmt::format("{}", most));
+  }
+}
+
 /// A frame of which only the middle is asked for, as after `border`.
 TEST(RdbGather, KnowsTheMiddleOfAFrameWithAMargin) {
   Frame f = random_frame({90, 71}, 7, 10);

@@ -156,7 +156,9 @@ class Worker:
         made = f"{self.folder}/bin/{program}"
         # First: of what is inline the linker takes the first that it meets.
         command = re.sub(r" -o bin/\S+", f" -o {made}", self.build.link[program])
-        command = re.sub(r"(\S*/clang\+\+) ", r"\1 " + " ".join(self.objects) + " ", command, count=1)
+        has_cli = "libdefray_cli" in command
+        objects = [o for o in self.objects if has_cli or not os.path.basename(o).startswith("cli_")]
+        command = re.sub(r"(\S*/clang\+\+) ", r"\1 " + " ".join(objects) + " ", command, count=1)
         code, said = self.run(command, COMPILE_SECONDS)
         if code != 0:
             raise RuntimeError(f"{program} does not link:\n{said}")

@@ -20,7 +20,7 @@ DEFRAY_API const char* to_string(Method method);
 
 /// How rays are followed: the same picture, bit for bit.
 enum class RaysBy {
-  gather,   ///< From where they end. Jitter, and lenses with more segments than fit, go by scatter.
+  gather,   ///< From where they end; jitter goes by scatter.
   scatter,  ///< From where they begin, as the paper does.
 };
 
