@@ -77,12 +77,13 @@ TEST(KernelCache, UnwritableFallsBackToAPrivateOne) {
 TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  // They fight over the program, which all methods share: the one with the fewest kernels will do.
   const int rounds = takes_long_tests() ? 4 : 1, processes = takes_long_tests() ? 6 : 3;
   for (int round = 0; round < rounds; ++round) {
     const std::string cache = folder / ("cache" + std::to_string(round));
     std::string command = "export POCL_CACHE_DIR='" + cache + "'; pids=; ";
     for (int i = 0; i < processes; ++i) {
-      command += program() + " render in.exr -q -o out" + std::to_string(i) + ".exr" + lens +
+      command += program() + " render in.exr -q --method linear -o out" + std::to_string(i) + ".exr" + lens +
                  "& pids=\"$pids $!\"; ";
     }
     command += "bad=0; for p in $pids; do wait $p || bad=1; done; exit $bad";

@@ -95,6 +95,7 @@ def launchers(kernel_file):
 class Run:
     def __init__(self, arguments):
         self.build = trial.Build(PROJECT, BUILD)
+        self.budget = arguments.budget
         self.reached = reached.Reached(PROJECT, BUILD)
         self.known = equivalents()
         places = all_mutants(arguments.folder, self.build)
@@ -133,7 +134,7 @@ class Run:
             near, far = self.reached.of_line(mutant.path, mutant.line(source))
             if mutant.path.endswith(".h"):
                 far = far.union(*(self.reached.by_path[f] for f in self.build.sources_of(mutant.path)))
-        return trial.try_mutant(worker, mutant.path, mutant.apply(source), near, far, self.reached.tests, kernels)
+        return trial.try_mutant(worker, mutant.path, mutant.apply(source), near, far, self.reached.tests, kernels, self.budget)
 
     def note(self, mutant, outcome, seconds, is_new):
         before, after = changed_lines(mutant)
@@ -217,6 +218,7 @@ def main():
     parser.add_argument("--only", help="this one alone, as an earlier run names it")
     parser.add_argument("--fresh", action="store_true", help="try again what an earlier run of the same seed has tried")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at once (all cores)")
+    parser.add_argument("--budget", type=float, default=trial.BUDGET, help="share of a mutant's tests to try, by time (1/3)")
     parser.add_argument("--least", type=float, default=100, help="exit with 1 below this score, per cent (100)")
     arguments = parser.parse_args()
     run = Run(arguments)

@@ -192,9 +192,9 @@ def longest_quick(tests):
     return longest
 
 
-def chosen_tests(near, far, tests):
+def chosen_tests(near, far, tests, budget):
     """Groups of tests, one process each: quick ones and near ones first, no longer than the budget."""
-    left, groups = BUDGET * sum(test.seconds for test in tests), []
+    left, groups = budget * sum(test.seconds for test in tests), []
     longest = longest_quick(tests)
     for indices, quick in [(near, True), (near, False), (far - near, True), (far - near, False)]:
         chosen = {}
@@ -206,7 +206,7 @@ def chosen_tests(near, far, tests):
     return groups
 
 
-def try_mutant(worker, path, text, near, far, tests, kernels):
+def try_mutant(worker, path, text, near, far, tests, kernels, budget=BUDGET):
     """"killed by …", "timed out in …", "survived N tests" or "does not compile"."""
     if not worker.compile(path, text):
         return "does not compile"
@@ -225,7 +225,7 @@ def try_mutant(worker, path, text, near, far, tests, kernels):
         if code != 0:
             return "timed out in validate" if code is None else "killed by validate"
     count = 0
-    for name, indices in chosen_tests(near, far, tests):
+    for name, indices in chosen_tests(near, far, tests, budget):
         if name == "command_tests":
             program("defray")
         usual = sum(tests[i].seconds for i in indices)

@@ -22,7 +22,7 @@ struct DeviceProperties {
   std::size_t global_memory_bytes = 0;
   std::size_t local_memory_bytes = 0;
   std::size_t max_buffer_bytes = 0;
-  bool has_int64_atomics = false;  ///< Packed z-test; without it the scatter runs twice.
+  bool has_int64_atomics = false;  ///< Without them the scatter runs twice.
   bool has_double = false;
   bool rounds_divisions = false;    ///< x / y and sqrt(x) can be correctly rounded, if asked for.
   bool keeps_denormals = false;     ///< Otherwise floats below 2^-126 may count as 0.
