@@ -1,5 +1,6 @@
 #include "opencl/program.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -17,10 +18,11 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
 }
 
 /// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails
-/// with an empty log, and a new program succeeds. A real compile error has a log: no second try.
+/// with an empty log, and a new program succeeds, on a busy machine seconds later (of 48 processes
+/// on 2 cores one found 1.4 s too short). A real compile error has a log: no second try.
 cl::Program compiled(const cl::Context& context, const DeviceInfo& info, const std::string& source,
                      const std::string& options) {
-  constexpr int attempts = 8;
+  constexpr int attempts = 16;
   for (int attempt = 1;; ++attempt) {
     cl::Program program(context, source);
     try {
@@ -33,7 +35,7 @@ cl::Program compiled(const cl::Context& context, const DeviceInfo& info, const s
         fail(ErrorKind::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
              opencl_error_name(error.err()), options, log);
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(50 * attempt));
+      std::this_thread::sleep_for(std::chrono::milliseconds(std::min(50 * attempt, 500)));
     }
   }
 }

@@ -83,8 +83,8 @@ TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {
     const std::string cache = folder / ("cache" + std::to_string(round));
     std::string command = "export POCL_CACHE_DIR='" + cache + "'; pids=; ";
     for (int i = 0; i < processes; ++i) {
-      command += program() + " render in.exr -q --method linear -o out" + std::to_string(i) + ".exr" + lens +
-                 "& pids=\"$pids $!\"; ";
+      command += program() + " render in.exr -q --method linear -o out" + std::to_string(i) +
+                 ".exr" + lens + "& pids=\"$pids $!\"; ";
     }
     command += "bad=0; for p in $pids; do wait $p || bad=1; done; exit $bad";
     const Result result = shell(folder, "(" + command + ")");
