@@ -78,6 +78,20 @@ TEST(RdbGather, GivesTheSameBitsForEveryWorkGroup) {
   }
 }
 
+/// The rest of a picture may be of one colour: what differs in one channel is a mean.
+TEST(RdbGather, SeesWhatDiffersInOneChannelAlone) {
+  const Size size{61, 43};
+  for (std::size_t varying = 0; varying < 4; ++varying) {
+    std::vector<Plane> channels(4, Plane(size.width * size.height, 0.3f));
+    channels[varying] = random_plane(size, 8);
+    const Frame f{size.width, size.height, random_coc(size, 5, 6), random_depth(size, 7), channels};
+    const RayPlan plan = plan_of(13);
+    expect_equal(rays(device(), f, plan, RaysBy::gather), rays(device(), f, plan, RaysBy::scatter),
+                 fmt::format("channel {}", varying));
+    EXPECT_NE(rays(device(), f, plan, RaysBy::gather).means[varying], channels[varying]);
+  }
+}
+
 TEST(RdbGather, KeepsToTheRim) {
   const Frame f = random_frame({61, 43}, 9, 7);
   RayPlan plan = plan_of(37);
