@@ -27,31 +27,17 @@
 #include "rdb_gather_any.clh"
 #include "strip.clh"
 
-#define EACH_ROW_UNROLLED _Pragma("unroll") for (int j = 0; j < ROWS; ++j)
-
-// One whole surface a pixel, all of it seen, no rim, nobody asks for winners. The sums stay in
-// registers: nothing here may be indexed but by unrolled loops. Inlined for three and for four
-// channels: a quarter less to load and add.
+// One whole surface a pixel, all of it seen, no rim, nobody asks for winners. Inlined for three and
+// for four channels: a quarter less to load and add.
 __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const Rays* r,
                                                  const Runs* runs, const bool has_fourth,
                                                  Strip* s) {
   const size_t stride = p.stride;
-  float16 total0[ROWS], total1[ROWS], total2[ROWS], total3[ROWS];
-  int16 differs[ROWS], count[ROWS], inside[ROWS];
-  EACH_ROW_UNROLLED {
-    total0[j] = s->total0[j];
-    total1[j] = s->total1[j];
-    total2[j] = s->total2[j];
-    total3[j] = s->total3[j];
-    differs[j] = s->differs[j];
-    inside[j] = s->inside[j];
-    count[j] = 0;
-  }
   for (uint k = 0; k < p.cell_count; ++k) {
     __global const int* first = r->first + k * (DEFRAY_RAY_BINS + 1);
     const int end_of_cell = first[DEFRAY_RAY_BINS];
     int16 open[ROWS];
-    EACH_ROW_UNROLLED open[j] = inside[j];
+    EACH_ROW open[j] = s->inside[j];
     bool is_open = true;
     int at = 0;
     for (int i = 0; i < runs->count && is_open; ++i) {
@@ -61,43 +47,24 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
         size_t from;
         if (!sources_of(p, s, segment, &from)) continue;
         int16 hit[ROWS], some = 0;
-        EACH_ROW_UNROLLED {
+        EACH_ROW {
           const int16 key = vload16(0, r->keys + from + j * stride);
           hit[j] = open[j] & (as_uint16(key - segment.z) <= (uint16)(uint)segment.w);
           some |= hit[j];
         }
         if (!any_of(some)) continue;
         int16 left = 0;
-        EACH_ROW_UNROLLED {
-          const size_t source = from + j * stride, own = s->own + j * stride;
-          const int16 c0 = bits_at(r->channel0, source), c1 = bits_at(r->channel1, source);
-          const int16 c2 = bits_at(r->channel2, source);
-          total0[j] += as_float16(c0 & hit[j]);
-          total1[j] += as_float16(c1 & hit[j]);
-          total2[j] += as_float16(c2 & hit[j]);
-          int16 other = differing(r, own, c0, c1, c2);
-          if (has_fourth) {
-            const int16 c3 = bits_at(r->channel3, source);
-            total3[j] += as_float16(c3 & hit[j]);
-            other |= c3 ^ bits_at(r->channel3, own);
-          }
-          differs[j] |= other & hit[j];
-          count[j] -= hit[j];
+        EACH_ROW {
+          const size_t source = from + j * stride;
+          add(s, r, has_fourth, j, hit[j], bits_at(r->channel0, source),
+              bits_at(r->channel1, source), bits_at(r->channel2, source),
+              has_fourth ? bits_at(r->channel3, source) : (int16)(0), s->own + j * stride);
           open[j] &= ~hit[j];
           left |= open[j];
         }
         is_open = any_of(left);
       }
     }
-  }
-  EACH_ROW_UNROLLED {
-    s->total0[j] = total0[j];
-    s->total1[j] = total1[j];
-    s->total2[j] = total2[j];
-    s->total3[j] = total3[j];
-    s->differs[j] = differs[j];
-    s->count[j] += count[j];
-    s->seen[j] += count[j];
   }
 }
 
@@ -148,11 +115,13 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
   if (is_special != 0ul || p.has_rim || wants_winners) {
     gather_any(p, &r, &runs, &s, lens, rim_x, rim_y, wants_winners, winner);
   } else if (is_blurred != 0ul) {
+    EACH_ROW s.seen[j] -= s.count[j];  // what this pass counts was seen
     if (p.channels > 3u) {
       gather_plain(p, &r, &runs, true, &s);
     } else {
       gather_plain(p, &r, &runs, false, &s);
     }
+    EACH_ROW s.seen[j] += s.count[j];
   } else {
     keep(p, &r, &s);
   }
