@@ -98,7 +98,7 @@ add_shards(rest_of_command 1 120 full ${preset_run} rest $<TARGET_FILE:command_t
 # Ten mutants: that they are still tried and found; a change of a file draws others. What each test
 # reaches the sanitized ones noted.
 add_check(mutants 100 full python3 ${here}/mutation/mutate.py --count 10 --seed 7 --jobs 1 --fresh
-          --budget 0.1 --least 60)
+          --least 60)
 set_tests_properties(
   mutants
   PROPERTIES DEPENDS
