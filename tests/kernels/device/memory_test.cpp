@@ -1,11 +1,11 @@
 // `--memory` is kept: what the launch table says of bands is what they take.
 #include <algorithm>
 
+#include "kernels/stages/stages_support.h"
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb.h"
 #include "rdb/rdb_plan.h"
-#include "stages_support.h"
 
 namespace defray::test {
 namespace {
