@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct CompareOptions {
   std::string a, b;
   std::optional<double> min_psnr, min_ssim, max_error;
   std::string depth, depth_channel, camera, focus_setting;
@@ -37,7 +37,7 @@ struct BandErrors {
   Errors inside, outside;
 };
 
-void validate(const Options& o) {
+void validate(const CompareOptions& o) {
   const auto refuse_nan = [](const char* name, const std::optional<double>& value) {
     if (value && std::isnan(*value)) fail(ErrorKind::usage, "{} is not a number", name);
   };
@@ -57,7 +57,7 @@ void validate(const Options& o) {
 }
 
 /// The edge band of the pinhole frame that `picture` was rendered from.
-std::vector<std::uint8_t> read_band(const Options& o, const Picture& picture) {
+std::vector<std::uint8_t> read_band(const CompareOptions& o, const Picture& picture) {
   const ImageFile file = ImageFile::read(o.depth, Content::data);
   const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
@@ -120,12 +120,12 @@ void print_text(const Comparison& c, const std::optional<BandErrors>& band) {
 }
 
 /// A NaN is never good enough.
-bool misses_a_bound(const Options& o, const Comparison& c) {
+bool misses_a_bound(const CompareOptions& o, const Comparison& c) {
   return (o.min_psnr && !(c.psnr_srgb_db >= *o.min_psnr)) ||
          (o.min_ssim && !(c.ssim >= *o.min_ssim)) || (o.max_error && !(c.worst <= *o.max_error));
 }
 
-int run(const Options& o) {
+int run(const CompareOptions& o) {
   validate(o);
   Picture a = read_picture(o.a), b = read_picture(o.b);
   require_same_size(a, b);
@@ -156,7 +156,7 @@ int run(const Options& o) {
 Run add_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "compare", "Compare two pictures: PSNR, SSIM, worst pixel, errors near depth edges");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<CompareOptions>();
   command->add_option("a", o->a, "Picture")->required();
   command->add_option("b", o->b, "Picture of the same size, for instance the truth")->required();
   command->add_option("--min-psnr", o->min_psnr, "Exit with 1 below this PSNR, dB, sRGB-encoded");

@@ -17,7 +17,7 @@
 namespace defray::cli {
 namespace {
 
-struct Options {
+struct PsfOptions {
   double depth = 0;
   CameraValues camera;
   std::string camera_file, focus_setting;
@@ -27,7 +27,7 @@ struct Options {
   bool log = false, json = false;
 };
 
-void check_outputs(const Options& o) {
+void check_outputs(const PsfOptions& o) {
   if (!o.output.empty()) {
     if (!is_ldr_path(o.output)) fail(ErrorKind::usage, "{}: a chart is PNG or JPEG", o.output);
     check_can_write(o.output);
@@ -42,7 +42,7 @@ void check_outputs(const Options& o) {
   }
 }
 
-Lens lens_of(const Options& o) {
+Lens lens_of(const PsfOptions& o) {
   CameraValues values = o.camera;
   if (!o.camera_file.empty()) {
     values = read_camera_json(o.camera_file, o.focus_setting, 1).overridden_by(values);
@@ -79,7 +79,7 @@ void print_text(const PsfReport& r) {
       r.diffraction_matters ? "matters" : "does not matter");
 }
 
-int run(const Options& o) {
+int run(const PsfOptions& o) {
   const Lens lens = lens_of(o);
   check_outputs(o);
   const PsfReport report = [&] {
@@ -97,7 +97,7 @@ int run(const Options& o) {
   return 0;
 }
 
-std::vector<OptionGroup> psf_options(Options& o) {
+std::vector<OptionGroup> psf_options(PsfOptions& o) {
   const Needs chart{[](const Given& given) { return given("--output"); }, "requires --output"};
   OptionGroup lens{"Lens", lens_rows(o.camera, "m")};
   for (OptionRow& row : camera_rows(o.camera_file, o.focus_setting, "")) {
@@ -125,7 +125,7 @@ std::vector<OptionGroup> psf_options(Options& o) {
 Run add_psf(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "psf", "Compare the geometric PSF, which render uses, with the diffraction PSF");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PsfOptions>();
   const OptionTable options(*command, psf_options(*o));
   command->footer(
       "Diffraction: Fresnel integral over the circular aperture (Shinya 1994, eq. 4), each\n"

@@ -24,7 +24,7 @@ constexpr const char* about = R"(defray: depth of field for pinhole renders with
 It turns a picture with depth into the picture a real lens takes, and can say how far from the
 truth a fast setting is.)";
 
-constexpr const char* footer = R"(Examples:
+constexpr const char* examples = R"(Examples:
   defray render beauty.exr -o out.exr --focus 3 --fstop 2.8 --focal-length 50
   defray render 'shot.####.exr' -o 'out/shot.####.exr' --frames 1-8 --camera camera.json
   defray devices
@@ -105,7 +105,7 @@ void refuse_empty_values(const CLI::App& command) {
 
 int run_command(int argc, char** argv) {
   CLI::App app{about, "defray"};
-  app.footer(footer);
+  app.footer(examples);
   app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;

@@ -17,7 +17,7 @@
 namespace defray::cli {
 namespace {
 
-struct Options {
+struct SceneOptions {
   std::string name, folder, setting, frames;
   int width = 640, height = 480, truth_samples = 256;
   PinholeSampling pinhole{16, false};  ///< Anti-aliased, as productions have it.
@@ -32,7 +32,7 @@ using Noise = std::map<std::string, Comparison>;
 using FrameNumber = std::optional<int>;
 
 /// "truth" -> "FOLDER/truth.exr", or "FOLDER/truth.0007.exr".
-std::string path_of(const Options& o, const std::string& name, FrameNumber frame) {
+std::string path_of(const SceneOptions& o, const std::string& name, FrameNumber frame) {
   if (!frame) return o.folder + "/" + name + ".exr";
   return frame_path(o.folder + "/" + name + ".####.exr", *frame);
 }
@@ -45,7 +45,7 @@ void write_planes(const std::string& path, const std::vector<std::string>& chann
   fmt::print("{}\n", path);
 }
 
-void write_picture(const Options& o, const std::string& path, ScenePicture picture,
+void write_picture(const SceneOptions& o, const std::string& path, ScenePicture picture,
                    const Scene& scene) {
   std::vector<std::string> channels{"R", "G", "B"};
   std::vector<Plane> planes = std::move(picture.colour);
@@ -58,7 +58,7 @@ void write_picture(const Options& o, const std::string& path, ScenePicture pictu
   write_planes(path, channels, planes, scene);
 }
 
-void write_truth(const Options& o, const std::string& path, const Truth& truth,
+void write_truth(const SceneOptions& o, const std::string& path, const Truth& truth,
                  const Scene& scene) {
   std::vector<std::string> channels{"R", "G", "B"};
   std::vector<Plane> planes = truth.colour;
@@ -69,7 +69,7 @@ void write_truth(const Options& o, const std::string& path, const Truth& truth,
   write_planes(path, channels, planes, scene);
 }
 
-void report_noise(const Options& o, const Truth& truth) {
+void report_noise(const SceneOptions& o, const Truth& truth) {
   fmt::print(
       "  its halves are {:.2f} dB apart sRGB-encoded, {:.2f} dB linear; their mean is about "
       "6 dB better\n",
@@ -81,8 +81,8 @@ void report_noise(const Options& o, const Truth& truth) {
 }
 
 /// Writes the truth of each setting asked for.
-void write_truths(const Options& o, const Scene& scene, const std::vector<FocusSetting>& settings,
-                  FrameNumber frame, Noise& noise) {
+void write_truths(const SceneOptions& o, const Scene& scene,
+                  const std::vector<FocusSetting>& settings, FrameNumber frame, Noise& noise) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     ProgressBar bar(settings.size(), "truths", true);
     const Truth truth = render_truth(scene, lens_of(scene, settings[i]), o.truth_samples, o.seed,
@@ -100,25 +100,25 @@ void write_truths(const Options& o, const Scene& scene, const std::vector<FocusS
   }
 }
 
-Scene scene_of(const Options& o, FrameNumber frame) {
+Scene scene_of(const SceneOptions& o, FrameNumber frame) {
   Scene scene = make_scene(o.name, o.width, o.height, frame.value_or(1));
   if (o.alpha) scene.background = {};
   return scene;
 }
 
-std::vector<FocusSetting> settings_of(const Options& o, const Scene& scene) {
+std::vector<FocusSetting> settings_of(const SceneOptions& o, const Scene& scene) {
   if (o.setting.empty()) return scene.settings;
   return {find_setting(scene, o.setting)};
 }
 
-void write_frame(const Options& o, FrameNumber frame, Noise& noise) {
+void write_frame(const SceneOptions& o, FrameNumber frame, Noise& noise) {
   const Scene scene = scene_of(o, frame);
   write_picture(o, path_of(o, "pinhole", frame), render_pinhole(scene, o.pinhole), scene);
   if (o.hidden) write_picture(o, path_of(o, "hidden", frame), render_hidden(scene), scene);
   write_truths(o, scene, settings_of(o, scene), frame, noise);
 }
 
-std::vector<FrameNumber> frames_of(const Options& o) {
+std::vector<FrameNumber> frames_of(const SceneOptions& o) {
   if (o.frames.empty()) return {std::nullopt};
   if (scene_info(o.name).frames == 1) {
     fail(ErrorKind::usage, "--frames: scene '{}' does not move", o.name);
@@ -129,7 +129,7 @@ std::vector<FrameNumber> frames_of(const Options& o) {
 }
 
 /// Throws Error(usage) before anything is written.
-void check(const Options& o, const std::vector<FrameNumber>& frames) {
+void check(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
   check_samples("truth_samples", o.truth_samples);
   check_samples("pinhole_samples", o.pinhole.samples);
   if (o.pinhole.averages_depth && o.pinhole.samples == 1) {
@@ -139,7 +139,7 @@ void check(const Options& o, const std::vector<FrameNumber>& frames) {
   for (const FrameNumber frame : frames) settings_of(o, scene_of(o, frame));
 }
 
-int run(const Options& o) {
+int run(const SceneOptions& o) {
   const std::vector<FrameNumber> frames = frames_of(o);
   check(o, frames);
   std::error_code error;
@@ -169,7 +169,7 @@ Run add_scene(CLI::App& app) {
       "scene",
       "Write a built-in scene: pinhole.exr (R G B Z), the truth through a real lens for each focus "
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<SceneOptions>();
   command->add_option("name", o->name, "One of the scenes below")->required();
   command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
   command->add_option("--width", o->width, "Pixels");

@@ -9,12 +9,12 @@
 namespace defray::cli {
 namespace {
 
-struct Options {
+struct SheetOptions {
   std::vector<std::string> pictures, captions;
   std::string output;
 };
 
-int run(const Options& o) {
+int run(const SheetOptions& o) {
   if (!o.captions.empty() && o.captions.size() != o.pictures.size()) {
     fail(ErrorKind::usage, "--captions names {} pictures, there are {}", o.captions.size(),
          o.pictures.size());
@@ -38,7 +38,7 @@ int run(const Options& o) {
 
 Run add_sheet(CLI::App& app) {
   CLI::App* command = app.add_subcommand("sheet", "Put pictures of one size side by side");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<SheetOptions>();
   command->add_option("pictures", o->pictures, "Pictures, left to right")->required();
   command->add_option("-o,--output", o->output, "PNG or JPEG")->required();
   command->add_option("--captions", o->captions, "A caption for each picture, comma-separated")

@@ -8,7 +8,7 @@
 namespace defray::perf {
 namespace {
 
-struct Place {
+struct Marked {
   std::string name;
   std::size_t begin, end;  ///< What stands between the markers' lines.
 };
@@ -32,9 +32,9 @@ std::vector<Marker> markers_of(const std::string& text) {
   return markers;
 }
 
-std::vector<Place> places_of(const std::string& text, const std::string& path) {
+std::vector<Marked> places_of(const std::string& text, const std::string& path) {
   const std::vector<Marker> markers = markers_of(text);
-  std::vector<Place> places;
+  std::vector<Marked> places;
   for (std::size_t i = 0; i < markers.size(); i += 2) {
     const Marker& m = markers[i];
     const bool has_end =
@@ -43,7 +43,7 @@ std::vector<Place> places_of(const std::string& text, const std::string& path) {
       fail(ErrorKind::input, "{}: marker '<!-- {}:{} -->' has no {}", path, m.name,
            m.is_begin ? "begin" : "end", m.is_begin ? "end that follows" : "begin before it");
     }
-    for (const Place& other : places) {
+    for (const Marked& other : places) {
       if (other.name == m.name) {
         fail(ErrorKind::input, "{}: markers of '{}' stand there twice", path, m.name);
       }
@@ -57,13 +57,13 @@ std::vector<Place> places_of(const std::string& text, const std::string& path) {
 
 std::vector<std::string> marked_names(const std::string& text, const std::string& path) {
   std::vector<std::string> names;
-  for (const Place& place : places_of(text, path)) names.push_back(place.name);
+  for (const Marked& place : places_of(text, path)) names.push_back(place.name);
   return names;
 }
 
 std::string with_marked(const std::string& text, const std::string& path, const std::string& name,
                         const std::string& content) {
-  for (const Place& place : places_of(text, path)) {
+  for (const Marked& place : places_of(text, path)) {
     if (place.name != name) continue;
     return text.substr(0, place.begin) + content + text.substr(place.end);
   }

@@ -21,7 +21,7 @@
 namespace defray::perf {
 namespace {
 
-struct Options {
+struct ReportOptions {
   std::string file, scenes, device;
   std::vector<std::string> tables;
   bool is_quick = false;
@@ -51,7 +51,7 @@ std::string read_text(const std::string& path) {
 }
 
 /// The tables to measure. Throws Error(usage, input) on names that are not there.
-std::vector<std::string> chosen_tables(const Options& o) {
+std::vector<std::string> chosen_tables(const ReportOptions& o) {
   for (const std::string& name : o.tables) check_known(name, ErrorKind::usage, "");
   const std::vector<std::string> marked = marked_names(read_text(o.file), o.file);
   for (const std::string& name : marked) check_known(name, ErrorKind::input, o.file + ": ");
@@ -68,7 +68,7 @@ std::vector<std::string> chosen_tables(const Options& o) {
   return o.tables.empty() ? marked : o.tables;
 }
 
-int run(const Options& o) {
+int run(const ReportOptions& o) {
   const std::vector<std::string> names = chosen_tables(o);
   if (!o.scenes.empty() && !std::filesystem::is_directory(o.scenes)) {
     fail(ErrorKind::input, "{}: no such folder", o.scenes);
@@ -97,7 +97,7 @@ int run(const Options& o) {
   return 0;
 }
 
-std::string about() {
+std::string about_report() {
   std::string text = "Tables:\n";
   for (const auto& [name, table] : readme_tables()) {
     text += fmt::format("  {:11} {}\n", name, table.about);
@@ -110,7 +110,7 @@ std::string about() {
 std::function<int()> add_report(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "report", "Measure tables of figures and write them into a README, between their markers");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReportOptions>();
   command
       ->add_option("--update", o->file,
                    "File with markers, <!-- NAME:begin --> and <!-- NAME:end --> on their lines")
@@ -124,7 +124,7 @@ std::function<int()> add_report(CLI::App& app) {
                       "camera.json");
   command->add_option("--device", o->device, "Index or part of the name of 'defray devices'");
   command->add_flag("--quick", o->is_quick, "A quarter of the size, few repetitions: a rehearsal");
-  command->footer(about());
+  command->footer(about_report());
   return [o] { return run(*o); };
 }
 

@@ -11,7 +11,7 @@
 namespace defray::perf {
 namespace {
 
-struct Place {
+struct MeasuredPlace {
   std::string name;
   Subject subject;
   std::vector<Plane> truth;
@@ -36,11 +36,11 @@ std::vector<Row> rows(bool is_quick) {
   return all;
 }
 
-Table table_of(const Bench& bench, const std::vector<Place>& places, int repetitions) {
+Table table_of(const Bench& bench, const std::vector<MeasuredPlace>& places, int repetitions) {
   const std::vector<Row> all = rows(bench.is_quick);
   Table table{"", "", {"method"}, {{"pinhole"}}};
   for (const Row& row : all) table.rows.push_back({row.name});
-  for (const Place& place : places) {
+  for (const MeasuredPlace& place : places) {
     const auto psnr = [&](const std::vector<Plane>& picture) {
       return compare(picture, place.truth, place.subject.scene.width).psnr_srgb_db;
     };
@@ -59,7 +59,7 @@ Table table_of(const Bench& bench, const std::vector<Place>& places, int repetit
 }
 
 /// As 'defray scene plate1 --truth-samples 1024' writes it.
-Place plate1_place(const Bench& bench) {
+MeasuredPlace plate1_place(const Bench& bench) {
   bench.step("plate1: truth");
   Subject s =
       make_subject(bench.stages, make_scene("plate1", bench.size(640), bench.size(480)), "default");
@@ -76,8 +76,8 @@ std::vector<Plane> read_colour(const ImageFile& file) {
 }
 
 /// One focus setting of a scene in a folder.
-Place read_place(const Bench& bench, const std::filesystem::path& folder,
-                 const std::string& setting) {
+MeasuredPlace read_place(const Bench& bench, const std::filesystem::path& folder,
+                         const std::string& setting) {
   const std::string path = folder / "pinhole.exr";
   const ImageFile file = ImageFile::read(path);
   const ChannelName depth = choose_depth(path, file.parts(), {}, {});
@@ -97,7 +97,7 @@ Place read_place(const Bench& bench, const std::filesystem::path& folder,
 }
 
 /// Every focus setting of every scene of a folder that has a truth, in order of their names.
-std::vector<Place> read_places(const Bench& bench, const std::string& scenes) {
+std::vector<MeasuredPlace> read_places(const Bench& bench, const std::string& scenes) {
   std::vector<std::filesystem::path> truths;
   for (const auto& scene : std::filesystem::directory_iterator(scenes)) {
     if (!scene.is_directory()) continue;
@@ -106,7 +106,7 @@ std::vector<Place> read_places(const Bench& bench, const std::string& scenes) {
     }
   }
   std::sort(truths.begin(), truths.end());
-  std::vector<Place> places;
+  std::vector<MeasuredPlace> places;
   for (const auto& truth : truths) {
     const std::string setting = truth.stem().string().substr(std::string("truth_").size());
     places.push_back(read_place(bench, truth.parent_path(), setting));
@@ -117,17 +117,18 @@ std::vector<Place> read_places(const Bench& bench, const std::string& scenes) {
 }  // namespace
 
 Figures measure_accuracy(TableBench& b) {
-  std::vector<Place> places;
+  std::vector<MeasuredPlace> places;
   places.push_back(plate1_place(b.bench()));
   if (!b.scenes().empty()) {
-    for (Place& place : read_places(b.bench(), b.scenes())) places.push_back(std::move(place));
+    for (MeasuredPlace& place : read_places(b.bench(), b.scenes()))
+      places.push_back(std::move(place));
   }
   return {table_of(b.bench(), places, 1), {}};
 }
 
 Figures measure_methods(TableBench& b) {
   const Bench& bench = b.bench();
-  std::vector<Place> places;
+  std::vector<MeasuredPlace> places;
   for (const auto& [scene, setting] :
        {std::pair{"fence", "bg"}, {"spheres", "f5"}, {"blocks-forest", "miniature"}}) {
     bench.step(fmt::format("{}: truth", scene));

@@ -38,11 +38,11 @@ std::vector<Candidate> candidates(bool is_quick) {
   return all;
 }
 
-struct Place {
+struct TradePlace {
   std::string scene, setting;
 };
 
-void add_scene(const Bench& bench, const Place& place, Section& section) {
+void add_scene(const Bench& bench, const TradePlace& place, Section& section) {
   const int width = bench.size(640), height = bench.size(400), samples = bench.is_quick ? 16 : 256;
   bench.step(place.scene + ": truth");
   const Subject s =
@@ -97,8 +97,8 @@ Section tradeoff(const Bench& bench) {
       {},
       {},
       {}};
-  for (const Place& place :
-       {Place{"fence", "bg"}, Place{"spheres", "f5"}, Place{"blocks-forest", "miniature"}}) {
+  for (const TradePlace& place : {TradePlace{"fence", "bg"}, TradePlace{"spheres", "f5"},
+                                  TradePlace{"blocks-forest", "miniature"}}) {
     add_scene(bench, place, section);
   }
   return section;

@@ -15,7 +15,7 @@ constexpr double ratio = 1.02;        ///< From one length to the next.
 constexpr int most_lengths = 512;     ///< 1.02^512: surfaces a thousand times as far as others.
 constexpr int refine_steps = 8;       ///< On each side of a minimum,
 constexpr double refine_by = 0.0025;  ///< of so much of its length.
-constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t no_length_cost = std::numeric_limits<std::uint64_t>::max();
 
 struct Sample {
   int x, y;
@@ -66,7 +66,7 @@ class ParallelSearch {
     std::uint64_t most = 0;  // of all shorter ones
     for (std::size_t i = 1; i + 1 < all.size(); ++i) {
       const std::uint64_t cost = all[i].cost;
-      if (cost == none) continue;
+      if (cost == no_length_cost) continue;
       const bool is_minimum = cost < all[i - 1].cost && cost <= all[i + 1].cost;
       if (is_minimum && cost < most / 2) best.push_back(refined(all[i]));
       most = std::max(most, cost);
@@ -118,7 +118,7 @@ class ParallelSearch {
       ++pairs;
     }
     constexpr std::uint64_t hidden = 2 * 256 / 3, least_share = 50;
-    if (pairs == 0 || pairs * least_share < known_) return none;
+    if (pairs == 0 || pairs * least_share < known_) return no_length_cost;
     return (squares << 8) / pairs + hidden * known_ / pairs;
   }
 

@@ -14,19 +14,19 @@ namespace {
 constexpr int block = 4;        ///< Side of the blocks of the coarse search, px.
 constexpr int refine_px = 3;    ///< Around a coarse minimum.
 constexpr int refine_rows = 8;  ///< One row of so many is compared.
-constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t no_shift_cost = std::numeric_limits<std::uint64_t>::max();
 
 /// Colours and CoC as the comparison reads them; `known` is 0 or -1, all bits.
-struct Picture {
-  Picture(int w, int h)
+struct SearchedPicture {
+  SearchedPicture(int w, int h)
       : width(w), height(h), r(size(w) * size(h)), g(r), b(r), known(r), coc(r.size()) {}
   int width, height;
   std::vector<std::int16_t> r, g, b, known;
   std::vector<std::int32_t> coc;
 };
 
-Picture whole_picture(const Frame& frame, const Words& pixels) {
-  Picture p(frame.width, frame.height);
+SearchedPicture whole_picture(const Frame& frame, const Words& pixels) {
+  SearchedPicture p(frame.width, frame.height);
   p.coc.assign(frame.coc_quanta.begin(), frame.coc_quanta.end());
   const auto words = pixels.host();
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -40,8 +40,8 @@ Picture whole_picture(const Frame& frame, const Words& pixels) {
 }
 
 /// Means over the known pixels of blocks that are at least half known.
-Picture block_means(const Picture& p) {
-  Picture means(p.width / block, p.height / block);
+SearchedPicture block_means(const SearchedPicture& p) {
+  SearchedPicture means(p.width / block, p.height / block);
   for (int i = 0; i < means.width * means.height; ++i) {
     const int x = i % means.width * block, y = i / means.width * block;
     std::int64_t count = 0, r = 0, g = 0, b = 0, coc = 0;
@@ -70,15 +70,16 @@ struct Agreement {
 
   /// The mean squared difference in 1/256, and what rounding to 8 bits hides of it (2/3) over the
   /// share of `all` pixels that have a partner: of shifts that agree as well as can be seen, the
-  /// one that more pixels can use is the better. `none` with fewer pairs than `least`.
+  /// one that more pixels can use is the better. `no_shift_cost` with fewer pairs than `least`.
   std::uint64_t cost(std::size_t all, std::size_t least) const {
     constexpr std::uint64_t hidden = 2 * 256 / 3;
-    return pairs == 0 || pairs < least ? none : (squares << 8) / pairs + hidden * all / pairs;
+    return pairs == 0 || pairs < least ? no_shift_cost
+                                       : (squares << 8) / pairs + hidden * all / pairs;
   }
 };
 
 /// Adds `count` pairs that begin at these indices.
-void add_pairs(const Picture& p, std::size_t at, std::size_t there, int count,
+void add_pairs(const SearchedPicture& p, std::size_t at, std::size_t there, int count,
                std::int32_t tolerance, Agreement& sum) {
   // Below 2^32 in a run: 3 x 255^2 x 16384.
   constexpr int run = 16384;
@@ -105,7 +106,8 @@ void add_pairs(const Picture& p, std::size_t at, std::size_t there, int count,
 }
 
 /// How well a picture agrees with itself shifted, over one row of `row_step`.
-Agreement agreement(const Picture& p, PatternShift s, int row_step, std::int32_t tolerance) {
+Agreement agreement(const SearchedPicture& p, PatternShift s, int row_step,
+                    std::int32_t tolerance) {
   Agreement sum;
   const int x = std::max(0, -s.x), count = p.width - std::abs(s.x);
   if (count <= 0) return sum;
@@ -131,7 +133,7 @@ void sort_candidates(std::vector<Candidate>& all) {
 /// Costs of shifts of whole blocks: y from 0, the other half plane being the same.
 class CoarseMap {
  public:
-  CoarseMap(const Picture& blocks, const PatternSettings& s)
+  CoarseMap(const SearchedPicture& blocks, const PatternSettings& s)
       : reach_x_(s.reach_x_px / block),
         reach_y_(s.reach_y_px / block),
         costs_(size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
@@ -162,12 +164,12 @@ class CoarseMap {
 
   std::uint64_t at(int x, int y) const {
     if (y < 0) return at(-x, -y);
-    return std::abs(x) > reach_x_ || y > reach_y_ ? none : costs_[index(x, y)];
+    return std::abs(x) > reach_x_ || y > reach_y_ ? no_shift_cost : costs_[index(x, y)];
   }
 
   bool is_minimum(int x, int y) const {
     const std::uint64_t here = at(x, y);
-    if (here == none) return false;
+    if (here == no_shift_cost) return false;
     for (int i = 0; i < 9; ++i) {
       if (at(x + i % 3 - 1, y + i / 3 - 1) < here) return false;
     }
@@ -179,7 +181,7 @@ class CoarseMap {
 };
 
 /// The best shift around each candidate, on pixels.
-std::vector<Candidate> refined(const Picture& picture, const std::vector<Candidate>& coarse,
+std::vector<Candidate> refined(const SearchedPicture& picture, const std::vector<Candidate>& coarse,
                                std::int32_t tolerance) {
   constexpr int side = 2 * refine_px + 1, tries = side * side;
   std::vector<Candidate> all(coarse.size() * tries);
@@ -193,7 +195,7 @@ std::vector<Candidate> refined(const Picture& picture, const std::vector<Candida
   for (auto first = all.begin(); first != all.end(); first += tries) {
     std::vector<Candidate> around(first, first + tries);
     sort_candidates(around);
-    if (around.front().cost != none) best.push_back(around.front());
+    if (around.front().cost != no_shift_cost) best.push_back(around.front());
   }
   return best;
 }
@@ -202,7 +204,7 @@ std::vector<Candidate> refined(const Picture& picture, const std::vector<Candida
 
 std::vector<PatternShift> find_pattern_shifts(const Frame& frame, const Words& pixels,
                                               const PatternSettings& settings) {
-  const Picture picture = whole_picture(frame, pixels);
+  const SearchedPicture picture = whole_picture(frame, pixels);
   std::vector<Candidate> found = CoarseMap(block_means(picture), settings).minima();
   sort_candidates(found);
   found.resize(std::min(found.size(), size(settings.shifts)));

@@ -11,7 +11,7 @@ namespace defray {
 namespace {
 
 /// Rows of a launch: enough work to fill a device, few enough for a progress bar to move.
-constexpr int rows_per_launch = 128;
+constexpr int gather_rows_per_launch = 128;
 
 /// What stays on the device from pass to pass.
 struct GatherBuffers {
@@ -28,12 +28,12 @@ std::vector<Plane> gather_once(Session& session, DefrayGatherParams p, GatherKin
   for (std::size_t c = 0; c < 4; ++c) {
     in[c] = c < channels.size() ? session.in(channels[c]) : in[c - 1];
   }
-  const std::size_t most = size(width) * size(std::min(rows_per_launch, height));
+  const std::size_t most = size(width) * size(std::min(gather_rows_per_launch, height));
   const cl::Buffer out = session.buffer(most * sizeof(cl_float4));
   std::vector<Plane> result(channels.size(), Plane(channels[0].size()));
-  for (int y = 0; y < height; y += rows_per_launch) {
+  for (int y = 0; y < height; y += gather_rows_per_launch) {
     p.band_y = word(y);
-    p.band_rows = word(std::min(rows_per_launch, height - y));
+    p.band_rows = word(std::min(gather_rows_per_launch, height - y));
     const std::size_t count = std::size_t{p.width} * p.band_rows;
     if (kind == GatherKind::literal) {
       session.launch("gather_literal", {p.width, p.band_rows}, p, shared.coc, shared.points,

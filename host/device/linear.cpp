@@ -11,7 +11,7 @@ namespace defray {
 namespace {
 
 /// Rows of a launch: few enough that a progress bar moves.
-constexpr std::uint32_t rows_per_launch = 16;
+constexpr std::uint32_t linear_rows_per_launch = 16;
 
 void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, int band_rows,
                const Plane& radius, const std::vector<Plane>& scaled, std::vector<Plane>& out,
@@ -26,8 +26,8 @@ void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, i
     in[c] = c < scaled.size() ? session.view(scaled[c]) : in[c - 1];
     result[c] = session.buffer(bytes);
   }
-  for (p.first_row = 0; p.first_row < rows; p.first_row += rows_per_launch) {
-    p.launch_rows = std::min(rows_per_launch, rows - p.first_row);
+  for (p.first_row = 0; p.first_row < rows; p.first_row += linear_rows_per_launch) {
+    p.launch_rows = std::min(linear_rows_per_launch, rows - p.first_row);
     session.launch("linear_psf", {p.target_stride / DEFRAY_LINEAR_RUN, p.launch_rows}, p, reach, r,
                    in, result);
     session.finish();

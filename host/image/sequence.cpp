@@ -20,7 +20,7 @@ constexpr std::size_t max_width = 32;
 constexpr int largest_frame = 999999999;
 
 /// The folder of a path with its last slash, or nothing: patterns belong to file names only.
-std::string folder_of(const std::string& path) {
+std::string folder_prefix(const std::string& path) {
   return path.substr(0, path.find_last_of('/') + 1);
 }
 
@@ -67,7 +67,7 @@ Pattern pattern_of(const std::string& path, const std::string& name, std::size_t
 
 /// The pattern in a path's file name. A file that exists under its literal name is that file.
 std::optional<Pattern> find_pattern(const std::string& path) {
-  const std::string name = path.substr(folder_of(path).size());
+  const std::string name = path.substr(folder_prefix(path).size());
   std::size_t count = 0, at = 0, length = 0;
   for (std::size_t i = 0; i < name.size();) {
     const std::size_t here = pattern_length(std::string_view(name).substr(i));
@@ -175,7 +175,7 @@ std::vector<int> parse_frames(const std::string& text) {
 }
 
 std::vector<int> find_frames(const std::string& pattern) {
-  const std::string folder = folder_of(pattern);
+  const std::string folder = folder_prefix(pattern);
   const std::optional<Pattern> wanted = find_pattern(pattern);
   std::vector<int> frames;
   std::error_code unreadable;
@@ -195,7 +195,7 @@ std::vector<int> find_frames(const std::string& pattern) {
 
 std::string frame_path(const std::string& pattern, int frame) {
   const std::optional<Pattern> found = find_pattern(pattern);
-  return found ? folder_of(pattern) + found->name(frame) : pattern;
+  return found ? folder_prefix(pattern) + found->name(frame) : pattern;
 }
 
 }  // namespace defray

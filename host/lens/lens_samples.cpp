@@ -11,7 +11,7 @@
 namespace defray {
 namespace {
 
-constexpr int side = ApertureMask::side;
+constexpr int mask_side = ApertureMask::side;
 
 std::array<std::int32_t, 2> to_lens(double u, double v) {
   constexpr double radius = 1 << DEFRAY_LENS_FRACTION_BITS;
@@ -51,18 +51,19 @@ double place_of_share(const std::vector<double>& light, double share) {
 }
 
 LensCells sample_picture(const ApertureMask& mask, int count) {
-  std::vector<double> of_columns(side);
-  for (std::size_t i = 0; i < mask.coverage.size(); ++i) of_columns[i % side] += mask.coverage[i];
+  std::vector<double> of_columns(mask_side);
+  for (std::size_t i = 0; i < mask.coverage.size(); ++i)
+    of_columns[i % mask_side] += mask.coverage[i];
   LensCells cells;
   for (int k = 0; k < count; ++k) {
     const double u = place_of_share(of_columns, (k + 0.5) / count);
     std::vector<double> of_column;
-    const int column = std::min(static_cast<int>(u), side - 1);
-    for (int row = 0; row < side; ++row) of_column.push_back(mask.at(column, row));
+    const int column = std::min(static_cast<int>(u), mask_side - 1);
+    for (int row = 0; row < mask_side; ++row) of_column.push_back(mask.at(column, row));
     // Counted from the middle one on: a lattice that half a turn maps to itself.
     const double turns = (k - (count - 1) / 2.0) * std::numbers::phi + 0.5;
     const double v = place_of_share(of_column, turns - std::floor(turns));
-    cells.centres.push_back(to_lens(2 * u / side - 1, 2 * v / side - 1));
+    cells.centres.push_back(to_lens(2 * u / mask_side - 1, 2 * v / mask_side - 1));
   }
   return cells;
 }

@@ -11,19 +11,19 @@
 namespace defray {
 namespace {
 
-using Point = std::array<double, 2>;
+using DiskPoint = std::array<double, 2>;
 
 /// Whether p and its antipode keep this distance from each other and from all points.
-bool keeps_distance(const std::vector<Point>& points, const Point& p, double spacing) {
+bool keeps_distance(const std::vector<DiskPoint>& points, const DiskPoint& p, double spacing) {
   if (2 * std::hypot(p[0], p[1]) < spacing) return false;
   // The points are closed under negation: those far enough from p are so from -p too.
-  return std::all_of(points.begin(), points.end(), [&](const Point& q) {
+  return std::all_of(points.begin(), points.end(), [&](const DiskPoint& q) {
     return std::hypot(p[0] - q[0], p[1] - q[1]) >= spacing;
   });
 }
 
 /// A point of the disc of this radius.
-Point dart(Random& random, double largest_radius) {
+DiskPoint dart(Random& random, double largest_radius) {
   const double radius = largest_radius * std::sqrt(random.next());
   const double angle = 2 * std::numbers::pi * random.next();
   return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -32,10 +32,10 @@ Point dart(Random& random, double largest_radius) {
 /// The first dart that keeps its distance, if one of so many does. Points stand for the area around
 /// them: they stay a quarter of their spacing inside the rim, or sets would crowd there and blur
 /// wider than the disc.
-std::optional<Point> throw_darts(Random& random, const std::vector<Point>& points, double spacing,
-                                 int darts) {
+std::optional<DiskPoint> throw_darts(Random& random, const std::vector<DiskPoint>& points,
+                                     double spacing, int darts) {
   for (int i = 0; i < darts; ++i) {
-    const Point p = dart(random, 1 - spacing / 4);
+    const DiskPoint p = dart(random, 1 - spacing / 4);
     if (keeps_distance(points, p, spacing)) return p;
   }
   return std::nullopt;
@@ -66,7 +66,7 @@ PoissonDisk make_poisson_disk(int count, std::uint32_t seed) {
     // A set packed as tightly as it can be leaves no room for chance.
     const int grown = static_cast<int>(disk.points.size()) + 2;
     spacing = std::min(spacing, tightest * hexagonal_spacing(grown));
-    std::optional<Point> p = throw_darts(random, disk.points, spacing, darts);
+    std::optional<DiskPoint> p = throw_darts(random, disk.points, spacing, darts);
     for (; !p; p = throw_darts(random, disk.points, spacing, darts)) spacing *= shrink;
     disk.points.insert(disk.points.end(), {*p, {-(*p)[0], -(*p)[1]}});
     disk.spacing.insert(disk.spacing.end(), 2, spacing);

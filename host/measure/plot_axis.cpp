@@ -8,16 +8,16 @@
 namespace defray {
 namespace {
 
-constexpr double largest = 1e100;
+constexpr double largest_value = 1e100;
 
 void validate(const std::string& name, const std::vector<double>& values, bool is_log) {
   if (values.empty()) fail(ErrorKind::usage, "the chart has no points to draw");
   for (const double value : values) {
-    if (!(std::fabs(value) <= largest)) {
+    if (!(std::fabs(value) <= largest_value)) {
       fail(ErrorKind::usage, "chart axis '{}': {} cannot be drawn (finite numbers up to {:g} can)",
-           name, value, largest);
+           name, value, largest_value);
     }
-    if (is_log && !(value >= 1 / largest)) {
+    if (is_log && !(value >= 1 / largest_value)) {
       fail(ErrorKind::usage, "chart axis '{}' is logarithmic: {} cannot be drawn, only numbers > 0",
            name, value);
     }

@@ -19,17 +19,17 @@ float pixels_a_sample(float radius, std::size_t count) {
 }
 
 /// One layer of a pixel's samples: how far they spread, and what each stands for.
-struct Layer {
+struct SampledDisc {
   float radius = 0, area = 1;
   std::vector<std::array<float, 2>> points;
 };
 
 /// The nearer surfaces' samples and the base's: the same points where the discs are alike, else
 /// every second antipodal pair each. An odd set's centre counts as the first pair.
-std::array<Layer, 2> split_samples(float search, float own_radius,
-                                   const std::vector<std::array<float, 2>>& samples) {
+std::array<SampledDisc, 2> split_samples(float search, float own_radius,
+                                         const std::vector<std::array<float, 2>>& samples) {
   const bool splits = search * search > 2 * own_radius * own_radius;
-  Layer near{search, 1, samples}, base{search, 1, samples};
+  SampledDisc near{search, 1, samples}, base{search, 1, samples};
   if (splits) {
     near.points.clear();
     base = {own_radius, 1, {}};
@@ -38,7 +38,7 @@ std::array<Layer, 2> split_samples(float search, float own_radius,
       (pair % 2 == 1 ? base : near).points.push_back(samples[i]);
     }
   }
-  for (Layer* layer : {&near, &base}) {
+  for (SampledDisc* layer : {&near, &base}) {
     layer->area = pixels_a_sample(layer->radius, layer->points.size());
   }
   return {near, base};
@@ -53,7 +53,7 @@ struct WeighedSource {
 /// weight(own CoC, their CoC, distance).
 template <typename Weight>
 std::vector<WeighedSource> weigh(const GatherFrame& frame, std::span<const std::int32_t> coc,
-                                 float quantum, int x, int y, const Layer& layer,
+                                 float quantum, int x, int y, const SampledDisc& layer,
                                  const Weight& weight) {
   std::vector<WeighedSource> sources;
   const float own = static_cast<float>(coc[frame.index(x, y)]) * quantum;

@@ -4,7 +4,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::bad_input_test {
 namespace {
 
 class BadInput : public testing::Test {
@@ -216,4 +216,4 @@ TEST_F(BadInput, SharedDamagedFilesEndWithOneLineEach) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::bad_input_test

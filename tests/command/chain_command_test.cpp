@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::chain_command_test {
 namespace {
 
 /// A bright thin bar and a lamp in front of a wall, focused on neither; depth with or without
@@ -118,4 +118,4 @@ TEST_F(ChainCommand, WrongUseIsSaid) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::chain_command_test

@@ -7,7 +7,7 @@
 #include "image/channel_names.h"
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::channels_command_test {
 namespace {
 
 const std::vector<std::string> all_channels{
@@ -173,4 +173,4 @@ TEST_F(ChannelsCommand, NamesThePartOrViewOfForeignChannels) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::channels_command_test

@@ -6,7 +6,7 @@
 #include "image/ldr.h"
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::compare_command_test {
 namespace {
 
 using nlohmann::json;
@@ -205,4 +205,4 @@ TEST_F(Compare, RefusesSheetsItCannotWrite) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::compare_command_test

@@ -1,7 +1,7 @@
 // The defaults that `--help` and the README state are those that are used.
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::defaults_test {
 namespace {
 
 std::uint64_t rendered(const Folder& folder, const std::string& options) {
@@ -57,4 +57,4 @@ TEST(Defaults, OfScenesAreThoseThatHelpStates) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::defaults_test

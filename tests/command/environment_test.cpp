@@ -8,7 +8,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::environment_test {
 namespace {
 
 bool has_program(const std::string& name) {
@@ -178,4 +178,4 @@ TEST(Help, ShowsUnitsDefaultsAndExamples) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::environment_test

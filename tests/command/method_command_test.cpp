@@ -3,7 +3,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::method_command_test {
 namespace {
 
 std::uint64_t rendered(const Folder& folder, const std::string& options) {
@@ -199,4 +199,4 @@ TEST_F(MethodCommand, RefusesContradictingLenses) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::method_command_test

@@ -3,7 +3,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::options_command_test {
 namespace {
 
 struct OptionsCommand : testing::Test {
@@ -108,4 +108,4 @@ TEST_F(OptionsCommand, HelpTellsDefaultsAndMethodsByTheRows) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::options_command_test

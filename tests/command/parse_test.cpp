@@ -7,7 +7,7 @@
 #include "defray/device.h"
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::parse_test {
 namespace {
 
 using nlohmann::json;
@@ -82,4 +82,4 @@ TEST(Devices, AreDescribedInWholeUnits) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::parse_test

@@ -9,7 +9,7 @@
 #define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks
 #endif
 
-namespace defray::test {
+namespace defray::test::perf_command_test {
 namespace {
 
 class PerfCommand : public testing::Test {
@@ -115,4 +115,4 @@ TEST_F(PerfCommand, HelpListsTheExperiments) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::perf_command_test

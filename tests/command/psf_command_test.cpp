@@ -7,7 +7,7 @@
 #include "program.h"
 #include "reference/reference.h"
 
-namespace defray::test {
+namespace defray::test::psf_command_test {
 namespace {
 
 using nlohmann::json;
@@ -126,4 +126,4 @@ TEST_F(PsfCommand, RefusesImpossibleWavelengthsAndOutputs) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::psf_command_test

@@ -6,7 +6,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::render_command_test {
 namespace {
 
 /// Hash of what a render with these options writes.
@@ -296,4 +296,4 @@ TEST(Render, NonfiniteColours) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::render_command_test

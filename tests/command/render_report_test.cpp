@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::render_report_test {
 namespace {
 
 using cli::FrameOutcome;
@@ -190,4 +190,4 @@ TEST(RenderReport, JsonSaysWhatBecameOfAFrame) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::render_report_test

@@ -8,7 +8,7 @@
 #define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks
 #endif
 
-namespace defray::test {
+namespace defray::test::report_command_test {
 namespace {
 
 class ReportCommand : public testing::Test {
@@ -117,4 +117,4 @@ TEST_F(ReportCommand, HelpListsTheTables) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::report_command_test

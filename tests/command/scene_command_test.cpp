@@ -5,7 +5,7 @@
 #include "program.h"
 #include "scenes/scene.h"
 
-namespace defray::test {
+namespace defray::test::scene_command_test {
 namespace {
 
 const std::string small = " -o . --width 40 --height 30 --truth-samples 4";
@@ -163,4 +163,4 @@ TEST(SceneCommand, RefusesBeforeItWritesAnything) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::scene_command_test

@@ -4,7 +4,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::sequence_command_test {
 namespace {
 
 TEST(Sequence, JsonLinesAreJson) {
@@ -67,4 +67,4 @@ TEST(Sequence, ProgressBarOnATerminalOnly) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::sequence_command_test

@@ -5,7 +5,7 @@
 
 #include "program.h"
 
-namespace defray::test {
+namespace defray::test::validate_browser_test {
 namespace {
 
 /// Runs Chromium on the page, which must not complain; what it prints.
@@ -77,4 +77,4 @@ TEST(Validate, ReportOpensInABrowser) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validate_browser_test

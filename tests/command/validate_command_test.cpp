@@ -5,7 +5,7 @@
 #include "program.h"
 #include "validation/case.h"
 
-namespace defray::test {
+namespace defray::test::validate_command_test {
 namespace {
 
 using nlohmann::json;
@@ -189,4 +189,4 @@ TEST_F(ValidateCommand, HelpShowsExamplesThatHold) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validate_command_test

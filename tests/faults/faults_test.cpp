@@ -11,7 +11,7 @@
 #include "validation/oclgrind_log.h"
 #include "validation/report.h"
 
-namespace defray::test {
+namespace defray::test::faults_test {
 namespace {
 
 using namespace defray::validation;
@@ -154,4 +154,4 @@ TEST(FaultTable, HasAFaultForEveryCheck) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::faults_test

@@ -10,7 +10,7 @@
 #include "lens/lens_samples.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::aperture_picture_test {
 namespace {
 
 constexpr int side = ApertureMask::side;
@@ -216,4 +216,4 @@ TEST(AperturePicture, RefusesPicturesWithoutLight) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::aperture_picture_test

@@ -8,7 +8,7 @@
 #include "lens/aperture_mask.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::aperture_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -159,4 +159,4 @@ TEST(Aperture, RefusesWhatIsNotAllowed) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::aperture_test

@@ -7,7 +7,7 @@
 #include "image/image_file.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::api_test {
 namespace {
 
 TEST(Api, IsAsItsHeadersSay) {
@@ -25,4 +25,4 @@ TEST(Api, IsAsItsHeadersSay) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::api_test

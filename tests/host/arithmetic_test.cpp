@@ -6,7 +6,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::arithmetic_test {
 namespace {
 
 using namespace defray::validation;
@@ -73,4 +73,4 @@ TEST(Arithmetic, ReportHasWhatWasMeasured) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::arithmetic_test

@@ -7,7 +7,7 @@
 #include "lens/aperture_mask.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::cats_eye_test {
 namespace {
 
 TEST(CatsEye, LeavesTheLensBetweenTwoCircles) {
@@ -63,4 +63,4 @@ TEST(CatsEye, CutsTheOuterSideBehindTheFocusAndTheInnerSideInFront) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::cats_eye_test

@@ -9,7 +9,7 @@
 #include "chain/pattern_window.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::chain_parts_test {
 namespace {
 
 constexpr int tile = DEFRAY_FILL_TILE;
@@ -168,4 +168,4 @@ TEST(PatternUnits, AreThoseNearSomethingHidden) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::chain_parts_test

@@ -3,7 +3,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::channels_test {
 namespace {
 
 PartInfo part(std::vector<std::string> channels, std::string name = "", std::string view = "",
@@ -213,4 +213,4 @@ TEST(Channels, Globs) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::channels_test

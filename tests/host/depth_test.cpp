@@ -8,7 +8,7 @@
 #include "lens/camera.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::depth_test {
 namespace {
 
 constexpr float inf = std::numeric_limits<float>::infinity();
@@ -227,4 +227,4 @@ TEST(Camera, AJsonFileOfManyLevelsIsRead) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::depth_test

@@ -1,7 +1,7 @@
 // Errors name fields of settings; what shows them may name them otherwise.
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::error_test {
 namespace {
 
 TEST(Error, NamesFieldsPlainlyUnlessToldOtherwise) {
@@ -26,4 +26,4 @@ TEST(Error, LeavesTextWithoutFieldsAlone) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::error_test

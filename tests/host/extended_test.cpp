@@ -5,7 +5,7 @@
 #include "chain/border.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extended_test {
 namespace {
 
 constexpr int width = 23, height = 14;
@@ -91,4 +91,4 @@ TEST(Extended, RepeatsTheNearestPixel) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extended_test

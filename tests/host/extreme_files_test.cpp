@@ -11,7 +11,7 @@
 #include "pipeline.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extreme_files_test {
 namespace {
 
 const std::vector<float> extreme_depths{
@@ -168,4 +168,4 @@ TEST(ExtremeFiles, NanDepthIsBackgroundThroughTheWholePipeline) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extreme_files_test

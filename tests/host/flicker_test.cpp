@@ -6,7 +6,7 @@
 #include "image/ldr.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::flicker_test {
 namespace {
 
 std::vector<Plane> grey(double encoded) {
@@ -51,4 +51,4 @@ TEST(Flicker, NeedsPicturesOfOneSize) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::flicker_test

@@ -5,7 +5,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::html_report_test {
 namespace {
 
 std::string text_of(const std::string& path) {
@@ -75,4 +75,4 @@ TEST(HtmlReport, AsOneFileHoldsItsPictures) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::html_report_test

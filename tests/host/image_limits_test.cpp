@@ -4,7 +4,7 @@
 #include "image/image_file.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::image_limits_test {
 namespace {
 
 std::string write_sized(const Folder& folder, int width, int height, int channels) {
@@ -42,4 +42,4 @@ TEST(ImageLimits, ChannelsAreUpTo4096) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::image_limits_test

@@ -13,7 +13,7 @@
 #include "measure/metrics.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::image_test {
 namespace {
 
 std::string bytes_of(const std::string& path) {
@@ -256,4 +256,4 @@ TEST(Text, NearestSpelling) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::image_test

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::layers_test {
 namespace {
 
 /// A frame of a few surfaces, and its layers as `split` may leave them.
@@ -131,4 +131,4 @@ TEST(Layers, OfWholePixelsThoseInTheMarginAreMadeUp) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::layers_test

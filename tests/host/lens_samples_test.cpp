@@ -7,7 +7,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::lens_samples_test {
 namespace {
 
 constexpr int side = ApertureMask::side;
@@ -174,4 +174,4 @@ TEST(LensSamples, RefuseAbsurdCounts) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::lens_samples_test

@@ -2,7 +2,7 @@
 #include "defray/defray.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::library_errors_test {
 namespace {
 
 struct Memory {
@@ -51,4 +51,4 @@ TEST(Library, TiltshiftNeedsNoDepth) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::library_errors_test

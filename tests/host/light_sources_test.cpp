@@ -10,7 +10,7 @@
 #include "lens/lens_samples.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::light_sources_test {
 namespace {
 
 constexpr int width = 150, height = 100, tile = DEFRAY_LIGHT_TILE;
@@ -163,4 +163,4 @@ TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::light_sources_test

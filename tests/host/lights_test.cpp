@@ -8,7 +8,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::lights_test {
 namespace {
 
 constexpr int side = 65;
@@ -142,4 +142,4 @@ TEST(Shapes, OverlapOfDiscs) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::lights_test

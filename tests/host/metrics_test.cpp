@@ -9,7 +9,7 @@
 #include "numbers.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::metrics_test {
 namespace {
 
 std::vector<Plane> grey(std::size_t pixels, float value) {
@@ -201,4 +201,4 @@ TEST(EdgeBand, StepDecidesWhatIsAnEdge) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::metrics_test

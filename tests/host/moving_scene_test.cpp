@@ -7,7 +7,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::moving_scene_test {
 namespace {
 
 /// Columns of the picture's first row that the fence covers.
@@ -64,4 +64,4 @@ TEST(Drift, TheFenceDissolvesBeforeTheFace) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::moving_scene_test

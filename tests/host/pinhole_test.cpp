@@ -6,7 +6,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::pinhole_test {
 namespace {
 
 /// A white half-plane at depth 2, its edge through the middle pixel's square at this share of the
@@ -118,4 +118,4 @@ TEST(CoverageTest, StepDecidesWhatIsASilhouette) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::pinhole_test

@@ -6,7 +6,7 @@
 #include "measure/plot_axis.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::plot_layout_test {
 namespace {
 
 /// What is drawn in a rectangle.
@@ -119,4 +119,4 @@ TEST_F(PlotLayout, TheLegendHasALineASeriesWithAName) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::plot_layout_test

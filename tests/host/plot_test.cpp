@@ -7,7 +7,7 @@
 #include "measure/plot_axis.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::plot_test {
 namespace {
 
 Plot plot_of(std::vector<Point> points) {
@@ -202,4 +202,4 @@ TEST(Axis, OneValueOrHugeRangesStillHaveAFewTicks) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::plot_test

@@ -9,7 +9,7 @@
 #include "scenes/geometry/bvh.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::primitives_test {
 namespace {
 
 constexpr double far_away = 1e10;
@@ -223,4 +223,4 @@ TEST(DiamondSquare, IsRoughAtEveryScaleAndRepeats) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::primitives_test

@@ -6,7 +6,7 @@
 
 #include "psf_support.h"
 
-namespace defray::test {
+namespace defray::test::psf_report_test {
 namespace {
 
 PsfReport report_of(double depth, std::vector<double> wavelengths_nm, double fstop = 2.8,
@@ -178,4 +178,4 @@ TEST(PsfReport, RefusesImpossibleWavelengths) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::psf_report_test

@@ -4,7 +4,7 @@
 #include "psf_support.h"
 #include "reference/reference.h"
 
-namespace defray::test {
+namespace defray::test::psf_test {
 namespace {
 
 TEST(Psf, GeometricRadiusIsTheCoc) {
@@ -120,4 +120,4 @@ TEST(Psf, RefusesWhatHasNoPsf) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::psf_test

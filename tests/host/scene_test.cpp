@@ -12,7 +12,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::scene_test {
 namespace {
 
 bool is_finite(const std::vector<Plane>& planes) {
@@ -274,4 +274,4 @@ TEST(Blocks, FocusLiesInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::scene_test

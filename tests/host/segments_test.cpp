@@ -9,7 +9,7 @@
 
 #include "lens/lens_samples.h"
 
-namespace defray::test {
+namespace defray::test::segments_test {
 namespace {
 
 constexpr std::size_t plenty = std::size_t{1} << 30;
@@ -119,4 +119,4 @@ TEST(RadiusBins, HoldAllRadiiOfAFrameOnce) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::segments_test

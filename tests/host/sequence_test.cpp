@@ -5,7 +5,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::sequence_test {
 namespace {
 
 TEST(Sequence, Ranges) {
@@ -71,4 +71,4 @@ TEST(Sequence, FoldersAndLiteralNamesAreNoPatterns) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::sequence_test

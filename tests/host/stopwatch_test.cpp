@@ -6,7 +6,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::stopwatch_test {
 namespace {
 
 TEST(Stopwatch, LapsAddUp) {
@@ -24,4 +24,4 @@ TEST(Stopwatch, LapsAddUp) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::stopwatch_test

@@ -5,7 +5,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::units_test {
 namespace {
 
 /// 50 mm f/2 focused at 3 m, whatever a metre is in the scene.
@@ -69,4 +69,4 @@ TEST(Units, LimitOfTheCocIsTheNearestQuantum) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::units_test

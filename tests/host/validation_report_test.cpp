@@ -7,7 +7,7 @@
 #include "validation/report.h"
 #include "validation/worst_picture.h"
 
-namespace defray::test {
+namespace defray::test::validation_report_test {
 namespace {
 
 using namespace defray::validation;
@@ -225,4 +225,4 @@ TEST(ArithmeticReport, JsonHoldsWhatWasMeasured) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validation_report_test

@@ -5,7 +5,7 @@
 
 #include "frame/frame.h"
 
-namespace defray {
+namespace defray::test::values_test {
 namespace {
 
 /// A device that has the numbers from 1 on, and counts how often they are fetched.
@@ -87,4 +87,4 @@ TEST(Frame, PlacesOfLayers) {
 }
 
 }  // namespace
-}  // namespace defray
+}  // namespace defray::test::values_test

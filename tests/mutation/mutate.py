@@ -133,7 +133,8 @@ class Run:
         else:
             near, far = self.reached.of_line(mutant.path, mutant.line(source))
             if mutant.path.endswith(".h"):
-                far = far.union(*(self.reached.by_path[f] for f in self.build.sources_of(mutant.path)))
+                far = far.union(*(self.reached.by_path[f] for unit in self.build.sources_of(mutant.path)
+                                  for f in self.build.members[unit]))
         return trial.try_mutant(worker, mutant.path, mutant.apply(source), near, far, self.reached.tests, kernels, self.budget)
 
     def note(self, mutant, outcome, seconds, is_new):

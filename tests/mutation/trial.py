@@ -17,9 +17,9 @@ QUICK = 1 / 20          # those that together take so much, 3 of 4 tests, go fir
 COMPILE_SECONDS = 300   # some take ten on an idle core
 VALIDATE_SECONDS = 200  # of some kernels it takes twenty on idle cores
 HANGS = 30, 6           # seconds, and times the usual time, from where on tests count as hanging
-# A header that more sources include is left out, frames and defaults among them: 1 in 75 of all
-# places, which would take minutes each to compile.
-OBJECTS = 40
+# A header that more objects include is left out, frames and defaults among them, as it would take
+# minutes each to compile.
+OBJECTS = 12
 
 
 class Build:
@@ -27,16 +27,22 @@ class Build:
 
     def __init__(self, project, folder):
         self.project, self.folder = project, folder
-        self.compile = {}   # path in the project: command
+        self.compile = {}   # path of what is compiled, maybe several sources in one (CMAKE_UNITY_BUILD): command
+        self.members = {}   # the same path: its sources' paths in the project
         for entry in json.load(open(f"{folder}/compile_commands.json")):
-            path = os.path.relpath(entry["file"], project)
-            if path.startswith(("host/", "cli/")) and " -o tests/" not in entry["command"]:
+            path, members = entry["file"], self._members(entry["file"])
+            if members[0].startswith(("host/", "cli/")) and " -o tests/" not in entry["command"]:
                 self.compile.setdefault(path, entry["command"])
-        self.compile.pop("cli/main.cpp", None)  # no library has it
+                self.members.setdefault(path, members)
+        self.compile.pop(f"{project}/cli/main.cpp", None)  # no library has it
         self.link = {program: self._ninja("-t", "commands", f"bin/{program}").strip().split("\n")[-1]
                      for program in PROGRAMS + ["defray"]}
         self.included_by = {}
         self._read_dependencies()
+
+    def _members(self, path):
+        files = re.findall(r'^#include "(/.+)"', open(path).read(), re.M) if "/Unity/" in path else [path]
+        return [os.path.relpath(file, self.project) for file in files]
 
     def _ninja(self, *arguments):
         return subprocess.run(["ninja", "-C", self.folder, *arguments], capture_output=True, text=True,
@@ -59,7 +65,7 @@ class Build:
     def sources_of(self, path):
         """What must be compiled anew when a file changes."""
         if path.endswith(".cpp"):
-            return [path] if path in self.compile else []
+            return [unit for unit in self.compile if path in self.members[unit]]
         found = set(self.included_by.get(path, ()))
         if path.startswith("kernels/"):
             found |= self.included_by.get("kernel_files.h", set())
@@ -121,9 +127,9 @@ class Worker:
                 return False
         self.objects = []
         for source in self.build.sources_of(path):
-            made = f"{self.folder}/{source.replace('/', '_')}.o"
-            place = f"{overlay}/{source}" if source == path else f"{self.build.project}/{source}"
-            command = self.build.compile[source].replace(f"-c {self.build.project}/{source}", f"-c {place}")
+            made = f"{self.folder}/{self.build.members[source][0].replace('/', '_')}.o"
+            place = self._with_mutant(source, path, overlay)
+            command = self.build.compile[source].replace(f"-c {source}", f"-c {place}")
             command = re.sub(r" -o \S+", f" -o {made}", command)
             command = re.sub(r" -M[DTF]\b( \S+\.o(\.d)?)?", "", command)
             command = command.replace(" -I", f" -I{overlay}/host -I{overlay}/cli -I{overlay}/made -I{overlay} -I", 1)
@@ -132,6 +138,18 @@ class Worker:
                 return False
             self.objects.append(made)
         return bool(self.objects)
+
+    def _with_mutant(self, source, path, overlay):
+        """The source to compile, with the mutant in its place."""
+        original = f"{self.build.project}/{path}"
+        if source == original:
+            return f"{overlay}/{path}"
+        if path not in self.build.members[source]:
+            return source
+        made = f"{overlay}/{os.path.basename(source)}"
+        with open(made, "w") as file:
+            file.write(open(source).read().replace(f'"{original}"', f'"{overlay}/{path}"'))
+        return made
 
     def _compile_kernels(self, path, text, overlay):
         kernels = f"{self.build.project}/kernels"

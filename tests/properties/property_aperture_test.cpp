@@ -8,7 +8,7 @@
 #include "lens/aperture_table.h"
 #include "lens/lens_samples.h"
 
-namespace defray::test {
+namespace defray::test::property_aperture_test {
 namespace {
 
 /// Any coverage, mostly dark, never black.
@@ -77,4 +77,4 @@ RC_GTEST_PROP(ApertureProperty, SamplesOfBladesStayInTheDisc, ()) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::property_aperture_test

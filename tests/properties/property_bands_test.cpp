@@ -5,7 +5,7 @@
 
 #include "opencl/bands.h"
 
-namespace defray::test {
+namespace defray::test::property_bands_test {
 namespace {
 
 RC_GTEST_PROP(Bands, CoverTheFrameOnceAndFitTheBudget, ()) {
@@ -41,4 +41,4 @@ TEST(Bands, AReachBeyondAllFramesIsTheWholeFrame) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::property_bands_test

@@ -6,7 +6,7 @@
 
 #include "properties.h"
 
-namespace defray::test {
+namespace defray::test::property_colour_test {
 namespace {
 
 RandomFrame with_colour(RandomFrame frame, Plane colour) {
@@ -89,4 +89,4 @@ RC_GTEST_PROP(ColourProperty, AnyFactorScales, ()) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::property_colour_test

@@ -11,7 +11,7 @@
 #include "device/rdb_run.h"
 #include "properties.h"
 
-namespace defray::test {
+namespace defray::test::property_depth_test {
 namespace {
 
 /// The source of every cell of every pixel, [cell][y][x]; all ones where no ray arrives.
@@ -135,4 +135,4 @@ RC_GTEST_PROP(DepthProperty, AMirroredSceneThroughAMirroredLensIsMirrored, ()) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::property_depth_test

@@ -7,7 +7,7 @@
 #include "properties.h"
 #include "rdb/rdb_plan.h"
 
-namespace defray::test {
+namespace defray::test::property_place_test {
 namespace {
 
 /// Content with a margin of sharp background wider than its blur.
@@ -105,4 +105,4 @@ RC_GTEST_PROP(PlaceProperty, BandsDoNotShow, ()) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::property_place_test

@@ -7,7 +7,7 @@
 #include "rdb/rdb.h"
 #include "rdb/rdb_plan.h"
 
-namespace defray::test {
+namespace defray::test::memory_test {
 namespace {
 
 /// Tall, so that a band's own rows count for more than those around it.
@@ -120,4 +120,4 @@ TEST(Memory, BandsHaveAsManyRowsAsFit) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::memory_test

@@ -2,7 +2,7 @@
 #include "methods/method.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::progress_test {
 namespace {
 
 void expect_progress(const MethodSettings& settings, Stages& stages, const std::string& what) {
@@ -41,4 +41,4 @@ TEST(Progress, GoesToOneAndNeverBack) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::progress_test

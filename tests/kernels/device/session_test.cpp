@@ -12,7 +12,7 @@
 #include "opencl/opencl_error.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::session_test {
 namespace {
 
 TEST(Session, AnUnknownKernelIsNamed) {
@@ -206,4 +206,4 @@ TEST(Session, ErrorNames) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::session_test

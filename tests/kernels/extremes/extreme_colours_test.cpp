@@ -12,7 +12,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extreme_colours_test {
 namespace {
 
 /// A method, and the farthest that one pixel's colour gets to another's: the radius px from their
@@ -174,4 +174,4 @@ TEST(ExtremeColours, WhatIsNoNumberStaysWithinReach) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extreme_colours_test

@@ -10,7 +10,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extreme_frames_test {
 namespace {
 
 constexpr int width = 1920;
@@ -144,4 +144,4 @@ TEST(ExtremeFrames, OneCellIsThePinholePicture) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extreme_frames_test

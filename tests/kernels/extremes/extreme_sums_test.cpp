@@ -7,7 +7,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extreme_sums_test {
 namespace {
 
 /// 1e30 beside 1e-30, and everything between.
@@ -54,4 +54,4 @@ TEST(ExtremeSums, MeansOfLightAreWithinARoundingACell) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extreme_sums_test

@@ -7,7 +7,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::extremes_test {
 namespace {
 
 constexpr int width = 1920;
@@ -132,4 +132,4 @@ TEST(ExtremeLenses, ValuesOutsideTheirRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::extremes_test

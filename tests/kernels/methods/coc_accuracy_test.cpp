@@ -22,7 +22,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::coc_accuracy_test {
 namespace {
 
 using Exact = long double;
@@ -205,4 +205,4 @@ TEST(CocAccuracy, TwinIsWithinItsDoubleRoundings) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::coc_accuracy_test

@@ -7,7 +7,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::coc_test {
 namespace {
 
 Lens lens_of(double focus, double fstop = 2.8) {
@@ -171,4 +171,4 @@ TEST(Lens, RefusesWhatNoLensHas) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::coc_test

@@ -9,7 +9,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::gather_test {
 namespace {
 
 constexpr GatherKind kinds[] = {GatherKind::literal, GatherKind::aware};
@@ -225,4 +225,4 @@ TEST(Gather, RefusesAbsurdCounts) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::gather_test

@@ -15,7 +15,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::lens_models_test {
 namespace {
 
 /// A camera in the papers' terms, metres. Distances are along the axis.
@@ -168,4 +168,4 @@ TEST(Eye, RefusesContradictions) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::lens_models_test

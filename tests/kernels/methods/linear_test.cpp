@@ -8,7 +8,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::linear_test {
 namespace {
 
 std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
@@ -163,4 +163,4 @@ TEST(Linear, RefusesWhatItCannotReach) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::linear_test

@@ -9,7 +9,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::method_test {
 namespace {
 
 /// Every method and kind, with a name for messages.
@@ -149,4 +149,4 @@ TEST(Method, TwinsGiveTheSamePicture) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::method_test

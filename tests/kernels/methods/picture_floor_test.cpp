@@ -5,7 +5,7 @@
 #include "scenes/subject.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::picture_floor_test {
 namespace {
 
 /// PSNR in dB (sRGB) against the truth, as measured.
@@ -104,4 +104,4 @@ TEST(PictureFloors, AreOfEveryScene) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::picture_floor_test

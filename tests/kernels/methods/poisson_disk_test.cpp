@@ -6,7 +6,7 @@
 
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::poisson_disk_test {
 namespace {
 
 double distance(const std::array<double, 2>& a, const std::array<double, 2>& b) {
@@ -70,4 +70,4 @@ TEST(PoissonDisk, RefusesAbsurdCounts) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::poisson_disk_test

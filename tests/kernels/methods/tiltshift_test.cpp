@@ -6,7 +6,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::tiltshift_test {
 namespace {
 
 TEST(Tiltshift, KernelEqualsTwinBitForBit) {
@@ -73,4 +73,4 @@ TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::tiltshift_test

@@ -9,7 +9,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::nearest_test {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -177,4 +177,4 @@ TEST(NearestPicture, BordersGiveTheEdgesData) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::nearest_test

@@ -7,7 +7,7 @@
 #include "support.h"
 #include "validation/input.h"
 
-namespace defray::test {
+namespace defray::test::rdb_gather_test {
 namespace {
 
 RayResult rays(Stages& stages, const Frame& f, RayPlan plan, RaysBy by) {
@@ -169,4 +169,4 @@ TEST(RdbGather, GivesTheScattersBitsAtTheEndOfTheChain) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::rdb_gather_test

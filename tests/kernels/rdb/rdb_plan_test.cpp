@@ -4,7 +4,7 @@
 #include "lens/lens_cells.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::rdb_plan_test {
 namespace {
 
 TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
@@ -57,4 +57,4 @@ TEST(LensCells, AreCentredOnTheAxis) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::rdb_plan_test

@@ -6,7 +6,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::rdb_scatter_test {
 namespace {
 
 /// CoC radii: none, below half a pixel, small, middling, past every frame, and the format's limit.
@@ -165,4 +165,4 @@ TEST(RdbScatter, ZeroRadiusFillsEveryCellOfItsOwnPixel) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::rdb_scatter_test

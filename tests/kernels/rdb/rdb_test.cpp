@@ -6,7 +6,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::rdb_test {
 namespace {
 
 // What a frame is made of for the tests of the whole stage.
@@ -184,4 +184,4 @@ TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::rdb_test

@@ -7,7 +7,7 @@
 #include "methods/method.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::rim_test {
 namespace {
 
 TEST(Rim, IsOffTowardsTheMiddleByTheStrengthAtTheCorners) {
@@ -91,4 +91,4 @@ TEST(Rim, ClosedCellsDoNotCountAsUnseen) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::rim_test

@@ -10,7 +10,7 @@
 #include "scenes/tracing/render.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::alpha_test {
 namespace {
 
 /// Blocks of colour at random depths, half covered edges, and lights of 1000 times white.
@@ -160,4 +160,4 @@ TEST(Alpha, ADefocusedCutOutCoversAsMuchAsTheTruth) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::alpha_test

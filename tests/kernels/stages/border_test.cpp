@@ -11,7 +11,7 @@
 #include "methods/method.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::border_test {
 namespace {
 
 constexpr Size size{60, 40};
@@ -130,4 +130,4 @@ TEST(Chain, AFrameThatDoesNotFitTheHostIsRefused) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::border_test

@@ -8,7 +8,7 @@
 #include "reference/twin_stages.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::chain_test {
 namespace {
 
 constexpr double delay_s = 0.1;
@@ -167,4 +167,4 @@ TEST(Chain, LeavesDepthAloneWhereAskedTo) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::chain_test

@@ -7,7 +7,7 @@
 #include "scenes/subject.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::edges_test {
 namespace {
 
 constexpr int side = 21;
@@ -126,4 +126,4 @@ TEST(Edges, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::edges_test

@@ -6,7 +6,7 @@
 #include "numbers.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::fill_test {
 namespace {
 
 TEST(Fill, BehindABarThePlaneGoesOn) {
@@ -199,4 +199,4 @@ TEST(Fill, BandsTakeTheFlagsOfTheirOwnTiles) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::fill_test

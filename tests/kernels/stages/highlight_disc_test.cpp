@@ -9,7 +9,7 @@
 #include "methods/method.h"
 #include "support.h"
 
-namespace defray::test {
+namespace defray::test::highlight_disc_test {
 namespace {
 
 using Corner = std::array<double, 2>;
@@ -277,4 +277,4 @@ TEST(HighlightDisc, WithoutTheStageItIsDots) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::highlight_disc_test

@@ -5,7 +5,7 @@
 #include "methods/method.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::lamp_test {
 namespace {
 
 constexpr int width = 96, height = 64;
@@ -89,4 +89,4 @@ TEST(Lamp, NearTheEdgeOfANearSurfaceLosesOnlyWhatItHides) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::lamp_test

@@ -3,7 +3,7 @@
 
 #include "pattern_search.h"
 
-namespace defray::test {
+namespace defray::test::parallel_search_test {
 namespace {
 
 /// Rows of samples on slanting surfaces: pixels that are known and slant across the shift.
@@ -92,4 +92,4 @@ TEST(ParallelSearch, FindsTheParallelShiftsThatPlainLoopsFind) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::parallel_search_test

@@ -3,7 +3,7 @@
 #include "pattern_scene.h"
 #include "reference/reference.h"
 
-namespace defray::test {
+namespace defray::test::pattern_picture_test {
 namespace {
 
 /// On pictures large enough for shifts to be found. What simulators look for, the tests above show.
@@ -170,4 +170,4 @@ TEST_F(PatternPicture, AnotherSurfaceIsNotCopied) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::pattern_picture_test

@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-namespace defray::test {
+namespace defray::test::pattern_search_test {
 namespace {
 
 Grid blocks_of(const Grid& g) {
@@ -104,4 +104,4 @@ TEST(PatternSearch, FindsTheShiftsThatPlainLoopsFind) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::pattern_search_test

@@ -3,7 +3,7 @@
 #include "pattern_scene.h"
 #include "reference/reference.h"
 
-namespace defray::test {
+namespace defray::test::patterns_test {
 namespace {
 
 /// Known pixels, fragments and radii for each pixel by itself; so large a share hides something.
@@ -136,4 +136,4 @@ TEST(Patterns, VarianceIsThatOfTheWindow) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::patterns_test

@@ -9,7 +9,7 @@
 #include "reference/twin_stages.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::soften_test {
 namespace {
 
 Frame flat_fragments(int width, int height, int layers, double radius_px) {
@@ -142,4 +142,4 @@ TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::soften_test

@@ -5,7 +5,7 @@
 #include "numbers.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::split_test {
 namespace {
 
 constexpr std::int32_t bar_coc = -512;  // an edge in focus would stay as it is
@@ -131,4 +131,4 @@ TEST(Split, WhatIsNotFiniteStaysWhole) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::split_test

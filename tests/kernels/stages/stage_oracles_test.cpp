@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "stages_support.h"
 
-namespace defray::test {
+namespace defray::test::stage_oracles_test {
 namespace {
 
 using Colour = std::array<double, 4>;
@@ -239,4 +239,4 @@ TEST(Fill, BehindAnyRectangleThePlaneGoesOnAsFarAsTheLensSees) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::stage_oracles_test

@@ -10,7 +10,7 @@
 #include "validation/arithmetic.h"
 #include "validation/grid.h"
 
-namespace defray::test {
+namespace defray::test::validation_case_test {
 namespace {
 
 using namespace defray::validation;
@@ -233,4 +233,4 @@ TEST(Input, PatternsReachTheLargestCocAndColoursAreOfTheirKind) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validation_case_test

@@ -6,7 +6,7 @@
 #include "support.h"
 #include "validation/report.h"
 
-namespace defray::test {
+namespace defray::test::validation_exact_test {
 namespace {
 
 using namespace defray::validation;
@@ -205,4 +205,4 @@ TEST(Report, SaysWhereDevicesGiveOtherBits) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validation_exact_test

@@ -10,7 +10,7 @@
 #include "support.h"
 #include "validation/report.h"
 
-namespace defray::test {
+namespace defray::test::validation_test {
 namespace {
 
 using namespace defray::validation;
@@ -237,4 +237,4 @@ TEST(Verdict, UnroundedDivisionsHaveTheSlackOfTheirRule) {
 }
 
 }  // namespace
-}  // namespace defray::test
+}  // namespace defray::test::validation_test
