@@ -110,7 +110,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
       {"data_window", {r.data.x, r.data.y, r.data.width, r.data.height}},
       {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
   report.update(lens_json(r));
-  if (r.chain) report["defocus"] = chain_json(*r.chain);
+  if (r.chain) report["chain"] = chain_json(*r.chain);
   report.update({{"nearest_coc_px", r.nearest_coc_px},
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},

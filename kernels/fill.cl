@@ -17,8 +17,9 @@
 // behind_coc   [height][width]    signed radius; as given where nothing was found
 // behind_inverse [height][width]  1/depth; negative where nothing was found
 // behind0..3   [height][width]    colour
-// Global size: (width, height).
+// Global size: (runs of DEFRAY_FILL_RUN pixels of a row, height).
 #include "colour.clh"
+#include "fill_walk.clh"
 #include "frame.clh"
 #include "rank.clh"
 
@@ -55,36 +56,6 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
   const float continued = found.inverse + (inverse[q] - inverse[b]) * steps * share;
   found.inverse = continued > 0.0f ? continued : 0.0f;
   return found;
-}
-
-// Walks over the picture; steps grow with the distance. `own` is the CoC of the surface in front.
-Found look_behind(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                  __global const float* restrict inverse, __global const uint* restrict mixed,
-                  const int2 start, const float2 direction, const int own, const int farthest) {
-  const Found nothing = {0u, 0.0f, 0.0f, 0.0f, 0.0f};
-  const int reach = (farthest - own) / 256 + 2;
-  int before = own;
-  for (int t = 1, step = 1; t <= reach; t += step) {
-    const int2 at = start + convert_int2(rint((float)t * direction));
-    if (!is_inside(p.width, p.height, at)) return nothing;
-    const uint q = pixel_at(p.width, p.height, at);
-    const int coc = coc_of(coc_quanta, q);
-    const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
-    if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= (coc - own) / 256 + 2) {
-      // The surface begins here; its first pixels may be mixed.
-      for (int i = t; i <= t + 3; ++i) {
-        const int2 further = start + convert_int2(rint((float)i * direction));
-        if (!is_inside(p.width, p.height, further)) return nothing;
-        const uint f = pixel_at(p.width, p.height, further);
-        if (!mixed[f] && coc_of(coc_quanta, f) - own > DEFRAY_JUMP_QUANTA) {
-          return continue_back(p, coc_quanta, inverse, mixed, start, direction, i, own);
-        }
-      }
-    }
-    before = coc;
-    step = 1 + t / 16;
-  }
-  return nothing;
 }
 
 // How far from black, for the median: NaN counts as the brightest.
@@ -131,35 +102,44 @@ Found look_further(const DefrayFillParams p, __global const int* restrict coc_qu
   return found;
 }
 
-__kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                   __global const float* restrict inverse, __global const uint* restrict mixed,
-                   __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
-                   __global int* restrict behind_coc, __global float* restrict behind_inverse,
-                   WRITTEN_CHANNELS(behind)) {
-  const int2 at = work_item();
-  if (!is_inside(p.width, p.height, at)) return;
+// 1/depth in front of a pixel: of a mixed one, that of the nearest surface around it.
+float own_inverse_of(const DefrayFillParams p, __global const float* restrict inverse,
+                     __global const uint* restrict mixed, const int2 at) {
   const uint pixel = pixel_at(p.width, p.height, at);
-  behind_inverse[pixel] = -1.0f;
-  behind_coc[pixel] = coc_quanta[pixel];
-  set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
-  const uint tile = (uint)at.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)at.x / DEFRAY_FILL_TILE;
-  if (farthest[tile] == DEFRAY_NOTHING_BEHIND) return;
-
-  // A mixed pixel has the nearest surface around it in front.
-  int own = coc_of(coc_quanta, pixel);
-  float own_inverse = inverse[pixel];
+  float own = inverse[pixel];
   for (int i = 0; i < 9 && mixed[pixel]; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
-    own = min(own, coc_of(coc_quanta, q));
-    if (inverse[q] > own_inverse) own_inverse = inverse[q];
+    if (inverse[q] > own) own = inverse[q];
   }
+  return own;
+}
 
+// Nothing behind the pixels of a run.
+void clear_run(const DefrayFillParams p, __global const int* restrict coc_quanta, const int2 start,
+               __global int* restrict behind_coc, __global float* restrict behind_inverse,
+               WRITTEN_CHANNELS(behind)) {
+  const int count = min(RUN, (int)p.width - start.x);
+  for (int i = 0; i < count; ++i) {
+    const uint pixel = pixel_at(p.width, p.height, start + (int2)(i, 0));
+    behind_inverse[pixel] = -1.0f;
+    behind_coc[pixel] = coc_quanta[pixel];
+    set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
+  }
+}
+
+// What lies behind a pixel, of what its rays have met: `steps` away in each direction, RUN apart.
+void fill_pixel(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                __global const float* restrict inverse, __global const uint* restrict mixed,
+                CHANNEL_PARAMETERS(channel), const int2 at, const int own, const int* steps,
+                __global int* restrict behind_coc, __global float* restrict behind_inverse,
+                WRITTEN_CHANNELS(behind)) {
   Found found[DEFRAY_FILL_DIRECTIONS];
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-    Found f = look_behind(p, coc_quanta, inverse, mixed, at, sixteenth(i), own, farthest[tile]);
-    if (f.distance == 0.0f) continue;
+    const int t = steps[i * RUN];
+    if (t == 0) continue;
+    Found f = continue_back(p, coc_quanta, inverse, mixed, at, sixteenth(i), t, own);
     f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, sixteenth(i), f);
     found[count] = f;
     bright[count] = brightness(colour_at(CHANNELS(channel), f.source));
@@ -196,8 +176,34 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     colour_weights += f.weight;
     colour += f.weight * colour_at(CHANNELS(channel), f.source);
   }
+  const uint pixel = pixel_at(p.width, p.height, at);
   behind_coc[pixel] = convert_int_rte(coc / weights);
-  const float mean = inverse_sum / weights, most = own_inverse * 0.99999f;
+  const float mean = inverse_sum / weights;
+  const float most = own_inverse_of(p, inverse, mixed, at) * 0.99999f;
   behind_inverse[pixel] = mean < most ? mean : most;
   set_colour(CHANNELS(behind), pixel, colour / colour_weights);
+}
+
+__kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                   __global const float* restrict inverse, __global const uint* restrict mixed,
+                   __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
+                   __global int* restrict behind_coc, __global float* restrict behind_inverse,
+                   WRITTEN_CHANNELS(behind)) {
+  const int2 start = (int2)((int)get_global_id(0) * RUN, (int)get_global_id(1));
+  if (!is_inside(p.width, p.height, start)) return;
+  clear_run(p, coc_quanta, start, behind_coc, behind_inverse, CHANNELS(behind));
+  const uint tile = (uint)start.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)start.x / DEFRAY_FILL_TILE;
+  if (farthest[tile] == DEFRAY_NOTHING_BEHIND) return;
+
+  const int16 own = own_of_run(p, coc_quanta, mixed, start);
+  int steps[DEFRAY_FILL_DIRECTIONS * RUN], owns[RUN];
+  vstore16(own, 0, owns);
+  for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
+    look_behind(p, coc_quanta, mixed, start, sixteenth(i), own, farthest[tile], steps + i * RUN);
+  }
+  const int count = min(RUN, (int)p.width - start.x);
+  for (int i = 0; i < count; ++i) {
+    fill_pixel(p, coc_quanta, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i],
+               steps + i, behind_coc, behind_inverse, CHANNELS(behind));
+  }
 }

@@ -37,6 +37,8 @@
 #define DEFRAY_TAME_QUANTA (1 << 28)
 /// Side of the square tiles in which `fill` may have something to do, in pixels.
 #define DEFRAY_FILL_TILE 16
+/// Pixels of a row that a work-item of `fill` looks from at once; tiles are whole runs wide.
+#define DEFRAY_FILL_RUN 16
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
 /// Directions in which `fill` looks for what goes on behind.

@@ -23,7 +23,7 @@
 //                                    or rdb_nearest ask for it
 // sum0..3         [band_rows][width] colours' sums; after the last pass the means
 // filled, seen    [band_rows][width] as in rdb_merge
-// Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets.
+// Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh).
 #include "rdb_gather_any.clh"
 #include "strip.clh"
 
@@ -36,7 +36,7 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
   for (uint k = 0; k < p.cell_count; ++k) {
     __global const int* first = r->first + k * (DEFRAY_RAY_BINS + 1);
     const int end_of_cell = first[DEFRAY_RAY_BINS];
-    int16 open[ROWS];
+    ints open[ROWS];
     EACH_ROW open[j] = s->inside[j];
     bool is_open = true;
     int at = 0;
@@ -46,19 +46,19 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
         const int4 segment = r->segments[at];
         size_t from;
         if (!sources_of(p, s, segment, &from)) continue;
-        int16 hit[ROWS], some = 0;
+        ints hit[ROWS], some = 0;
         EACH_ROW {
-          const int16 key = vload16(0, r->keys + from + j * stride);
-          hit[j] = open[j] & (as_uint16(key - segment.z) <= (uint16)(uint)segment.w);
+          const ints key = LOAD(r->keys + from + j * stride);
+          hit[j] = open[j] & IS(as_uints(key - segment.z) <= (uints)(uint)segment.w);
           some |= hit[j];
         }
         if (!any_of(some)) continue;
-        int16 left = 0;
+        ints left = 0;
         EACH_ROW {
           const size_t source = from + j * stride;
           add(s, r, has_fourth, j, hit[j], bits_at(r->channel0, source),
               bits_at(r->channel1, source), bits_at(r->channel2, source),
-              has_fourth ? bits_at(r->channel3, source) : (int16)(0), s->own + j * stride);
+              has_fourth ? bits_at(r->channel3, source) : (ints)(0), s->own + j * stride);
           open[j] &= ~hit[j];
           left |= open[j];
         }
@@ -71,8 +71,8 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
 // No ray leaves its pixel.
 void keep(const DefrayRaysParams p, const Rays* r, Strip* s) {
   EACH_ROW {
-    const int16 key = vload16(0, r->keys + s->own + (size_t)j * p.stride);
-    s->seen[j] += (key != DEFRAY_NO_KEY) & (int16)(int)p.cell_count;
+    const ints key = LOAD(r->keys + s->own + (size_t)j * p.stride);
+    s->seen[j] += IS(key != DEFRAY_NO_KEY) & (ints)(int)p.cell_count;
   }
 }
 
@@ -85,8 +85,8 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
                          __global const uint* restrict light_first, __global uint2* winner,
                          WRITTEN_CHANNELS(sum), __global uint* filled, __global uint* seen) {
-  const int x = (int)(p.band_x + get_global_id(0) * DEFRAY_RAY_RUN);
-  const int y = (int)(p.band_y + get_global_id(1) * DEFRAY_RAY_ROWS);
+  const int x = (int)(p.band_x + get_global_id(0) * LANES);
+  const int y = (int)(p.band_y + get_global_id(1) * ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
 
   const Rays r = {keys, sending, coverage, channel0, channel1, channel2, channel3, segments, first};

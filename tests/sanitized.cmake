@@ -17,6 +17,11 @@ function(add_sanitized_library library)
   set(target ${library}_sanitized)
   get_target_property(sources ${library} SOURCES)
   add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
+  foreach(source ${sources})
+    get_source_file_property(is_alone ${source} TARGET_DIRECTORY ${library}
+                             SKIP_UNITY_BUILD_INCLUSION)
+    set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ${is_alone})
+  endforeach()
   foreach(property COMPILE_DEFINITIONS COMPILE_OPTIONS INCLUDE_DIRECTORIES PRECOMPILE_HEADERS
                    LINK_LIBRARIES INTERFACE_INCLUDE_DIRECTORIES INTERFACE_LINK_LIBRARIES)
     get_target_property(value ${library} ${property})

@@ -10,8 +10,9 @@
 namespace defray {
 namespace {
 
-constexpr int sampled_rows = 4;       ///< One row of so many is compared.
-constexpr double ratio = 1.02;        ///< From one length to the next.
+constexpr int sampled_rows = 4;                ///< One row of so many is compared,
+constexpr std::size_t most_samples = 1 << 16;  ///< and of its pixels no more than so many in all.
+constexpr double ratio = 1.02;                 ///< From one length to the next.
 constexpr int most_lengths = 512;     ///< 1.02^512: surfaces a thousand times as far as others.
 constexpr int refine_steps = 8;       ///< On each side of a minimum,
 constexpr double refine_by = 0.0025;  ///< of so much of its length.
@@ -51,6 +52,7 @@ class ParallelSearch {
         farthest_ = std::fmin(farthest_, here);
       }
     }
+    thin_out();
   }
 
   /// The best first.
@@ -76,6 +78,15 @@ class ParallelSearch {
 
  private:
   std::size_t at(int x, int y) const { return size(y) * size(width_) + size(x); }
+
+  /// Leaves one sample of so many that no more than most_samples are left.
+  void thin_out() {
+    const std::size_t step = (samples_.size() + most_samples - 1) / most_samples;
+    if (step < 2) return;
+    for (std::size_t i = 0; i * step < samples_.size(); ++i) samples_[i] = samples_[i * step];
+    samples_.resize((samples_.size() + step - 1) / step);
+    known_ /= step;
+  }
 
   std::vector<Length> costs(const std::vector<float>& lengths) const {
     std::vector<Length> all(lengths.size());

@@ -11,9 +11,11 @@
 namespace defray {
 namespace {
 
-constexpr int block = 4;        ///< Side of the blocks of the coarse search, px.
-constexpr int refine_px = 3;    ///< Around a coarse minimum.
-constexpr int refine_rows = 8;  ///< One row of so many is compared.
+constexpr int block = 4;                      ///< Side of the blocks of the coarse search, px.
+constexpr int refine_px = 3;                  ///< Around a coarse minimum.
+constexpr int refine_rows = 8;                ///< One row of so many is compared, or of more:
+constexpr std::size_t most_blocks = 1 << 15;  ///< In all, of the coarse search,
+constexpr std::size_t most_pixels = 1 << 16;  ///< and of the refining one.
 constexpr std::uint64_t no_shift_cost = std::numeric_limits<std::uint64_t>::max();
 
 /// Colours and CoC as the comparison reads them; `known` is 0 or -1, all bits.
@@ -118,6 +120,11 @@ Agreement agreement(const SearchedPicture& p, PatternShift s, int row_step,
   return sum;
 }
 
+/// One row of how many holds no more than `most` in all.
+int row_step(const SearchedPicture& p, std::size_t most) {
+  return std::max(1, static_cast<int>((p.r.size() + most - 1) / most));
+}
+
 struct Candidate {
   std::uint64_t cost;
   PatternShift shift;
@@ -138,11 +145,12 @@ class CoarseMap {
         reach_y_(s.reach_y_px / block),
         costs_(size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
     constexpr std::size_t least_share = 50;  // a fiftieth
-    const std::size_t all = blocks.r.size();
+    const int step = row_step(blocks, most_blocks);
+    const std::size_t all = blocks.r.size() / size(step);
     parallel_for(reach_y_ + 1, [&](int y) {
       for (int x = -reach_x_; x <= reach_x_; ++x) {
         costs_[index(x, y)] =
-            agreement(blocks, {x, y}, 1, s.tolerance_quanta).cost(all, all / least_share);
+            agreement(blocks, {x, y}, step, s.tolerance_quanta).cost(all, all / least_share);
       }
     });
   }
@@ -184,12 +192,14 @@ class CoarseMap {
 std::vector<Candidate> refined(const SearchedPicture& picture, const std::vector<Candidate>& coarse,
                                std::int32_t tolerance) {
   constexpr int side = 2 * refine_px + 1, tries = side * side;
+  const int step = std::max(refine_rows, row_step(picture, most_pixels));
+  const std::size_t pixels = picture.r.size() * refine_rows / size(step);
   std::vector<Candidate> all(coarse.size() * tries);
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const PatternShift from = coarse[size(i / tries)].shift;
     const int k = i % tries;
     const PatternShift s{from.x + k % side - refine_px, from.y + k / side - refine_px};
-    all[size(i)] = {agreement(picture, s, refine_rows, tolerance).cost(picture.r.size(), 1), s};
+    all[size(i)] = {agreement(picture, s, step, tolerance).cost(pixels, 1), s};
   });
   std::vector<Candidate> best;
   for (auto first = all.begin(); first != all.end(); first += tries) {

@@ -65,11 +65,12 @@ void RaysGather::gather_pass(int first_cell) {
   p.cell_count = word(table_->cell_count());
   p.is_first_pass = first_cell == 0;
   p.is_last_pass = p.first_cell + p.cell_count == cells_.centres.size();
-  const std::size_t strips_x = (p.band_end - p.band_x + DEFRAY_RAY_RUN - 1) / DEFRAY_RAY_RUN;
-  const std::size_t strips_y = (p.band_rows + DEFRAY_RAY_ROWS - 1) / DEFRAY_RAY_ROWS;
-  session_.launch("rdb_gather", {strips_x, strips_y}, p, window_.keys, window_.sending,
-                  window_.coverage, window_.channels, segments_, first_, window_.reach,
-                  sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
+  const std::size_t across = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
+  const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
+  const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
+  session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
+                  window_.sending, window_.coverage, window_.channels, segments_, first_,
+                  window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
                   buffers_.light_first, buffers_.winner, buffers_.means, filled_, buffers_.seen);
 }
 

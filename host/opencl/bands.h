@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "opencl/launch_table.h"
 #include "opencl/session.h"
 
 namespace defray {
@@ -73,8 +74,10 @@ class Band {
   void launch(const Args&... args) {
     const std::size_t layers = size(frame_.layers);
     const std::size_t first = size(rows_.y - rows_.window_y) * layers;
+    const std::size_t run = launch_of(kernel_).run_px;
     session_.launch_from({0, first}, kernel_.c_str(),
-                         {size(frame_.width), size(rows_.rows) * layers}, args...);
+                         {(size(frame_.width) + run - 1) / run, size(rows_.rows) * layers},
+                         args...);
     for (const auto& read : reads_) read();
   }
 

@@ -38,6 +38,9 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device) {
   info.rounds_divisions = (floats & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   info.keeps_denormals = (floats & CL_FP_DENORM) != 0;
   info.has_double = extensions.find("cl_khr_fp64") != std::string::npos;
+  // Oclgrind, which has no preference, looks at what CPUs run.
+  info.prefers_vectors = device.getInfo<CL_DEVICE_PREFERRED_VECTOR_WIDTH_INT>() > 1 ||
+                         contains_ignoring_case(info.name, "Oclgrind");
   if (contains_ignoring_case(info.name, "llvmpipe")) info.most_segments = std::size_t{1} << 12;
   return info;
 }

@@ -14,6 +14,9 @@ struct DeviceInfo : DeviceProperties {
   /// Segments of rays that a kernel may go through. Mesa's llvmpipe leaves a kernel's loops after
   /// 65536 turns in all, without a word; a segment takes several.
   std::size_t most_segments = std::size_t{1} << 16;
+  /// Vectors in a work-item make it faster, as on CPUs; else they cost registers, and Mesa's
+  /// llvmpipe two minutes to compile.
+  bool prefers_vectors = true;
 };
 
 /// Every device of every platform, in platform order; empty where there is none.

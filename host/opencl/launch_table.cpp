@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "kernels/params.h"
 
 namespace defray {
 namespace {
@@ -21,7 +22,7 @@ const std::vector<Launch>& launch_table() {
       {"edges", 64, 1, 1, 2 * plane},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
-      {"fill", 64, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour},
+      {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_FILL_RUN},
       {"gather_aware", 64, 1},
       {"gather_literal", 64, 1},
       {"gather_reach", 16, 1},

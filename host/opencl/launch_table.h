@@ -15,6 +15,8 @@ struct Launch {
   /// Of planes that a kernel reads and writes, a surface, on a device with memory of its own: of
   /// kernels that for_each_band launches.
   std::size_t bytes_a_surface = 0;
+  /// Pixels of a row that a work-item takes, of the same kernels.
+  std::size_t run_px = 1;
 };
 
 /// Of all kernels, by name.

@@ -44,6 +44,7 @@ std::string build_options(const DeviceInfo& info, const SessionOptions& options,
                           bool int64_atomics) {
   std::string text = "-cl-std=CL1.2 " + options.build_options;
   if (int64_atomics) text += " -DDEFRAY_INT64_ATOMICS";
+  if (!options.use_vectors || !info.prefers_vectors) text += " -DDEFRAY_SCALARS";
   if (options.math == Math::fast) return text + " -DDEFRAY_FAST_MATH -cl-fast-relaxed-math";
   // Without it OpenCL lets x / y be 2.5 ulp off, and sqrt 3.
   if (info.rounds_divisions) text += " -cl-fp32-correctly-rounded-divide-sqrt";

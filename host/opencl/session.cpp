@@ -11,6 +11,7 @@ namespace defray {
 Session::Session(const DeviceInfo& info, const SessionOptions& options)
     : info_(info),
       int64_atomics_(options.use_int64_atomics && info.has_int64_atomics),
+      vectors_(options.use_vectors && info.prefers_vectors),
       measures_(options.measures) {
   context_ = checked(info_, "clCreateContext", [&] { return cl::Context(info.device); });
   queue_ = checked(info_, "clCreateCommandQueue", [&] {

@@ -24,6 +24,8 @@ class Session {
 
   const DeviceInfo& info() const { return info_; }
   bool has_int64_atomics() const { return int64_atomics_; }
+  /// Whether kernels are built with vectors in a work-item (kernels/lanes.clh).
+  bool uses_vectors() const { return vectors_; }
 
   /// Names of all kernels of the program, sorted.
   std::vector<std::string> kernel_names() const;
@@ -161,7 +163,7 @@ class Session {
   std::unique_ptr<DeviceBuffer> device_buffer(const cl::Buffer& buffer, std::size_t bytes);
 
   DeviceInfo info_;
-  bool int64_atomics_, measures_, copies_ = false;
+  bool int64_atomics_, vectors_, measures_, copies_ = false;
   std::size_t memory_bytes_ = default_memory_bytes;
   std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;

@@ -10,6 +10,7 @@
 namespace defray {
 
 struct SessionOptions {
+  bool use_vectors = true;  ///< False: `rdb_gather` without them even where the device likes them.
   bool use_int64_atomics = true;  ///< False: the two-pass scatter even where the device has them.
   Math math = Math::strict;
   std::string build_options = {};  ///< More options for the OpenCL compiler.

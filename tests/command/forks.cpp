@@ -1,4 +1,4 @@
-#include "forks.h"
+#include "command/forks.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "program.h"
+#include "command/program.h"
 #include "run.h"
 
 extern "C" void __gcov_dump() __attribute__((weak));

@@ -1,4 +1,4 @@
-#include "program.h"
+#include "command/program.h"
 
 #include <sys/wait.h>
 
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "forks.h"
+#include "command/forks.h"
 
 namespace defray::test {
 namespace {

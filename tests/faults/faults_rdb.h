@@ -175,10 +175,10 @@ inline std::vector<Fault> rdb_faults() {
        {"min(first[runs->run[i].y] + 1, end_of_cell);\n      for (at = max(at, "
         "first[runs->run[i].x]); at < end && is_open; ++at) {\n        const int4 segment = "
         "r->segments[at];\n        size_t from;\n        if (!sources_of(p, s, segment, &from)) "
-        "continue;\n        int16 hit",
+        "continue;\n        ints hit",
         "min(first[runs->run[i].y], end_of_cell);\n      for (at = max(at, first[runs->run[i].x]); "
         "at < end && is_open; ++at) {\n        const int4 segment = r->segments[at];\n        "
-        "size_t from;\n        if (!sources_of(p, s, segment, &from)) continue;\n        int16 "
+        "size_t from;\n        if (!sources_of(p, s, segment, &from)) continue;\n        ints "
         "hit"}},
       {"rdb_gather", "plain targets stay open", {"open[j] &= ~hit[j];", ""}},
       {"rdb_gather", "targets stay open", {"open[j] &= ~hit;", ""}},
@@ -186,14 +186,14 @@ inline std::vector<Fault> rdb_faults() {
       {"rdb_gather",
        "radii of what is not plain forgotten",
        {"plain[b / 64] | special[b / 64]", "plain[b / 64]"}},
-      {"rdb_gather", "sources from the frame's left", {"sx <= -DEFRAY_RAY_RUN ||", "sx < 0 ||"}},
+      {"rdb_gather", "sources from the frame's left", {"sx <= -LANES ||", "sx < 0 ||"}},
       {"rdb_gather", "sources from above the frame", {"sy <= -ROWS ||", "sy < 0 ||"}},
       {"rdb_gather",
        "differences in the first channel alone",
        {"s->differs[j] |= d & hit;", "s->differs[j] |= (c0 ^ bits_at(r->channel0, own)) & hit;"}},
       {"rdb_gather",
        "mean over one more",
-       {"convert_float16(max(s->count[j], (int16)(1)))", "convert_float16(s->count[j] + 1)"}},
+       {"convert_floats(max(s->count[j], (ints)(1)))", "convert_floats(s->count[j] + 1)"}},
       {"rdb_gather",
        "fourth channel forgotten",
        {"if (has_fourth) s->total3[j]", "if (false) s->total3[j]"}},
@@ -201,9 +201,7 @@ inline std::vector<Fault> rdb_faults() {
       {"rdb_gather",
        "nothing shows through",
        {"open[j] & behind.there[j] & passes[j]", "(int16)(0)"}},
-      {"rdb_gather",
-       "behind without the columns around",
-       {"x <= 2; ++x) {\n      const size_t i =", "x <= 1; ++x) {\n      const size_t i ="}},
+      {"rdb_gather", "behind without the columns around", {"(i % 5 - 2)", "min(i % 5 - 2, 1)"}},
       {"rdb_gather", "rim ignored", {"counts = hit & passes[j]", "counts = hit"}},
       {"rdb_gather",
        "half a pixel of blur is kept sharp",
@@ -213,13 +211,13 @@ inline std::vector<Fault> rdb_faults() {
       {"rdb_gather_seen", "what shows through was seen", {"counts & behind.was_seen[j]", "counts"}},
       {"rdb_gather_seen",
        "sharp tiles count nothing",
-       {"(key != DEFRAY_NO_KEY) & (int16)(int)p.cell_count", "(int16)(0)"}},
+       {"IS(key != DEFRAY_NO_KEY) & (ints)(int)p.cell_count", "(ints)(0)"}},
       {"rdb_gather_winners",
        "layer forgotten",
        {"(row * (int)p.layers + n->layer)", "(row * (int)p.layers)"}},
       {"rdb_gather_winners",
        "keys as they are",
-       {"(n->key ^ (int16)(INT_MIN)) & hit", "n->key & hit"}},
+       {"(n->key ^ (ints)(INT_MIN)) & hit", "n->key & hit"}},
   };
 }
 

@@ -66,6 +66,25 @@ TEST(RdbGather, GivesTheSameBitsInBandsOfAnyHeightOnCopies) {
   }
 }
 
+TEST(RdbGather, GivesTheSameBitsOnDevicesThatPreferScalars) {
+  SessionOptions options;
+  options.use_vectors = false;
+  options.files = {"rdb_tiles.cl", "rdb_gather.cl", "rdb_nearest.cl"};
+  Session scalars(device_under_test(), options);
+  EXPECT_FALSE(scalars.uses_vectors());
+  EXPECT_EQ(session().uses_vectors(), device_under_test().prefers_vectors);
+  DeviceStages stages(scalars);
+  const Size size{61, 43};
+  const std::vector<Plane> channels(3, random_plane(size, 8));
+  const Frame plain{size.width, size.height, random_coc(size, 5, 6), random_depth(size, 7),
+                    channels};
+  for (const Frame& f : {plain, random_frame(size, 9, 5)}) {
+    const RayPlan plan = plan_of(13, f.layers > 1);
+    expect_equal(rays(stages, f, plan, RaysBy::gather), rays(device(), f, plan, RaysBy::gather),
+                 fmt::format("{} layers", f.layers));
+  }
+}
+
 TEST(RdbGather, GivesTheSameBitsForEveryWorkGroup) {
   const Frame f = random_frame({61, 43}, 9, 5);
   const RayPlan plan = plan_of(13, true);

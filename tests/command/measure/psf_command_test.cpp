@@ -3,8 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "command/program.h"
 #include "image/ldr.h"
-#include "program.h"
 #include "reference/reference.h"
 
 namespace defray::test::psf_command_test {

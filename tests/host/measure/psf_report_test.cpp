@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "psf_support.h"
+#include "host/measure/psf_support.h"
 
 namespace defray::test::psf_report_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "command/program.h"
 #include "defray/device.h"
-#include "program.h"
 
 namespace defray::test::parse_test {
 namespace {

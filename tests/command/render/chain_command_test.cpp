@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::chain_command_test {
 namespace {
@@ -73,7 +73,7 @@ TEST_F(ChainCommand, ConfidenceIsAChannelAndInTheSummary) {
     EXPECT_LE(c, 1.0f);
     sum += c;
   }
-  const auto report = nlohmann::json::parse(last_)["defocus"];
+  const auto report = nlohmann::json::parse(last_)["chain"];
   EXPECT_NEAR(sum / static_cast<double>(confidence.size()), report["confidence"], 1e-3);
   EXPECT_GT(report["behind_px"], 0);
   rendered(bg);

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "command/program.h"
 #include "image/ldr.h"
-#include "program.h"
 
 namespace defray::test::compare_command_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "command/program.h"
 #include "validation/case.h"
 
 namespace defray::test::validate_command_test {

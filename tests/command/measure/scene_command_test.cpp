@@ -2,7 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "command/program.h"
 #include "scenes/scene.h"
 
 namespace defray::test::scene_command_test {

@@ -1,5 +1,5 @@
 // The defaults that `--help` and the README state are those that are used.
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::defaults_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::sequence_command_test {
 namespace {

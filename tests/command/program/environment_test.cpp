@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::environment_test {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::bad_input_test {
 namespace {

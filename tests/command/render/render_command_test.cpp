@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::render_command_test {
 namespace {

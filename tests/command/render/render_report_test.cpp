@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::render_report_test {
 namespace {
@@ -149,7 +149,7 @@ TEST(RenderReport, JsonHasEveryFigure) {
                          {"background_px", 7},
                          {"nan_depth_px", 2},
                          {"depth_outside_range_px", 3},
-                         {"defocus",
+                         {"chain",
                           {{"lens_points", 137},
                            {"confidence", 0.75},
                            {"repaired_px", 11},
@@ -186,7 +186,7 @@ TEST(RenderReport, JsonSaysWhatBecameOfAFrame) {
                json_of(o).contains("frame"));
   o.report.depth_channel = "";
   o.report.chain = {};
-  EXPECT_FALSE(json_of(o).contains("focal_length_mm") || json_of(o).contains("defocus"));
+  EXPECT_FALSE(json_of(o).contains("focal_length_mm") || json_of(o).contains("chain"));
 }
 
 }  // namespace

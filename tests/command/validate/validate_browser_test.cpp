@@ -3,7 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::validate_browser_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "command/program.h"
 #include "image/channel_names.h"
-#include "program.h"
 
 namespace defray::test::channels_command_test {
 namespace {

@@ -1,7 +1,7 @@
 // The whole API once more, in a program that mutants and sanitizers reach: library_test.sh runs the
 // same on the installed library.
 #define main api_main
-#include "../library/api.cpp"
+#include "library/api.cpp"
 #undef main
 
 #include "image/image_file.h"

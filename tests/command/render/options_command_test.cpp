@@ -1,7 +1,7 @@
 // defray render: an option that can change nothing is refused; work-groups for all kernels and one.
 #include <fstream>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::options_command_test {
 namespace {

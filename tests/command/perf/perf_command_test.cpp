@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "program.h"
+#include "command/program.h"
 
 #ifndef DEFRAY_PERF_PROGRAM
 #define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks

@@ -1,7 +1,7 @@
 // The diffraction PSF against closed forms, the geometric one against the CoC.
 #include <cmath>
 
-#include "psf_support.h"
+#include "host/measure/psf_support.h"
 #include "reference/reference.h"
 
 namespace defray::test::psf_test {

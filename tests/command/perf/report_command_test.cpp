@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "program.h"
+#include "command/program.h"
 
 #ifndef DEFRAY_PERF_PROGRAM
 #define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks

@@ -1,7 +1,7 @@
 // defray render --method: every option changes the picture, every wrong use is said.
 #include <cmath>
 
-#include "program.h"
+#include "command/program.h"
 
 namespace defray::test::method_command_test {
 namespace {
