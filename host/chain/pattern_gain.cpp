@@ -1,5 +1,6 @@
 // How much of what lies behind its matches explain.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -10,16 +11,24 @@ namespace {
 
 using Sums = std::vector<std::uint64_t>;
 
-/// Sums with weights n - |j| along a line of `count` words, `step` apart.
-void sum_line(const std::uint64_t* in, std::uint64_t* out, int count, std::size_t step, int n) {
-  const auto at = [&](int i) { return i < 0 || i >= count ? 0 : in[size(i) * step]; };
+constexpr int columns_at_once = 16;
+
+/// Sums with weights n - |j| along lines of `count` words, `step` apart; as many lines beside each
+/// other as `lines` says.
+template <int lines>
+void sum_lines(const std::uint64_t* in, std::uint64_t* out, int count, std::size_t step, int n) {
+  constexpr std::array<std::uint64_t, lines> none{};
+  const auto at = [&](int i) { return i < 0 || i >= count ? none.data() : &in[size(i) * step]; };
   // From where all is zero: sum(x + 1) = sum(x) + values x + 1 ... x + n - values x - n + 1 ... x.
-  std::uint64_t sum = 0, before = 0, after = 0;
+  std::array<std::uint64_t, lines> sum{}, before{}, after{};
   for (int x = -n - 1; x < count; ++x) {
-    if (x >= 0) out[size(x) * step] = sum;
-    sum += after - before;
-    after += at(x + 1 + n) - at(x + 1);
-    before += at(x + 1) - at(x + 1 - n);
+    const std::uint64_t *next = at(x + 1), *joins = at(x + 1 + n), *leaves = at(x + 1 - n);
+    for (std::size_t k = 0; k < lines; ++k) {
+      if (x >= 0) out[size(x) * step + k] = sum[k];
+      sum[k] += after[k] - before[k];
+      after[k] += joins[k] - next[k];
+      before[k] += next[k] - leaves[k];
+    }
   }
 }
 
@@ -28,10 +37,18 @@ void sum_windows(int width, int height, int n, Sums& plane) {
   Sums rows(plane.size());
   parallel_for(height, [&](int y) {
     const std::size_t first = size(y) * size(width);
-    sum_line(&plane[first], &rows[first], width, 1, n);
+    sum_lines<1>(&plane[first], &rows[first], width, 1, n);
   });
-  parallel_for(width,
-               [&](int x) { sum_line(&rows[size(x)], &plane[size(x)], height, size(width), n); });
+  parallel_for((width + columns_at_once - 1) / columns_at_once, [&](int i) {
+    const int first = i * columns_at_once;
+    if (first + columns_at_once <= width) {
+      sum_lines<columns_at_once>(&rows[size(first)], &plane[size(first)], height, size(width), n);
+      return;
+    }
+    for (int x = first; x < width; ++x) {
+      sum_lines<1>(&rows[size(x)], &plane[size(x)], height, size(width), n);
+    }
+  });
 }
 
 std::uint64_t squared(std::uint64_t v) { return v * v; }

@@ -25,8 +25,7 @@ std::vector<std::uint32_t> encoded_colours(const Frame& f, const Frame& behind,
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = f.channels[std::min(c, f.channels.size() - 1)].host();
     for (std::size_t i = 0; i < encoded.size(); ++i) {
-      const long shown = std::lround(255 * shown_value(channel[i]));
-      encoded[i] |= static_cast<std::uint32_t>(shown) << (8 * c);
+      encoded[i] |= shown_8_bit(channel[i]) << (8 * c);
     }
   }
   return encoded;
