@@ -11,7 +11,7 @@ namespace defray {
 namespace {
 
 constexpr int sampled_rows = 4;                ///< One row of so many is compared,
-constexpr std::size_t most_samples = 1 << 14;  ///< and of its pixels no more than so many in all.
+constexpr std::size_t most_samples = 1 << 15;  ///< and of its pixels no more than so many in all.
 constexpr double ratio = 1.02;                 ///< From one length to the next.
 constexpr int most_lengths = 512;     ///< 1.02^512: surfaces a thousand times as far as others.
 constexpr int refine_steps = 8;       ///< On each side of a minimum,

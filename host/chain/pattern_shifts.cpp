@@ -14,7 +14,7 @@ namespace {
 constexpr int block = 4;                      ///< Side of the blocks of the coarse search, px.
 constexpr int refine_px = 3;                  ///< Around a coarse minimum.
 constexpr int refine_rows = 8;                ///< One row of so many is compared, or of more:
-constexpr std::size_t most_blocks = 1 << 15;  ///< In all, of the coarse search,
+constexpr std::size_t most_blocks = 1 << 16;  ///< In all, of the coarse search,
 constexpr std::size_t most_pixels = 1 << 16;  ///< and of the refining one.
 constexpr std::uint64_t no_shift_cost = std::numeric_limits<std::uint64_t>::max();
 
