@@ -9,8 +9,8 @@
 //                              lies between
 // mixed       [height][width]  edges: 1 where a neighbour lies on another surface: anti-aliased
 //                              colour holds both there
-// Global size of both: (width, height).
-#include "frame.clh"
+// Global size of both: (runs of DEFRAY_RUN pixels of a row, height).
+#include "run.clh"
 
 // A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat,
 // all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come closer to one end.
@@ -26,28 +26,27 @@ int ramp(const int before, const int low, const int middle, const int high, cons
   return abs(from_low) <= abs(to_high) ? -1 : 1;
 }
 
-// Whether all that may be an end of a ramp is close to its middle: then it is none. Of a steep one
+// Where all that may be an end of a ramp is close to its middle: there is none then. Of a steep one
 // one end is a jump away at least.
-bool is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta, const int2 at,
-              const int own) {
-  uint largest = 0u;
+int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+               const int2 start) {
+  const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
+  uint16 largest = 0u;
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
-      const uint q = pixel_at(p.width, p.height, at + (int2)(x, y));
-      largest = max(largest, abs_diff(coc_of(coc_quanta, q), own));
+      const int16 coc = coc_of_run(p.width, p.height, coc_quanta, start + (int2)(x, y));
+      largest = max(largest, abs_diff(coc, own));
     }
   }
-  return largest <= DEFRAY_JUMP_QUANTA;
+  return largest <= (uint16)(DEFRAY_JUMP_QUANTA);
 }
 
-__kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-                     __global uint* restrict source) {
-  const int2 at = work_item();
-  if (!is_inside(p.width, p.height, at)) return;
+// The pixel whose depth a pixel should have.
+uint repaired(const DefrayFrameParams p, __global const int* restrict coc_quanta, const int2 at) {
   const int2 directions[4] = {(int2)(1, 0), (int2)(0, 1), (int2)(1, 1), (int2)(1, -1)};
   uint found = pixel_at(p.width, p.height, at);
   const int own = coc_of(coc_quanta, found);
-  bool done = is_level(p, coc_quanta, at, own);
+  bool done = false;
   // A ramp may be one or two pixels wide: its ends are looked for one and two pixels away.
   for (int i = 0; i < 16 && !done; ++i) {
     const int2 d = directions[i % 4];
@@ -60,20 +59,36 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
     if (side != 0) found = side < 0 ? low : high;
     done = side != 0;
   }
-  source[pixel_at(p.width, p.height, at)] = found;
+  return found;
+}
+
+__kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+                     __global uint* restrict source) {
+  const int2 start = run_start();
+  if (!is_inside(p.width, p.height, start)) return;
+  const uint first = pixel_at(p.width, p.height, start);
+  store_run(p.width, source, start, (uint16)(first) + as_uint16(RUN_LANES));
+  const int16 level = is_level(p, coc_quanta, start);
+  if (all(level)) return;
+  int is_done[RUN];
+  vstore16(level, 0, is_done);
+  for (int i = 0; i < run_length(p.width, start); ++i) {
+    if (!is_done[i]) source[first + (uint)i] = repaired(p, coc_quanta, start + (int2)(i, 0));
+  }
 }
 
 __kernel void edges(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                     __global uint* restrict mixed) {
-  const int2 at = work_item();
-  if (!is_inside(p.width, p.height, at)) return;
-  const uint own = pixel_at(p.width, p.height, at);
-  int largest = 0;
+  const int2 start = run_start();
+  if (!is_inside(p.width, p.height, start)) return;
+  const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
+  uint16 largest = 0u;
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {
-      const uint q = pixel_at(p.width, p.height, at + (int2)(i, j));
-      largest = max(largest, (int)abs_diff(coc_of(coc_quanta, q), coc_of(coc_quanta, own)));
+      const int16 coc = coc_of_run(p.width, p.height, coc_quanta, start + (int2)(i, j));
+      largest = max(largest, abs_diff(coc, own));
     }
   }
-  mixed[own] = largest > DEFRAY_JUMP_QUANTA;
+  const int16 is_mixed = largest > (uint16)(DEFRAY_JUMP_QUANTA);
+  store_run(p.width, mixed, start, as_uint16(is_mixed) & (uint16)(1u));
 }

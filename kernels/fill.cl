@@ -17,10 +17,9 @@
 // behind_coc   [height][width]    signed radius; as given where nothing was found
 // behind_inverse [height][width]  1/depth; negative where nothing was found
 // behind0..3   [height][width]    colour
-// Global size: (runs of DEFRAY_FILL_RUN pixels of a row, height).
+// Global size: (runs of DEFRAY_RUN pixels of a row, height).
 #include "colour.clh"
 #include "fill_walk.clh"
-#include "frame.clh"
 #include "rank.clh"
 
 // What a ray over the picture has found.
@@ -38,8 +37,8 @@ typedef struct {
 Found continue_back(const DefrayFillParams p, __global const int* restrict coc_quanta,
                     __global const float* restrict inverse, __global const uint* restrict mixed,
                     const int2 start, const float2 direction, const int t, const int own) {
-  const int2 back = convert_int2(rint((float)t * direction));
-  const int2 on = convert_int2(rint(4.0f * direction));
+  const int2 back = nearest_px((float)t * direction);
+  const int2 on = nearest_px(4.0f * direction);
   const int2 beyond = start + back + on;
   const uint q = pixel_at(p.width, p.height, start + back);
   Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q], 0.0f};
@@ -82,7 +81,7 @@ Found look_further(const DefrayFillParams p, __global const int* restrict coc_qu
   uint source = found.source;
   found.weight = 1.0f / (found.distance * found.distance);
   for (int i = 1; i <= 4; ++i) {
-    const int2 at = start + convert_int2(rint((found.distance + (float)(4 * i)) * direction));
+    const int2 at = start + nearest_px((found.distance + (float)(4 * i)) * direction);
     if (!is_inside(p.width, p.height, at)) break;
     const uint q = pixel_at(p.width, p.height, at);
     if (mixed[q] || abs(coc_of(coc_quanta, q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
@@ -118,8 +117,7 @@ float own_inverse_of(const DefrayFillParams p, __global const float* restrict in
 void clear_run(const DefrayFillParams p, __global const int* restrict coc_quanta, const int2 start,
                __global int* restrict behind_coc, __global float* restrict behind_inverse,
                WRITTEN_CHANNELS(behind)) {
-  const int count = min(RUN, (int)p.width - start.x);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < run_length(p.width, start); ++i) {
     const uint pixel = pixel_at(p.width, p.height, start + (int2)(i, 0));
     behind_inverse[pixel] = -1.0f;
     behind_coc[pixel] = coc_quanta[pixel];
@@ -189,7 +187,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
                    __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
                    __global int* restrict behind_coc, __global float* restrict behind_inverse,
                    WRITTEN_CHANNELS(behind)) {
-  const int2 start = (int2)((int)get_global_id(0) * RUN, (int)get_global_id(1));
+  const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
   clear_run(p, coc_quanta, start, behind_coc, behind_inverse, CHANNELS(behind));
   const uint tile = (uint)start.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)start.x / DEFRAY_FILL_TILE;
@@ -201,8 +199,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
     look_behind(p, coc_quanta, mixed, start, sixteenth(i), own, farthest[tile], steps + i * RUN);
   }
-  const int count = min(RUN, (int)p.width - start.x);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < run_length(p.width, start); ++i) {
     fill_pixel(p, coc_quanta, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i],
                steps + i, behind_coc, behind_inverse, CHANNELS(behind));
   }

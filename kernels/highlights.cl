@@ -9,6 +9,7 @@
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. What is made up is no
 //                                       highlight.
 // channel0..3  [height][layers][width]
+// darkest      [tiles_y][tiles_x]  the least light that the fragments of a tile can look at
 // kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
 // Global size: (width, height x layers).
 #include "colour.clh"
@@ -24,12 +25,12 @@ float light_of(const float4 c, const uint channels) {
 // Sample i of 32 around a fragment's disc: on its rim and half way, two pixels further out.
 int2 around(const int2 at, const float radius, const uint i) {
   const float distance = fmax(radius, 3.0f) * (i < 16u ? 0.5f : 1.0f) + 2.0f;
-  return at + convert_int2(rint(distance * sixteenth(i % 16u)));
+  return at + nearest_px(distance * sixteenth(i % 16u));
 }
 
 __kernel void highlights(const DefrayHighlightParams p, __global const int* restrict coc_quanta,
                          __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
-                         __global float* restrict kept) {
+                         __global const float* restrict darkest, __global float* restrict kept) {
   const uint x = get_global_id(0);
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.height * p.layers) return;
@@ -39,8 +40,10 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
   const float own_light = light_of(colour_at(CHANNELS(channel), own), p.light_channels);
   const int coc = coc_of(coc_quanta, own);
   if (share == 0u || coc == 0 || !(own_light > 0.0f) || isinf(own_light)) return;
-
   const int2 at = (int2)((int)x, (int)(row / p.layers));
+  const int2 tile = at / DEFRAY_HIGHLIGHT_TILE;
+  if (!(darkest[(uint)tile.y * p.tiles_x + (uint)tile.x] * DEFRAY_HIGHLIGHT < own_light)) return;
+
   float light[32];
   uint count = 0u, dim = 0u;
   for (uint i = 0; i < 32u; ++i) {

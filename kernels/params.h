@@ -25,6 +25,9 @@
 #define DEFRAY_COC_LIMIT_QUANTA (1 << 30)
 /// A cell that no ray has reached: both halves of its (depth, source) key. As depth: no fragment.
 #define DEFRAY_EMPTY 0xffffffffu
+/// Pixels of a row that a work-item takes at once, as one vector, in `edges`, `fill`, `repair` and
+/// `soften`.
+#define DEFRAY_RUN 16
 /// A fragment that covers its whole pixel.
 #define DEFRAY_WHOLE 65536u
 /// Flag in a fragment's coverage: the picture did not show it, it was made up.
@@ -35,10 +38,8 @@
 #define DEFRAY_JUMP_QUANTA 256
 /// CoC radii count as no larger than this where differences are taken: 2^20 px.
 #define DEFRAY_TAME_QUANTA (1 << 28)
-/// Side of the square tiles in which `fill` may have something to do, in pixels.
+/// Side of the square tiles in which `fill` may have something to do, in pixels: whole runs.
 #define DEFRAY_FILL_TILE 16
-/// Pixels of a row that a work-item of `fill` looks from at once; tiles are whole runs wide.
-#define DEFRAY_FILL_RUN 16
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
 /// Directions in which `fill` looks for what goes on behind.
@@ -49,6 +50,8 @@
 /// How much brighter than its surroundings a highlight is. Rays through n cells show a source as
 /// dots of 1/n of its brightness: up to here they are fainter than a hundredth or two.
 #define DEFRAY_HIGHLIGHT 10.0f
+/// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
+#define DEFRAY_HIGHLIGHT_TILE 16
 /// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens cell.
 #define DEFRAY_WIDE_QUANTA 1024
 /// Below this CoC (half a pixel) a fragment's rays stay in its pixel.
@@ -200,6 +203,7 @@ typedef struct {
   DEFRAY_UINT height;
   DEFRAY_UINT layers;
   DEFRAY_UINT light_channels;  ///< 1 to 4, alpha apart.
+  DEFRAY_UINT tiles_x;
 } DefrayHighlightParams;
 
 /// Their light, for a pass of the RDB.
@@ -272,7 +276,7 @@ typedef struct {
 } DefrayPatternParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefrayHighlightParams) == 16);
+static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayAssembleParams) == 20);

@@ -9,48 +9,125 @@
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. Bit 31 does not matter.
 // channel0..3  [height][layers][width]
 // out0..3      [height][layers][width]
-// Global size: (width, height x layers).
+// Global size: (runs of DEFRAY_RUN fragments of a row, height x layers).
 #include "colour.clh"
-#include "frame.clh"
+#include "run.clh"
+
+// What a fragment averages: a square of so many taps around it.
+typedef struct {
+  float16 half_side;  // px
+  float16 alike;      // largest difference in CoC, quanta
+  int16 stride, taps;
+  int16 is_active;  // the others keep their colour
+} Squares;
+
+Squares squares_of(const DefraySoftenParams p, const int16 own_coc, const int16 own_share) {
+  const float16 side = fabs(convert_float16(own_coc)) * (2.0f / 256.0f) / p.cells_a_side;
+  Squares s;
+  s.half_side = 0.5f * side;
+  const int16 reach = convert_int16(s.half_side + 0.5f);
+  // Wide squares are sampled with a stride.
+  s.stride = max((int16)(1), (2 * reach + DEFRAY_SOFTEN_TAPS) / DEFRAY_SOFTEN_TAPS);
+  s.taps = min(reach / s.stride, (int16)(DEFRAY_SOFTEN_TAPS / 2));
+  s.alike = 128.0f * fmax(side, (float16)(1.0f));  // half a cell, in quanta
+  s.is_active = (side > 1.0f) & (own_share != 0);
+  return s;
+}
+
+// Sixteen fragments: mostly beside each other, so that one load reads them.
+typedef struct {
+  uint16 at;
+  bool is_line;
+} Places;
+
+Places places_at(const DefraySoftenParams p, const int16 x, const int16 y, const int layer) {
+  const int16 row = clamp(y, (int16)(0), (int16)((int)p.height - 1)) * (int)p.layers + layer;
+  const int16 column = clamp(x, (int16)(0), (int16)((int)p.width - 1));
+  Places places;
+  places.at = as_uint16(row * (int)p.width + column);
+  places.is_line = all(places.at == places.at.s0 + as_uint16(RUN_LANES));
+  return places;
+}
+
+int16 ints_at(__global const int* restrict plane, const Places from) {
+  if (from.is_line) return vload16(0, plane + from.at.s0);
+  uint places[RUN];
+  int values[RUN];
+  vstore16(from.at, 0, places);
+  for (int i = 0; i < RUN; ++i) values[i] = plane[places[i]];
+  return vload16(0, values);
+}
+
+float16 floats_at(__global const float* restrict plane, const Places from) {
+  if (from.is_line) return vload16(0, plane + from.at.s0);
+  uint places[RUN];
+  float values[RUN];
+  vstore16(from.at, 0, places);
+  for (int i = 0; i < RUN; ++i) values[i] = plane[places[i]];
+  return vload16(0, values);
+}
+
+// Coverage without its flag.
+int16 shares_at(__global const uint* restrict coverage, const Places from) {
+  return ints_at((__global const int*)coverage, from) & (int)~DEFRAY_SYNTHESISED;
+}
+
+// How much of a pixel this far along x or y lies inside.
+float16 inside(const float16 half_side, const int16 distance) {
+  const float16 share = half_side + 0.5f - convert_float16(abs(distance));
+  return clamp(share, (float16)(0.0f), (float16)(1.0f));
+}
+
+// Writes own colours with the mean difference to them added; where there is none, as they are.
+void write_mean(__global float* out, const uint first, const int count, const float16 own,
+                const float16 sum, const float16 weights, const int16 is_active) {
+  const float16 difference = sum / weights;  // a fragment itself has weight
+  const int16 stays = (difference == 0.0f) | ~isfinite(own) | ~is_active;  // -0 stays -0
+  float lanes[RUN];
+  vstore16(select(own + difference, own, stays), 0, lanes);
+  for (int i = 0; i < count; ++i) out[first + (uint)i] = lanes[i];
+}
 
 __kernel void soften(const DefraySoftenParams p, __global const int* restrict coc_quanta,
                      __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
                      WRITTEN_CHANNELS(out)) {
-  const uint x = get_global_id(0);
-  const uint row = get_global_id(1);
-  if (x >= p.width || row >= p.height * p.layers) return;
-  const uint own_at = row * p.width + x;
-  const float4 own = colour_at(CHANNELS(channel), own_at);
-  const int own_coc = coc_quanta[own_at];
-  const float side = fabs((float)own_coc) * (2.0f / 256.0f) / p.cells_a_side;
-  set_colour(CHANNELS(out), own_at, own);
-  if (side <= 1.0f || (coverage[own_at] & ~DEFRAY_SYNTHESISED) == 0u) return;
-
-  const float half_side = 0.5f * side;
-  const int reach = (int)(half_side + 0.5f);
-  // Wide squares are sampled with a stride.
-  const int stride = max(1, (2 * reach + DEFRAY_SOFTEN_TAPS) / DEFRAY_SOFTEN_TAPS);
-  const int taps = min(reach / stride, DEFRAY_SOFTEN_TAPS / 2);
-  const float alike = 128.0f * fmax(side, 1.0f);  // half a cell, in quanta
-  const uint y = row / p.layers, layer = row % p.layers;
-  float4 sum = 0.0f;
-  float weights = 0.0f;
-  for (int j = -taps; j <= taps; ++j) {
-    for (int i = -taps; i <= taps; ++i) {
-      const int2 d = stride * (int2)(i, j);
-      const int2 at = (int2)((int)x, (int)y) + d;
-      if (!is_inside(p.width, p.height, at)) continue;
-      const uint q = ((uint)at.y * p.layers + layer) * p.width + (uint)at.x;
-      if (fabs((float)coc_quanta[q] - (float)own_coc) > alike) continue;
-      const float2 inside = clamp(half_side + 0.5f - convert_float2(abs(d)), 0.0f, 1.0f);
-      const uint share = coverage[q] & ~DEFRAY_SYNTHESISED;
-      const float weight = inside.x * inside.y * ((float)share * 0x1p-16f);
-      if (!(weight > 0.0f)) continue;
-      sum += weight * (colour_at(CHANNELS(channel), q) - own);
-      weights += weight;
+  const int2 start = run_start();
+  if (!is_inside(p.width, p.height * p.layers, start)) return;
+  const int16 x = (int16)(start.x) + RUN_LANES, y = (int16)(start.y / (int)p.layers);
+  const int layer = start.y % (int)p.layers;
+  const Places own_at = places_at(p, x, y, layer);
+  const int16 own_coc = ints_at(coc_quanta, own_at);
+  const Squares s = squares_of(p, own_coc, shares_at(coverage, own_at));
+  const float16 own0 = floats_at(channel0, own_at), own1 = floats_at(channel1, own_at);
+  const float16 own2 = floats_at(channel2, own_at), own3 = floats_at(channel3, own_at);
+  float16 sum0 = 0.0f, sum1 = 0.0f, sum2 = 0.0f, sum3 = 0.0f, weights = 0.0f;
+  const int most = any(s.is_active) ? DEFRAY_SOFTEN_TAPS / 2 : -1;
+  for (int j = -most; j <= most; ++j) {
+    for (int i = -most; i <= most; ++i) {
+      const int16 dx = s.stride * i, dy = s.stride * j;
+      const int16 is_tap = s.is_active & (s.taps >= max(i < 0 ? -i : i, j < 0 ? -j : j));
+      if (!any(is_tap)) continue;
+      const int16 is_there =
+          (x + dx >= 0) & (x + dx < (int)p.width) & (y + dy >= 0) & (y + dy < (int)p.height);
+      const Places from = places_at(p, x + dx, y + dy, layer);
+      const float16 apart =
+          fabs(convert_float16(ints_at(coc_quanta, from)) - convert_float16(own_coc));
+      const float16 share = convert_float16(shares_at(coverage, from)) * 0x1p-16f;
+      const float16 weight = inside(s.half_side, dx) * inside(s.half_side, dy) * share;
+      const int16 counts = is_tap & is_there & (apart <= s.alike) & (weight > 0.0f);
+      if (!any(counts)) continue;
+      const float16 none = 0.0f;
+      sum0 += select(none, weight * (floats_at(channel0, from) - own0), counts);
+      sum1 += select(none, weight * (floats_at(channel1, from) - own1), counts);
+      sum2 += select(none, weight * (floats_at(channel2, from) - own2), counts);
+      sum3 += select(none, weight * (floats_at(channel3, from) - own3), counts);
+      weights += select(none, weight, counts);
     }
   }
-  const float4 difference = sum / weights;  // the fragment itself has weight
-  const float4 changed = difference == 0.0f || !isfinite(own) ? own : own + difference;
-  set_colour(CHANNELS(out), own_at, changed);  // -0 stays -0
+  const uint first = own_at.at.s0;
+  const int count = run_length(p.width, start);
+  write_mean(out0, first, count, own0, sum0, weights, s.is_active);
+  write_mean(out1, first, count, own1, sum1, weights, s.is_active);
+  write_mean(out2, first, count, own2, sum2, weights, s.is_active);
+  write_mean(out3, first, count, own3, sum3, weights, s.is_active);
 }

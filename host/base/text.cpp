@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <numeric>
 #include <sstream>
 
@@ -30,6 +31,10 @@ std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+std::string lower_extension(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 bool contains_ignoring_case(const std::string& text, const std::string& part) {

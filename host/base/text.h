@@ -6,6 +6,8 @@
 namespace defray {
 
 std::string lower_case(std::string text);
+/// "a/B.PNG" -> ".png".
+std::string lower_extension(const std::string& path);
 bool contains_ignoring_case(const std::string& text, const std::string& part);
 
 /// "a.b.c" -> {a, b, c}.

@@ -18,8 +18,13 @@ constexpr int refine_steps = 8;       ///< On each side of a minimum,
 constexpr double refine_by = 0.0025;  ///< of so much of its length.
 constexpr std::uint64_t no_length_cost = std::numeric_limits<std::uint64_t>::max();
 
+/// A pixel that may be compared with another along the axis of the search.
 struct Sample {
-  int x, y;
+  std::size_t at;
+  int left;  ///< Pixels to the end of the picture.
+  float inverse;
+  std::uint32_t pixel;
+  std::int32_t coc;
 };
 
 struct Length {
@@ -47,7 +52,9 @@ class ParallelSearch {
         const float here = inverse_[at(x, y)], next = inverse_[at(x + dx, y + dy)];
         // Over a window of 25 px a shift of 100 px changes by 1.
         if (!(std::fabs(next - here) * 2500 > here) || !(here > 0)) continue;
-        samples_.push_back({x, y});
+        const std::size_t i = at(x, y);
+        const int left = longest.y > 0 ? height_ - 1 - y : width_ - 1 - x;
+        samples_.push_back({i, left, here, pixels_[i], coc_[i]});
         nearest_ = std::fmax(nearest_, here);
         farthest_ = std::fmin(farthest_, here);
       }
@@ -110,19 +117,18 @@ class ParallelSearch {
   /// (2/3) counts the more the fewer pairs there are.
   std::uint64_t cost(float parallel) const {
     std::uint64_t squares = 0, pairs = 0;
-    const PatternShift shift{longest_.x, longest_.y, parallel};
+    const int most = std::max(longest_.x, longest_.y);
+    const std::size_t step = longest_.y > 0 ? size(width_) : 1;
     for (const Sample& from : samples_) {
-      const std::size_t here = at(from.x, from.y);
-      const PatternShift s = shift_at(shift, inverse_[here]);
-      const int x = from.x + s.x, y = from.y + s.y;
-      if ((s.x == 0 && s.y == 0) || x >= width_ || y >= height_) continue;
-      const std::size_t there = at(x, y);
+      const int length = parallel_length(parallel, from.inverse, most);
+      if (length == 0 || length > from.left) continue;
+      const std::size_t there = from.at + size(length) * step;
       if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (std::abs(std::int64_t{coc_[here]} - coc_[there]) > settings_.tolerance_quanta) {
+      if (std::abs(std::int64_t{from.coc} - coc_[there]) > settings_.tolerance_quanta) {
         continue;
       }
       for (const int bit : {0, 8, 16}) {
-        const int d = static_cast<int>(pixels_[here] >> bit & 255) -
+        const int d = static_cast<int>(from.pixel >> bit & 255) -
                       static_cast<int>(pixels_[there] >> bit & 255);
         squares += static_cast<std::uint64_t>(d * d);
       }

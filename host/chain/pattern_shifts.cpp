@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/parallel.h"
+#include "base/vectorised.h"
 #include "chain/patterns.h"
 
 namespace defray {
@@ -81,8 +82,8 @@ struct Agreement {
 };
 
 /// Adds `count` pairs that begin at these indices.
-void add_pairs(const SearchedPicture& p, std::size_t at, std::size_t there, int count,
-               std::int32_t tolerance, Agreement& sum) {
+DEFRAY_VECTORISED void add_pairs(const SearchedPicture& p, std::size_t at, std::size_t there,
+                                 int count, std::int32_t tolerance, Agreement& sum) {
   // Below 2^32 in a run: 3 x 255^2 x 16384.
   constexpr int run = 16384;
   for (int first = 0; first < count; first += run) {

@@ -48,10 +48,8 @@ Words pattern_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
 
 PatternShift shift_at(const PatternShift& shift, float inverse) {
   if (shift.parallel == 0) return shift;
-  const float px = shift.parallel * inverse;
   const int most = std::max(std::abs(shift.x), std::abs(shift.y));
-  if (!(px >= DEFRAY_PATTERN_LEAST && px <= static_cast<float>(most))) return {0, 0};
-  const int length = static_cast<int>(std::rint(px));
+  const int length = parallel_length(shift.parallel, inverse, most);
   return {std::clamp(shift.x, -length, length), std::clamp(shift.y, -length, length)};
 }
 

@@ -3,6 +3,7 @@
 // shifts (He & Sun 2012, "Statistics of patch offsets for image completion"). Where the
 // surroundings of a hidden pixel agree with those of its shifted selves, their colours replace the
 // smooth one, by as much as the agreement explains.
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -54,6 +55,16 @@ std::vector<PatternShift> find_pattern_shifts(const Frame& frame, const Words& p
 /// partner and they differ less than half as much as at some shorter one.
 std::vector<PatternShift> find_parallel_shifts(const Frame& frame, const Words& pixels,
                                                const PatternSettings& settings);
+
+/// A parallel shift's way in the picture where 1/depth is `inverse`, px; 0 where that is shorter
+/// than DEFRAY_PATTERN_LEAST or longer than `most`, which is less than 2^22.
+inline int parallel_length(float parallel, float inverse, int most) {
+  const float px = parallel * inverse;
+  if (!(px >= DEFRAY_PATTERN_LEAST && px <= static_cast<float>(most))) return 0;
+  // To the nearest, halves to the even one: 1.5 x 2^23 leaves no bits for the rest.
+  constexpr float no_fraction = 0x1.8p23f;
+  return std::bit_cast<int>(px + no_fraction) - std::bit_cast<int>(no_fraction);
+}
 
 /// A shift where 1/depth is `inverse`: its way in the picture, px; {0, 0} where a parallel one is
 /// shorter than DEFRAY_PATTERN_LEAST or longer than its longest.

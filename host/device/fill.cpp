@@ -20,9 +20,7 @@ Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
       [&](Band& band) {
         const BandRows& rows = band.rows();
         const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x)};
-        const std::size_t tile = size(rows.window_y / DEFRAY_FILL_TILE) * size(tiles_x);
-        const cl::Buffer tiles =
-            session_.view(&farthest_met[tile], (farthest_met.size() - tile) * sizeof(cl_int));
+        const cl::Buffer tiles = band.tiles(farthest_met, tiles_x, DEFRAY_FILL_TILE);
         const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
         const auto behind = band.out(out.channels, f.channels.size());
         band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), tiles,

@@ -1,4 +1,5 @@
 // Kernel `highlights`.
+#include "chain/highlight_tiles.h"
 #include "device/device_stages.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
@@ -6,15 +7,22 @@
 namespace defray {
 
 Values<float> DeviceStages::highlights(const Frame& f, int light_channels) {
-  // As `around` in the kernel has it: discs of three pixels at least.
-  const std::int64_t reach = std::max(tame(largest_coc(f.coc_quanta.host())) / 256 + 1, 3);
+  const Values<float> darkest = darkest_around(f, light_channels);
+  const int tiles_x = (f.width + DEFRAY_HIGHLIGHT_TILE - 1) / DEFRAY_HIGHLIGHT_TILE;
   Values<float> kept;
-  for_each_band(session_, "highlights", f, reach, [&](Band& band) {
-    const DefrayHighlightParams p{word(f.width), word(band.rows().window_rows), word(f.layers),
-                                  word(light_channels)};
-    const cl::Buffer made = band.out(kept);
-    band.launch(p, band.in(f.coc_quanta), band.in(f.coverage), band.in(f.channels), made);
-  });
+  for_each_band(
+      session_, "highlights", f, highlight_reach(largest_coc(f.coc_quanta.host())),
+      [&](Band& band) {
+        const BandRows& rows = band.rows();
+        const DefrayHighlightParams p{word(f.width), word(rows.window_rows), word(f.layers),
+                                      word(light_channels), word(tiles_x)};
+        const cl::Buffer tiles = band.tiles(darkest, tiles_x, DEFRAY_HIGHLIGHT_TILE);
+        const cl::Buffer made = band.out(kept);
+        band.launch(p, band.in(f.coc_quanta), band.in(f.coverage), band.in(f.channels), tiles,
+                    made);
+        session_.finish();  // the tiles are this function's own
+      },
+      DEFRAY_HIGHLIGHT_TILE);
   return kept;
 }
 

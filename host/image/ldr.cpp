@@ -14,10 +14,6 @@
 namespace defray {
 namespace {
 
-std::string extension(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string());
-}
-
 /// OpenCV stores B G R A.
 int bgr_index(std::size_t channel) {
   return channel < 3 ? 2 - static_cast<int>(channel) : static_cast<int>(channel);
@@ -36,7 +32,7 @@ std::uint8_t to_byte(double encoded) {
 }  // namespace
 
 bool is_ldr_path(const std::string& path) {
-  const std::string e = extension(path);
+  const std::string e = lower_extension(path);
   return e == ".png" || e == ".jpg" || e == ".jpeg";
 }
 
@@ -79,7 +75,7 @@ LdrPicture read_ldr(const std::string& path, Content content) {
 
 void write_ldr(const std::string& path, const LdrPicture& picture) {
   const bool has_alpha = picture.planes.size() == 4;
-  const bool keeps_alpha = has_alpha && extension(path) == ".png";
+  const bool keeps_alpha = has_alpha && lower_extension(path) == ".png";
   cv::Mat image(picture.height, picture.width, keeps_alpha ? CV_8UC4 : CV_8UC3);
   const int channels = image.channels();
   for (int y = 0; y < picture.height; ++y) {
@@ -104,7 +100,7 @@ void write_encoded(const std::string& path, const void* mat) {
   // Encoded in memory and written by us: the codecs report a full disk on their own, or not at all.
   std::vector<std::uint8_t> bytes;
   try {
-    cv::imencode(extension(path), *static_cast<const cv::Mat*>(mat), bytes,
+    cv::imencode(lower_extension(path), *static_cast<const cv::Mat*>(mat), bytes,
                  {cv::IMWRITE_JPEG_QUALITY, 95});
   } catch (const cv::Exception& error) {
     fail(ErrorKind::output, "{}: cannot encode: {}", path, error.err);

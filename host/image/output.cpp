@@ -13,11 +13,7 @@
 namespace defray {
 namespace {
 
-std::string extension(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string());
-}
-
-bool is_exr(const std::string& path) { return extension(path) == ".exr"; }
+bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
 void write_display_encoded(const std::string& path, const PartInfo& part,
                            const std::vector<Plane>& colour, std::vector<std::string>& notes) {
@@ -67,7 +63,7 @@ std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Win
 
 void check_output_format(const std::string& path) {
   const std::vector<std::string> allowed{".exr", ".tif", ".tiff", ".hdr", ".png", ".jpg", ".jpeg"};
-  const std::string e = extension(path);
+  const std::string e = lower_extension(path);
   for (const std::string& a : allowed) {
     if (e == a) return;
   }
@@ -78,7 +74,7 @@ void check_output_format(const std::string& path) {
 }
 
 bool keeps_other_channels(const std::string& path, const ImageFile& file) {
-  const bool same_format = extension(path) == extension(file.path());
+  const bool same_format = lower_extension(path) == lower_extension(file.path());
   return !is_ldr_path(path) && (same_format || (is_exr(path) && is_ldr_path(file.path())));
 }
 
@@ -107,13 +103,13 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
   write_safely(path, [&](const std::string& name) {
     if (keeps_all) return file.write(name);
     std::vector<int> channels = choice.channels;
-    if (extension(path) == ".hdr") channels.resize(3);
+    if (lower_extension(path) == ".hdr") channels.resize(3);
     file.extract(choice.part, channels).write(name);
   });
 }
 
 void check_plane_format(const std::string& path, const std::string& name) {
-  if (!is_exr(path) && extension(path) != ".tif" && extension(path) != ".tiff") {
+  if (!is_exr(path) && lower_extension(path) != ".tif" && lower_extension(path) != ".tiff") {
     fail(ErrorKind::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
          name);
   }

@@ -47,6 +47,13 @@ class Band {
   /// Four channels: a missing one repeats the last.
   std::array<cl::Buffer, 4> in(const Planes& channels);
 
+  /// A plane of the frame's tiles from the window's on: [rows of tiles][tiles_x].
+  template <typename T>
+  cl::Buffer tiles(const Values<T>& plane, int tiles_x, int tile_px) {
+    const std::size_t first = size(rows_.window_y / tile_px) * size(tiles_x);
+    return session_.view(&plane[first], (plane.size() - first) * sizeof(T));
+  }
+
   /// The band's rows of a plane of the frame, to be written.
   template <typename T>
   cl::Buffer out(Values<T>& plane) {

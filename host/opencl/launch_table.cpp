@@ -19,16 +19,15 @@ const std::vector<Launch>& launch_table() {
       // Reads and writes a surface.
       {"assemble", 64, 1, 0, 2 * (3 * plane + colour)},
       {"coc", 64, 1},
-      {"edges", 64, 1, 1, 2 * plane},
+      {"edges", 8, 1, 1, 2 * plane, DEFRAY_RUN},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
-      {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_FILL_RUN},
+      {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_RUN},
       {"gather_aware", 64, 1},
       {"gather_literal", 64, 1},
       {"gather_reach", 16, 1},
       {"gather_tiles", 16, 1},
-      // Two pixels further out than the disc, and 1 for rounding.
-      {"highlights", 64, 1, 3, 3 * plane + colour},
+      {"highlights", 64, 1, 0, 3 * plane + colour},
       {"highlights_add", 64, 1},
       {"linear_psf", 16, 1},
       {"patterns_columns", 16, 1},
@@ -44,8 +43,8 @@ const std::vector<Launch>& launch_table() {
       {"rdb_scatter", 64, 1},
       {"rdb_tiles", 16, 1},
       // A ramp's ends are looked for two pixels away, and what is flat one further.
-      {"repair", 64, 1, 3, 2 * plane},
-      {"soften", 64, 1, 1, 2 * plane + 2 * colour},
+      {"repair", 8, 1, 3, 2 * plane, DEFRAY_RUN},
+      {"soften", 8, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
       // A square of 7 px around.
       {"split", 64, 1, 3, 3 * plane + colour + 2 * (3 * plane + colour)},
       {"tiltshift", 64, 1},

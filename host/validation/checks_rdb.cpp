@@ -1,5 +1,6 @@
 // The checks of kernels rdb_*.
 #include <algorithm>
+#include <utility>
 
 #include "device/device_stages.h"
 #include "rdb/rdb_plan.h"
@@ -46,14 +47,13 @@ std::size_t rdb_memory(const Case& c, const Input&) {
   return size(c.band_rows) * size(c.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
 }
 
+/// Means, and how many rays saw what the picture shows.
 template <auto plan_of>
-Outcome run_means(Stages& stages, const Case& c, const Input& in) {
-  return {{}, stages.rays(in.fragments, plan_of(c)).means};
-}
-
-template <auto plan_of>
-Outcome run_seen(Stages& stages, const Case& c, const Input& in) {
-  return integers(stages.rays(in.fragments, plan_of(c)).seen);
+Outcome run_rays(Stages& stages, const Case& c, const Input& in) {
+  RayResult result = stages.rays(in.fragments, plan_of(c));
+  Outcome out = integers(result.seen);
+  out.planes = std::move(result.means);
+  return out;
 }
 
 /// The case's fragments; those that were made up have no data, and others that of any pixel.
@@ -127,14 +127,12 @@ std::vector<KernelCheck> rdb_checks() {
   constexpr auto scatter = scatter_plan, gather = gather_plan;
   return {
       {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
-      {"rdb_gather", bits_rule, run_means<gather>, rdb_work, one_division, exact_means<gather>,
+      {"rdb_gather", bits_rule, run_rays<gather>, rdb_work, one_division, exact_means<gather>,
        rdb_memory},
-      {"rdb_gather_seen", integer_rule, run_seen<gather>, rdb_work, nullptr, nullptr, rdb_memory},
       {"rdb_gather_winners", integer_rule, run_nearest<gather>, rdb_work, nullptr, nullptr,
        rdb_memory},
-      {"rdb_merge", bits_rule, run_means<scatter>, rdb_work, one_division, exact_means<scatter>,
+      {"rdb_merge", bits_rule, run_rays<scatter>, rdb_work, one_division, exact_means<scatter>,
        rdb_memory},
-      {"rdb_merge_seen", integer_rule, run_seen<scatter>, rdb_work, nullptr, nullptr, rdb_memory},
       {"rdb_nearest", integer_rule, run_nearest<scatter>, rdb_work, nullptr, nullptr, rdb_memory},
       {"rdb_pad", integer_rule, run_pad, ray_tiles_work},
       {"rdb_reach", integer_rule, run_ray_reach, ray_tiles_work},

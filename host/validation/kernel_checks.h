@@ -38,8 +38,8 @@ struct KernelCheck {
   /// not promise correctly rounded divisions and roots (they may be 2.5 and 3 ulp off there).
   double (*loose_roundings)(const Case&) = nullptr;
 
-  /// Where results have a derived bound. Whole numbers are held to it alone, floats to their
-  /// twin's bits too.
+  /// Where results have a derived bound. Whole numbers without floats are held to it alone, floats
+  /// to their twin's bits too.
   Exact (*exact)(const Case&, const Input&) = nullptr;
 
   /// What a session may take where the case wants bands; null: band_memory of one layer.

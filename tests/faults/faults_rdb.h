@@ -92,8 +92,8 @@ inline std::vector<Fault> rdb_faults() {
         "passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[row])) {\n      continue;\n    }\n  "
         "  "
         "best"}},
-      {"rdb_merge_seen", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},
-      {"rdb_merge_seen", "count begun anew with each pass", {"? 0u : seen[target]", "? 0u : 0u"}},
+      {"rdb_merge", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},
+      {"rdb_merge", "count begun anew with each pass", {"? 0u : seen[target]", "? 0u : 0u"}},
       {"rdb_scatter_two_pass",
        "missing atomic for the key",
        {"atomic_min(half_keys + 1, key);", "if (key < half_keys[1]) half_keys[1] = key;"},
@@ -207,9 +207,9 @@ inline std::vector<Fault> rdb_faults() {
        "half a pixel of blur is kept sharp",
        {"is_blurred |= plain[w] & ~sharp[w]",
         "is_blurred |= plain[w] & (ulong)(long)(-(int)p.bin_shift) & ~sharp[w]"}},
-      {"rdb_gather_seen", "made-up fragments count as seen", {"counts & n.was_seen", "counts"}},
-      {"rdb_gather_seen", "what shows through was seen", {"counts & behind.was_seen[j]", "counts"}},
-      {"rdb_gather_seen",
+      {"rdb_gather", "made-up fragments count as seen", {"counts & n.was_seen", "counts"}},
+      {"rdb_gather", "what shows through was seen", {"counts & behind.was_seen[j]", "counts"}},
+      {"rdb_gather",
        "sharp tiles count nothing",
        {"IS(key != DEFRAY_NO_KEY) & (ints)(int)p.cell_count", "(ints)(0)"}},
       {"rdb_gather_winners",

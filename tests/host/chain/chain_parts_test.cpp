@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "chain/fill_tiles.h"
+#include "chain/highlight_tiles.h"
 #include "chain/pattern_window.h"
 #include "support.h"
 
@@ -70,7 +71,9 @@ TEST(FillTiles, KnowTheFarthestThatAWayCanMeet) {
       for (int x = 0; x < size.width; x += 3) {
         const Met met = met_from(f, mixed, x, y);
         const int known = farthest[static_cast<std::size_t>(y / tile * across + x / tile)];
-        if (met.is_mixed_near) EXPECT_GE(known, met.farthest) << x << " " << y << " " << seed;
+        if (met.is_mixed_near) {
+          EXPECT_GE(known, met.farthest) << x << " " << y << " " << seed;
+        }
         EXPECT_LE(known, all);
       }
     }
@@ -97,6 +100,71 @@ TEST(FillTiles, TheNearestAndTheFarthestPixelCount) {
   EXPECT_EQ(active(), 3);
   coc[159] = 1 << 30;
   EXPECT_EQ(active(), 10);
+}
+
+/// Two layers of random light, some of it not a number, some fragments made up.
+Frame lit_frame(Size size, std::uint32_t seed, int coc_px) {
+  Frame f{size.width, size.height};
+  f.layers = 2;
+  Random random(5, 6, seed);
+  std::vector<std::int32_t> coc;
+  std::vector<std::uint32_t> coverage;
+  std::vector<float> dim, bright;
+  for (std::size_t i = 0; i < f.surfaces(); ++i) {
+    const bool is_wide = random.next() < 0.01;
+    coc.push_back(static_cast<std::int32_t>(256 * (is_wide ? -coc_px : 1) * random.next()));
+    coverage.push_back(DEFRAY_WHOLE | (random.next() < 0.3 ? DEFRAY_SYNTHESISED : 0));
+    dim.push_back(static_cast<float>(random.next()) - 0.1f);
+    const bool is_number = random.next() < 0.9;
+    bright.push_back(is_number ? 1 + static_cast<float>(random.next()) : std::nanf(""));
+  }
+  f.coc_quanta = coc;
+  f.coverage = coverage;
+  f.channels = {Values<float>(dim), Values<float>(bright)};
+  return f;
+}
+
+TEST(HighlightTiles, KnowTheDarkestThatAFragmentLooksAt) {
+  constexpr Size size{75, 50};
+  constexpr int across = 5;
+  for (const int coc_px : {2, 20, 400}) {
+    const Frame f = lit_frame(size, 3, coc_px);
+    const Values<float> darkest = darkest_around(f, 2);
+    ASSERT_EQ(darkest.size(), 20u);
+    const auto light = [&](int x, int y) {
+      const std::size_t i = f.index(x, y, 0);
+      if (f.coverage[i] >= DEFRAY_SYNTHESISED) return HUGE_VALF;
+      return std::fmax(f.channels[0][i], f.channels[1][i]);
+    };
+    for (int i = 0; i < 32; ++i) {  // fragments beside borders of tiles
+      const int x = 16 * (i % 4) + i / 4 % 2 * 15, y = 16 * (i / 8) % 48 + i % 3;
+      for (int layer = 0; layer < 2; ++layer) {
+        const double radius = std::abs(f.coc_quanta[f.index(x, y, layer)]) / 256.0;
+        const double reach = std::max(radius, 3.0) + 2.5;
+        float least = HUGE_VALF;
+        for (int v = 0; v < size.height; ++v) {
+          for (int u = 0; u < size.width; ++u) {
+            const bool is_near = std::abs(u - x) <= reach && std::abs(v - y) <= reach;
+            if (is_near) least = std::fmin(least, light(u, v));
+          }
+        }
+        EXPECT_LE(darkest[static_cast<std::size_t>(y / 16 * across + x / 16)], least)
+            << x << " " << y << " " << coc_px;
+      }
+    }
+  }
+}
+
+TEST(HighlightTiles, FarTilesDoNotMatterToSmallDiscs) {
+  Frame f{80, 16};
+  f.coc_quanta = Quanta(f.surfaces(), 512);
+  f.coverage = Words(f.surfaces(), DEFRAY_WHOLE);
+  std::vector<float> light(f.surfaces(), 1.0f);
+  light[79] = 0.25f;
+  f.channels = {Values<float>(light)};
+  const Values<float> darkest = darkest_around(f, 1);
+  EXPECT_EQ(std::vector<float>(darkest.begin(), darkest.end()),
+            (std::vector<float>{1, 1, 1, 0.25f, 0.25f}));
 }
 
 /// Matches that lie 0.6 away, in sums of two shifts; surroundings that differ by D.

@@ -33,6 +33,8 @@ TEST(ExactBound, WholeNumbersMayBeHalfAStepOff) {
   // 8 roundings of 2^22 are 2 more.
   EXPECT_EQ(whole(0x1p22, (1 << 22) + 2).wrong, 0u);
   EXPECT_EQ(whole(0x1p22, (1 << 22) + 3).wrong, 1u);
+  // Beside floats they are none of the bound's.
+  EXPECT_EQ(exactly({{{1}}, 8}, {1}, {{7}, {{1}}}).wrong, 0u);
 }
 
 TEST(ExactBound, FloatsAreHeldToTheLargestInput) {

@@ -148,7 +148,7 @@ std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
 TEST(KernelChecks, BandsHaveTheCasesRows) {
   const Case c = parse_case("16x48,ties,coc=0.3,cells=2,seed=2");
   for (const char* kernel :
-       {"assemble", "edges", "linear_psf", "patterns_match", "rdb_merge", "rdb_merge_seen",
+       {"assemble", "edges", "linear_psf", "patterns_match", "rdb_merge",
         "rdb_nearest", "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
     const KernelCheck& check = find_check(kernel);
     // 24, 8 and 2 bands: each takes as many copies.
@@ -204,6 +204,9 @@ TEST(Verdict, WholeNumbersMustBeEqualUnlessTheirRuleIsExactArithmetic) {
   KernelCheck exact = rule();
   exact.exact = [](const Case&, const Input&) { return Exact{}; };
   EXPECT_EQ(compare(exact, Case(), {}, kernel, twin, true, true).wrong, 0u);
+  // Beside floats the bound is theirs.
+  const Outcome with_floats{twin.integers, {{1}}}, off{kernel.integers, {{1}}};
+  EXPECT_EQ(compare(exact, Case(), with_largest(1), off, with_floats, true, true).wrong, 2u);
 }
 
 TEST(Verdict, FlushedDenormalsCountOnlyWhereTheDeviceKeepsThem) {

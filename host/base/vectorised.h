@@ -1,0 +1,9 @@
+#pragma once
+// Loops of whole numbers that are compiled for wide vectors too, and choose as the program starts:
+// the same numbers either way, which loops of floats would not promise (contraction).
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) && \
+    !defined(DEFRAY_ONE_VERSION)
+#define DEFRAY_VECTORISED __attribute__((target_clones("avx2", "default")))
+#else
+#define DEFRAY_VECTORISED
+#endif
