@@ -4,34 +4,40 @@
 namespace defray::cli {
 namespace {
 
-const Words<Quality> quality_words{
-    {"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}};
+const Words<Quality> quality_words{{"preview", Quality::preview},
+                                   {"draft", Quality::draft},
+                                   {"normal", Quality::normal},
+                                   {"high", Quality::high}};
+const Words<bool> pixel_words{{"all", false}, {"half", true}};
 const Words<Hidden> hidden_words{
     {"off", Hidden::off}, {"smooth", Hidden::smooth}, {"on", Hidden::on}};
 const Words<Border> border_words{
     {"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}};
 
-/// "draft: --rdb 9 --hidden smooth".
+/// "preview: --rdb 6 --hidden smooth --pixels half".
 std::string about(Quality quality) {
   const ChainSettings s = settings_for(quality);
   const std::string hidden = word_of(s.hidden, hidden_words);
-  return fmt::format("{}: --rdb {} --hidden {}", word_of(quality, quality_words), s.cells_per_side,
-                     hidden);
+  return fmt::format("{}: --rdb {} --hidden {}{}", word_of(quality, quality_words),
+                     s.cells_per_side, hidden, s.half_size ? " --pixels half" : "");
 }
 
 }  // namespace
 
-/// It says how many cells, whether there is something hidden, and how far to look for patterns.
+/// It says how many cells and pixels, whether there is something hidden, and how far to look for
+/// patterns.
 OptionRow quality_row(ChainSettings& s) {
   const auto is_heard = [&s](const Given& given) {
-    return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::on;
+    const bool says_pixels = s.half_size && !given("--pixels");
+    return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::on || says_pixels;
   };
   return {
       "--quality",
       word<Quality>([&s](Quality quality) { s = settings_for(quality); }, quality_words,
                     word_of(Quality::normal, quality_words)),
-      fmt::format("{}; {}; {}, and twice as many repetitions of the picture looked at",
-                  about(Quality::draft), about(Quality::normal), about(Quality::high)),
+      fmt::format("{}; {}; {}; {}, and twice as many repetitions of the picture looked at",
+                  about(Quality::preview), about(Quality::draft), about(Quality::normal),
+                  about(Quality::high)),
       {.scope = of_stages,
        .needs = {is_heard, "means nothing beside --rdb and this --hidden: they say all of it"}}};
 }
@@ -42,6 +48,8 @@ OptionGroup stage_options(ChainSettings& s) {
       {{"--hidden", word(s.hidden, hidden_words),
         "What lies behind near surfaces: off: nothing; smooth: made up from what is around; on: "
         "and from where the picture repeats itself"},
+       {"--pixels", word(s.half_size, pixel_words),
+        "Which go through the lens: all; half: means of 2x2, the detail of what is sharp put back"},
        {"--edges",
         word(s.split_edges, Words<bool>{{"split", true}, {"keep", false}}),
         "Anti-aliased pixels: split into what is in front and behind, or keep",

@@ -208,6 +208,11 @@ constexpr std::size_t bytes_a_pixel = 200;
 
 ChainSettings settings_for(Quality quality) {
   ChainSettings s;
+  if (quality == Quality::preview) {
+    s.cells_per_side = 6;
+    s.hidden = Hidden::smooth;
+    s.half_size = true;
+  }
   if (quality == Quality::draft) {
     s.cells_per_side = 9;
     s.hidden = Hidden::smooth;

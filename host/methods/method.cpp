@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/error.h"
+#include "chain/half_size.h"
 
 namespace defray {
 namespace {
@@ -17,7 +18,10 @@ struct Row {
 
 MethodResult run_rdb(const Frame& f, const MethodSettings& s, Stages& stages, bool wants_nearest,
                      const Progress& progress) {
-  if (s.chain) return run_chain(f, *s.chain, stages, wants_nearest, progress);
+  if (s.chain) {
+    const auto run = s.chain->half_size ? run_half_size : run_chain;
+    return run(f, *s.chain, stages, wants_nearest, progress);
+  }
   RayPlan plan = plan_rays(s.rdb);
   plan.wants_nearest = wants_nearest;
   RayResult result = stages.rays(f, plan, nullptr, progress);

@@ -58,9 +58,11 @@ struct ChainSettings {
   RaysBy rays = RaysBy::gather;
   Border border = Border::clamp;
   Aperture aperture;
+  /// Works on a quarter of the pixels, means of four, and puts the detail of sharp ones back.
+  bool half_size = false;
 };
 
-enum class Quality { draft, normal, high };
+enum class Quality { preview, draft, normal, high };
 
 /// What goes together, the fastest first; Quality::normal is ChainSettings().
 DEFRAY_API ChainSettings settings_for(Quality quality);

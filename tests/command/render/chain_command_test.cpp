@@ -42,12 +42,27 @@ class ChainCommand : public testing::Test {
 
 TEST_F(ChainCommand, EveryOptionChangesThePicture) {
   std::map<std::uint64_t, std::string> seen;
-  for (const std::string options :
-       {"", "--literal", "--literal --jitter", "--quality draft", "--quality high", "--rdb 20",
-        "--rdb 20 --quality draft", "--rdb 20 --hidden on --quality high", "--hidden off",
-        "--hidden smooth", "--edges keep", "--border black", "--border renormalise", "--blades 5",
-        "--blades 5 --blade-curvature 0.5", "--blades 5 --blade-rotation 20", "--squeeze 2",
-        "--cats-eye 1", "--aperture-image smooth/pinhole.exr"}) {
+  for (const std::string options : {"",
+                                    "--literal",
+                                    "--literal --jitter",
+                                    "--quality preview",
+                                    "--pixels half",
+                                    "--quality draft",
+                                    "--quality high",
+                                    "--rdb 20",
+                                    "--rdb 20 --quality draft",
+                                    "--rdb 20 --hidden on --quality high",
+                                    "--hidden off",
+                                    "--hidden smooth",
+                                    "--edges keep",
+                                    "--border black",
+                                    "--border renormalise",
+                                    "--blades 5",
+                                    "--blades 5 --blade-curvature 0.5",
+                                    "--blades 5 --blade-rotation 20",
+                                    "--squeeze 2",
+                                    "--cats-eye 1",
+                                    "--aperture-image smooth/pinhole.exr"}) {
     const auto [place, is_new] = seen.emplace(rendered(bg + options), options);
     EXPECT_TRUE(is_new) << options << " gives the picture of " << place->second;
   }
@@ -81,7 +96,8 @@ TEST_F(ChainCommand, ConfidenceIsAChannelAndInTheSummary) {
 }
 
 TEST_F(ChainCommand, ReferenceGivesTheKernelsBits) {
-  for (const std::string options : {"", "--quality draft --cats-eye 0.5 --blades 6"}) {
+  for (const std::string options :
+       {"", "--quality preview", "--quality draft --cats-eye 0.5 --blades 6"}) {
     EXPECT_EQ(rendered(bg + options), rendered(bg + options + " --device reference")) << options;
   }
   EXPECT_EQ(rendered("--quality draft", "lamps"),

@@ -30,7 +30,13 @@ TEST_F(OptionsCommand, QualityMustHaveSomethingLeftToSay) {
     expect_refused(lens + "--quality high --rdb 5 --hidden " + hidden,
                    {"--quality means nothing beside --rdb and this --hidden"});
   }
+  expect_refused(lens + "--quality preview --rdb 5 --hidden off --pixels half",
+                 {"--quality means nothing beside --rdb and this --hidden"});
+  EXPECT_EQ(rendered(lens + "--quality preview --rdb 5 --hidden off"),
+            rendered(lens + "--rdb 5 --hidden off --pixels half"));
   // What is typed wins over the quality, wherever it stands.
+  EXPECT_EQ(rendered(lens + "--quality preview --pixels all"),
+            rendered(lens + "--hidden smooth --rdb 6"));
   EXPECT_EQ(rendered(lens + "--hidden smooth --rdb 9"), rendered(lens + "--quality draft"));
   EXPECT_EQ(rendered(lens + "--hidden smooth --quality normal"),
             rendered(lens + "--quality normal --hidden smooth"));
@@ -102,7 +108,8 @@ TEST_F(OptionsCommand, HelpTellsDefaultsAndMethodsByTheRows) {
   const std::string help = defray(folder, "render --help").out;
   for (const std::string words :
        {"1 to 1024 (gather); default 32", "MiB for buffers (not gather); default 512",
-        "default 0.5", "Lens (not tiltshift):", "draft|normal|high", "--rdb 33 --hidden on"}) {
+        "default 0.5", "Lens (not tiltshift):", "preview|draft|normal|high",
+        "--rdb 33 --hidden on"}) {
     EXPECT_NE(help.find(words), std::string::npos) << words << "\n" << help;
   }
 }
