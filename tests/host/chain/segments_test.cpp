@@ -54,7 +54,9 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
       const Segment* s = find(table, cell, radius);
       const bool stays = std::abs(dx) < 40 && std::abs(dy) < 23;
       ASSERT_EQ(s != nullptr, stays) << radius << " of cell " << cell;
-      if (s) EXPECT_EQ((std::array{(*s)[0], (*s)[1]}), (std::array{dx, dy})) << radius;
+      if (s) {
+        EXPECT_EQ((std::array{(*s)[0], (*s)[1]}), (std::array{dx, dy})) << radius;
+      }
     }
   }
 }
@@ -90,7 +92,9 @@ TEST(Segments, ComeInPassesOfNoMoreThanAllowed) {
     for (int cell = 0; cell < 21; ++passes) {
       const SegmentTable table(cells, cell, bins, 1000, 1000, most);
       ASSERT_GE(table.cell_count(), 1);
-      if (table.cell_count() > 1) EXPECT_LE(table.segments.size(), most);
+      if (table.cell_count() > 1) {
+        EXPECT_LE(table.segments.size(), most);
+      }
       EXPECT_EQ(static_cast<std::size_t>(table.first.back()), table.segments.size());
       together.insert(together.end(), table.segments.begin(), table.segments.end());
       cell += table.cell_count();

@@ -82,8 +82,9 @@ TEST(ImageFile, TwoPartsStayTwoParts) {
   const auto out = OIIO::ImageOutput::create("exr");
   ASSERT_TRUE(out->open(folder / "two.exr", 2, specs.data())) << out->geterror();
   for (std::size_t p = 0; p < 2; ++p) {
-    if (p > 0)
+    if (p > 0) {
       ASSERT_TRUE(out->open(folder / "two.exr", specs[p], OIIO::ImageOutput::AppendSubimage));
+    }
     const Plane pixels = random_plane({42, 1}, 3);
     ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, pixels.data())) << out->geterror();
   }
