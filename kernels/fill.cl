@@ -1,10 +1,10 @@
 // fill: what lies behind the surfaces in front, as far as the lens can uncover it.
 //
-// From each pixel rays go out over the picture in 16 directions until they leave its surface over a
-// jump in CoC and meet a farther one, close enough for the lens to look there past the edge: closer
-// than the step in CoC. The found pixels that lie on the surface of the nearest, continued along
-// their slant, give CoC and depth: both are linear in the picture for a plane (depth as 1/z), and
-// weighed alike. Their colours are weighed by how little each changes further on along its ray:
+// From each pixel rays go out over the picture in 8 or 16 directions until they leave its surface
+// over a jump in CoC and meet a farther one, close enough for the lens to look there past the edge:
+// closer than the step in CoC. The found pixels that lie on the surface of the nearest, continued
+// along their slant, give CoC and depth: both are linear in the picture for a plane (depth as 1/z),
+// and weighed alike. Their colours are weighed by how little each changes further on along its ray:
 // stripes go on behind in their direction. Highlights do not smear: a colour far brighter than
 // those further on gives way to them, one far brighter than the median of all does not count.
 //
@@ -55,6 +55,10 @@ Found continue_back(const DefrayFillParams p, __global const int* restrict coc_q
   const float continued = found.inverse + (inverse[q] - inverse[b]) * steps * share;
   found.inverse = continued > 0.0f ? continued : 0.0f;
   return found;
+}
+
+float2 direction_of(const DefrayFillParams p, const uint i) {
+  return sixteenth(i * (DEFRAY_FILL_DIRECTIONS / p.directions));
 }
 
 // How far from black, for the median: NaN counts as the brightest.
@@ -134,11 +138,12 @@ void fill_pixel(const DefrayFillParams p, __global const int* restrict coc_quant
   Found found[DEFRAY_FILL_DIRECTIONS];
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
-  for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
+  for (uint i = 0; i < p.directions; ++i) {
     const int t = steps[i * RUN];
     if (t == 0) continue;
-    Found f = continue_back(p, coc_quanta, inverse, mixed, at, sixteenth(i), t, own);
-    f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, sixteenth(i), f);
+    const float2 direction = direction_of(p, i);
+    Found f = continue_back(p, coc_quanta, inverse, mixed, at, direction, t, own);
+    f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, direction, f);
     found[count] = f;
     bright[count] = brightness(colour_at(CHANNELS(channel), f.source));
     if (f.distance < found[nearest].distance) nearest = count;
@@ -196,8 +201,9 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   const int16 own = own_of_run(p, coc_quanta, mixed, start);
   int steps[DEFRAY_FILL_DIRECTIONS * RUN], owns[RUN];
   vstore16(own, 0, owns);
-  for (uint i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-    look_behind(p, coc_quanta, mixed, start, sixteenth(i), own, farthest[tile], steps + i * RUN);
+  for (uint i = 0; i < p.directions; ++i) {
+    look_behind(p, coc_quanta, mixed, start, direction_of(p, i), own, farthest[tile],
+                steps + i * RUN);
   }
   for (int i = 0; i < run_length(p.width, start); ++i) {
     fill_pixel(p, coc_quanta, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i],

@@ -42,7 +42,7 @@
 #define DEFRAY_FILL_TILE 16
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
-/// Directions in which `fill` looks for what goes on behind.
+/// Most directions in which `fill` looks for what goes on behind.
 #define DEFRAY_FILL_DIRECTIONS 16
 /// Most samples a side of the square over which `soften` averages.
 #define DEFRAY_SOFTEN_TAPS 7
@@ -187,6 +187,7 @@ typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
   DEFRAY_UINT tiles_x;
+  DEFRAY_UINT directions;  ///< 8, or DEFRAY_FILL_DIRECTIONS.
 } DefrayFillParams;
 
 /// Colours averaged over what one lens cell sees: `soften`.
@@ -280,7 +281,7 @@ static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayAssembleParams) == 20);
-static_assert(sizeof(DefrayFillParams) == 12);
+static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayPatternParams) == 56);
 static_assert(sizeof(DefrayLinearParams) == 24);

@@ -116,7 +116,7 @@ Wide make_wide(const Bench& bench, const Setup& setup) {
   w.exact = render_coverage(w.subject.scene, pinhole_samples);
   const Frame pinhole = with_inverse(w.subject);
   w.mixed = bench.stages.edges(pinhole);
-  const Frame behind = bench.stages.fill(pinhole, w.mixed);
+  const Frame behind = bench.stages.fill(pinhole, w.mixed, DEFRAY_FILL_DIRECTIONS);
   for (const float i : behind.inverse) w.is_uncovered.push_back(i >= 0);
   return w;
 }

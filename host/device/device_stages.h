@@ -18,7 +18,7 @@ class DeviceStages : public Stages {
   Quanta tiltshift(const DefrayTiltshiftParams& params) override;
   Words repair(const Frame& frame) override;
   Words edges(const Frame& frame) override;
-  Frame fill(const Frame& frame, const Words& mixed) override;
+  Frame fill(const Frame& frame, const Words& mixed, int directions) override;
   PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
                        const std::vector<PatternShift>& shifts,
                        const PatternSettings& settings) override;

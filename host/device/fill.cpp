@@ -8,7 +8,7 @@
 
 namespace defray {
 
-Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
+Frame DeviceStages::fill(const Frame& f, const Words& mixed, int directions) {
   const Quanta farthest_met = farthest_to_fill(f, mixed);
   const auto coc = f.coc_quanta.host();
   const auto [least, most] = std::minmax_element(coc.begin(), coc.end());
@@ -19,7 +19,8 @@ Frame DeviceStages::fill(const Frame& f, const Words& mixed) {
       session_, "fill", f, fill_reach(farthest, nearest),
       [&](Band& band) {
         const BandRows& rows = band.rows();
-        const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x)};
+        const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x),
+                                 word(directions)};
         const cl::Buffer tiles = band.tiles(farthest_met, tiles_x, DEFRAY_FILL_TILE);
         const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
         const auto behind = band.out(out.channels, f.channels.size());

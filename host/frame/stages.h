@@ -46,9 +46,9 @@ class Stages {
   /// Kernel `edges`: 1 where a pixel has neighbours on another surface.
   virtual Words edges(const Frame& frame) = 0;
 
-  /// Kernel `fill`: what lies behind each pixel, as far as the lens can uncover it; `inverse` is
-  /// negative where nothing does.
-  virtual Frame fill(const Frame& frame, const Words& mixed) = 0;
+  /// Kernel `fill`: what lies behind each pixel, as far as the lens can uncover it, looked for in 8
+  /// or DEFRAY_FILL_DIRECTIONS directions; `inverse` is negative where nothing does.
+  virtual Frame fill(const Frame& frame, const Words& mixed, int directions) = 0;
 
   /// Kernels `patterns_*`: sums over shifts of what resembles what lies behind.
   /// `pixels` are pattern_pixels.

@@ -43,8 +43,12 @@ float sum_of_squares(const Colour& c) { return c[0] * c[0] + c[1] * c[1] + c[2] 
 
 class Filler {
  public:
-  Filler(const Frame& f, const Words& mixed)
-      : frame_(f), inverse_(f.inverse.host()), channels_(f.channels), mixed_(mixed.host()) {
+  Filler(const Frame& f, const Words& mixed, int directions)
+      : frame_(f),
+        inverse_(f.inverse.host()),
+        channels_(f.channels),
+        mixed_(mixed.host()),
+        directions_(directions) {
     farthest_ = -DEFRAY_TAME_QUANTA;
     for (std::size_t i = 0; i < f.pixels(); ++i) farthest_ = std::max(farthest_, frame_.coc(i));
   }
@@ -52,8 +56,8 @@ class Filler {
   /// What lies behind the surface in front at a place, in each direction.
   std::vector<Found> look_behind(Place at, int own) const {
     std::vector<Found> all;
-    for (int i = 0; i < DEFRAY_FILL_DIRECTIONS; ++i) {
-      const double angle = i * 2 * std::numbers::pi / DEFRAY_FILL_DIRECTIONS;
+    for (int i = 0; i < directions_; ++i) {
+      const double angle = i * 2 * std::numbers::pi / directions_;
       const Way way{at, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
       if (const auto found = look_along(way, own)) all.push_back(looked_further(way, *found));
     }
@@ -155,6 +159,7 @@ class Filler {
   std::span<const float> inverse_;
   const Planes& channels_;
   std::span<const std::uint32_t> mixed_;
+  int directions_;
   std::int32_t farthest_;
 };
 
@@ -194,11 +199,11 @@ Mean mean_of(std::vector<Found> all, const Planes& channels, int own) {
 
 }  // namespace
 
-Frame TwinStages::fill(const Frame& f, const Words& mixed) {
+Frame TwinStages::fill(const Frame& f, const Words& mixed, int directions) {
   std::vector<std::int32_t> coc = copy_of(f.coc_quanta);
   Plane inverse(f.pixels(), -1);
   std::vector<Plane> channels(f.channels.size(), Plane(f.pixels()));
-  const Filler filler(f, mixed);
+  const Filler filler(f, mixed, directions);
   const CocFrame frame(f);
   frame.for_each_place([&](Place at) {
     const auto [own, own_inverse] = filler.in_front(at);

@@ -36,7 +36,7 @@ class TwinStages : public Stages {
   Words repair(const Frame& frame) override;
   Words edges(const Frame& frame) override;
   /// It looks behind every pixel, in whatever tile.
-  Frame fill(const Frame& frame, const Words& mixed) override;
+  Frame fill(const Frame& frame, const Words& mixed, int directions) override;
   PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
                        const std::vector<PatternShift>& shifts,
                        const PatternSettings& settings) override;

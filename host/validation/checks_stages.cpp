@@ -36,15 +36,18 @@ Outcome run_edges(Stages& stages, const Case& c, const Input& in) {
   return words(stages.edges(StageFrame(c, in).frame));
 }
 
+/// Of `fill`: either number, by the case.
+int directions_of(const Case& c) { return c.seed % 2 ? DEFRAY_FILL_DIRECTIONS : 8; }
+
 Outcome run_fill(Stages& stages, const Case& c, const Input& in) {
   const StageFrame f(c, in);
-  return values_of({stages.fill(f.frame, f.mixed)});
+  return values_of({stages.fill(f.frame, f.mixed, directions_of(c))});
 }
 
 Outcome run_split(Stages& stages, const Case& c, const Input& in) {
   const StageFrame f(c, in);
-  const auto [front, behind] =
-      stages.split(f.frame, f.mixed, reference::TwinStages().fill(f.frame, f.mixed));
+  const auto [front, behind] = stages.split(
+      f.frame, f.mixed, reference::TwinStages().fill(f.frame, f.mixed, directions_of(c)));
   return values_of({front, behind});
 }
 
@@ -55,7 +58,8 @@ Outcome run_assemble(Stages& stages, const Case& c, const Input& in) {
   reference::TwinStages twins;
   StageFrame f(c, in);
   f.frame.margin = static_cast<int>(c.seed % 4);
-  const Frame both = stages.assemble(twins.split(f.frame, f.mixed, twins.fill(f.frame, f.mixed)));
+  const Frame both = stages.assemble(
+      twins.split(f.frame, f.mixed, twins.fill(f.frame, f.mixed, directions_of(c))));
   Outcome v = values_of({both});
   for (std::size_t i = 0; i < both.depth.size(); ++i) {
     v.integers.push_back(std::bit_cast<std::int32_t>(both.depth[i]));

@@ -37,15 +37,15 @@ struct Stage {
 TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
   const Frame frame = tall_frame();
   const Words mixed = device().edges(frame);
-  const Frame behind = device().fill(frame, mixed);
+  const Frame behind = device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS);
   const Surfaces surfaces = device().split(frame, mixed, behind);
   const std::vector<Stage> stages = {
       {"repair", 0, 1, [&] { device().repair(frame); }},
       {"edges", 0, 1, [&] { device().edges(frame); }},
-      {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed); }},
+      {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS); }},
       {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
       {"assemble", 0, 1, [&] { device().assemble(surfaces); }},
-      {"highlights", 3, 1, [&] { device().highlights(frame, 3); }},
+      {"highlights", 6, DEFRAY_HIGHLIGHT_TILE, [&] { device().highlights(frame, 3); }},
       {"soften", 0, 1, [&] { device().soften(frame, 100); }},
   };
   for (const Stage& stage : stages) {

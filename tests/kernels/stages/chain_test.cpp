@@ -20,8 +20,8 @@ class LateStages : public reference::TwinStages {
 
   Words repair(const Frame& f) override { return wait("repair"), TwinStages::repair(f); }
   Words edges(const Frame& f) override { return wait("edges"), TwinStages::edges(f); }
-  Frame fill(const Frame& f, const Words& m) override {
-    return wait("fill"), TwinStages::fill(f, m);
+  Frame fill(const Frame& f, const Words& m, int n) override {
+    return wait("fill"), TwinStages::fill(f, m, n);
   }
   Surfaces split(const Frame& f, const Words& m, Frame b) override {
     return wait("split"), TwinStages::split(f, m, std::move(b));

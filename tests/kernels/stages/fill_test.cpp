@@ -65,8 +65,11 @@ TEST(Fill, EqualsItsTwinFarAway) {
   });
   f.add_bar(40, 600);
   const Words mixed = f.mixed();
-  const Frame ours = device().fill(f.view(), mixed), twin = twins().fill(f.view(), mixed);
-  expect_same_bits(ours.channels[0], twin.channels[0]);
+  for (const int directions : {8, DEFRAY_FILL_DIRECTIONS}) {
+    const Frame ours = device().fill(f.view(), mixed, directions);
+    const Frame twin = twins().fill(f.view(), mixed, directions);
+    expect_same_bits(ours.channels[0], twin.channels[0]);
+  }
 }
 
 /// Rows alone: one way left and one right, both exact.

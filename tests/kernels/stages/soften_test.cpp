@@ -131,7 +131,7 @@ TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
       for (const std::uint32_t s : source) EXPECT_LT(s, f.count());
       const Words mixed = twins().edges({f.width, f.height, f.coc});
       EXPECT_EQ(f.mixed(), mixed);
-      const Frame behind = f.filled(), twin = twins().fill(f.view(), mixed);
+      const Frame behind = f.filled(), twin = twins().fill(f.view(), mixed, DEFRAY_FILL_DIRECTIONS);
       EXPECT_EQ(behind.coc_quanta, twin.coc_quanta);
       const auto [front, rest] = f.parted();
       const Surfaces by_twins = twins().split(f.view(), mixed, twin);

@@ -204,7 +204,7 @@ TEST(Fill, BehindAnyRectangleThePlaneGoesOnAsFarAsTheLensSees) {
     f.each([&](int x, int y) {
       if (mixed[f.at(x, y)]) f.paint(x, y, 9, 9, 9);
     });
-    const Frame behind = device().fill(f.view(), mixed);
+    const Frame behind = device().fill(f.view(), mixed, DEFRAY_FILL_DIRECTIONS);
     const double slant = std::fabs(p.slant_x) + std::fabs(p.slant_y);
     for (int y = p.y0; y < p.y1; ++y) {
       for (int x = p.x0; x < p.x1; ++x) {

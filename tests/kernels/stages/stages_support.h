@@ -29,7 +29,7 @@ struct Canvas {
     return f;
   }
   Words mixed() const { return device().edges(view()); }
-  Frame filled() const { return device().fill(view(), mixed()); }
+  Frame filled() const { return device().fill(view(), mixed(), DEFRAY_FILL_DIRECTIONS); }
   Surfaces parted() const { return device().split(view(), mixed(), filled()); }
 
   void paint(int x, int y, float r, float g, float b) {
