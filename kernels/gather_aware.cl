@@ -13,6 +13,7 @@
 // reach       [tiles_y][tiles_x]              largest radius that matters to a tile, quanta
 // samples, rotations, channel0..3, out        as in gather_literal
 // Samples are taken at whole pixels: no colour is mixed across an edge.
+#include "frame.clh"
 #include "gather.clh"
 
 // Share of a disc's border pixel at this distance from its centre.
@@ -64,9 +65,10 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
   for (uint i = 0; i < p.sample_count && search >= 0.5f; ++i) {
     const bool only_base = splits && ((i + odd) / 2u & 1u);
     const bool only_near = splits && !only_base;
-    const float2 offset = rint((only_base ? own_radius : search) * rotated(samples[i], turn));
-    const int2 at = clamp((int2)((int)x, (int)y) + convert_int2(offset), 0,
-                          (int2)((int)p.width - 1, (int)p.height - 1));
+    const int2 away = nearest_px((only_base ? own_radius : search) * rotated(samples[i], turn));
+    const float2 offset = convert_float2(away);
+    const int2 at =
+        clamp((int2)((int)x, (int)y) + away, 0, (int2)((int)p.width - 1, (int)p.height - 1));
     const size_t source = (size_t)at.y * p.width + (uint)at.x;
     const float coc = (float)coc_quanta[source] * quantum;
     const float distance = sqrt(offset.x * offset.x + offset.y * offset.y);

@@ -10,6 +10,7 @@
 // channel0..3  [height][width]
 // out          [band_rows][width]
 // Global size: (width, band_rows).
+#include "frame.clh"
 #include "gather.clh"
 
 __kernel void gather_literal(const DefrayGatherParams p, __global const int* restrict coc_quanta,
@@ -29,9 +30,9 @@ __kernel void gather_literal(const DefrayGatherParams p, __global const int* res
   float4 sum = 0.0f;
   for (uint i = 0; i < p.sample_count && radius > 0.0f; ++i) {
     const float2 offset = radius * rotated(samples[i], turn);
-    const float2 whole = floor(offset);
-    const float2 part = offset - whole;  // exact: no digits are lost to a large x
-    const int2 low = (int2)((int)x, (int)y) + convert_int2(whole);
+    const int2 whole = whole_px(offset);
+    const float2 part = offset - convert_float2(whole);  // exact: no digits are lost to a large x
+    const int2 low = (int2)((int)x, (int)y) + whole;
     const int2 last = (int2)((int)p.width - 1, (int)p.height - 1);
     const int2 a = clamp(low, 0, last), b = clamp(low + 1, 0, last);
     const size_t top = (size_t)a.y * p.width, bottom = (size_t)b.y * p.width;
