@@ -62,21 +62,27 @@ OptionGroup main_options(RenderJob& job) {
 }
 
 OptionGroup file_options(RenderJob& job) {
-  return {"Files",
-          {{"--depth", value(job.paths.depth), "Take depth from this file", {.scope = of_depth}},
-           {"--coc-out",
-            value(job.paths.coc),
-            "Write the signed CoC radius in px (.exr, .tif)",
-            {.field = "coc"}},
-           {"--confidence-out",
-            value(job.paths.confidence),
-            "Write the share of each pixel's lens rays that the input determines (.exr, .tif)",
-            {.field = "confidence", .scope = of_stages}},
-           {"--frames", with_default(value(job.frames), "every file that matches"),
-            "1-8, 1-10x2, 1,5,9-12"},
-           {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},
-           {"--skip-bad-frames", flag(job.skip_bad_frames),
-            "Report a frame that fails, go on, exit with 1 at the end"}}};
+  return {
+      "Files",
+      {{"--depth", value(job.paths.depth), "Take depth from this file", {.scope = of_depth}},
+       {"--coc-out",
+        value(job.paths.coc),
+        "Write the signed CoC radius in px (.exr, .tif)",
+        {.field = "coc"}},
+       {"--confidence-out",
+        value(job.paths.confidence),
+        "Write the share of each pixel's lens rays that the input determines (.exr, .tif)",
+        {.field = "confidence", .scope = of_stages}},
+       {"--tiles-out",
+        value(job.paths.tiles),
+        "Write what each tile of 16 px holds: 0 in focus, 1 smooth, 2 edges, 3 hidden surfaces, "
+        "4 lights (.exr, .tif)",
+        {.field = "tiles", .scope = of_stages}},
+       {"--frames", with_default(value(job.frames), "every file that matches"),
+        "1-8, 1-10x2, 1,5,9-12"},
+       {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},
+       {"--skip-bad-frames", flag(job.skip_bad_frames),
+        "Report a frame that fails, go on, exit with 1 at the end"}}};
 }
 
 OptionGroup channel_options(RenderJob& job) {
@@ -104,6 +110,12 @@ OptionGroup channel_options(RenderJob& job) {
 OptionGroup terminal_options(RenderJob& job) {
   return {"Output to the terminal",
           {{"--json", flag(job.json), "One JSON line a frame instead of text"},
+           {"--stats",
+            flag(job.stats),
+            "Also each stage's time and memory, and what the tiles hold",
+            {.scope = of_stages,
+             .needs = {[&job](const Given&) { return !job.json && !job.quiet; },
+                       "goes without --json, which has it all, and without --quiet"}}},
            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
            {"--show", flag(job.show), "Show the last picture until a key is pressed"}}};
 }

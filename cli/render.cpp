@@ -33,7 +33,7 @@ std::vector<std::optional<int>> frames_of(const RenderJob& job) {
     if (!job.frames.empty()) {
       fail(ErrorKind::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
-    for (const std::string& name : {p.output, p.coc, p.confidence}) {
+    for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
       if (!name.empty() && has_frame_pattern(name)) {
         fail(ErrorKind::usage, "{}: has a frame pattern, the input {} has none", name, p.input);
       }
@@ -42,7 +42,7 @@ std::vector<std::optional<int>> frames_of(const RenderJob& job) {
   }
   const std::vector<int> numbers =
       job.frames.empty() ? find_frames(p.input) : parse_frames(job.frames);
-  for (const std::string& name : {p.output, p.coc, p.confidence}) {
+  for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
       fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,
            numbers.size());
@@ -54,7 +54,7 @@ std::vector<std::optional<int>> frames_of(const RenderJob& job) {
 FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   if (!frame) return paths;
   for (std::string* path :
-       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence}) {
+       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence, &paths.tiles}) {
     if (!path->empty()) *path = frame_path(*path, *frame);
   }
   return paths;
@@ -131,6 +131,7 @@ class SequenceRun {
       print_json_line(outcome, device_.name());
     } else if (!job_.quiet) {
       print_text(outcome, device_.name());
+      if (job_.stats) print_stats(outcome.report);
     }
   }
 

@@ -34,6 +34,7 @@ struct RenderJob {
   Math math = Math::strict;
   std::vector<WorkGroup> work_groups;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
+  bool stats = false;
 
   /// Throws Error(usage).
   std::size_t memory_bytes() const;

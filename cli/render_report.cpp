@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -49,11 +50,20 @@ std::string chain_line(const ChainReport& d) {
 
 nlohmann::ordered_json chain_json(const ChainReport& d) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
-  for (const StageTime& s : d.stages) stages[s.stage] = s.seconds;
+  nlohmann::ordered_json bytes = nlohmann::ordered_json::object();
+  for (const StageTime& s : d.stages) {
+    stages[s.stage] = s.seconds;
+    bytes[s.stage] = s.bytes;
+  }
+  const TileShares& t = d.tiles;
+  const nlohmann::ordered_json tiles = {{"count", t.tiles},   {"in_focus", t.in_focus},
+                                        {"smooth", t.smooth}, {"edges", t.edges},
+                                        {"hidden", t.hidden}, {"lights", t.lights}};
   return {{"lens_points", d.lens_points}, {"confidence", d.confidence},
           {"repaired_px", d.repaired},    {"behind_px", d.behind},
           {"split_px", d.split},          {"highlights", d.highlights},
-          {"border_px", d.border_px},     {"stages_s", stages}};
+          {"border_px", d.border_px},     {"stages_s", stages},
+          {"stages_bytes", bytes},        {"tiles", tiles}};
 }
 
 std::vector<std::string> notes_of(const FrameReport& r) {
@@ -143,6 +153,22 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);
+}
+
+void print_stats(const FrameReport& r) {
+  if (!r.chain) return;
+  double all = 0;
+  for (const StageTime& s : r.chain->stages) all += s.seconds;
+  fmt::print("  {:<10} {:>8} {:>6} {:>8}\n", "stage", "ms", "share", "MiB made");
+  for (const StageTime& s : r.chain->stages) {
+    fmt::print("  {:<10} {:>8.1f} {:>4.0f} % {:>8.1f}\n", s.stage, 1000 * s.seconds,
+               100 * s.seconds / all, std::ldexp(static_cast<double>(s.bytes), -20));
+  }
+  const TileShares& t = r.chain->tiles;
+  fmt::print(
+      "  tiles: {:.1f} % in focus, {:.1f} % smooth, {:.1f} % with edges, {:.1f} % with "
+      "hidden surfaces, {:.1f} % with lights\n",
+      100 * t.in_focus, 100 * t.smooth, 100 * t.edges, 100 * t.hidden, 100 * t.lights);
 }
 
 void print_json_line(const FrameOutcome& o, const std::string& device) {

@@ -32,7 +32,7 @@ struct Source {
 
 void check_paths(const FramePaths& paths) {
   std::error_code ignored;
-  for (const std::string& output : {paths.output, paths.coc, paths.confidence}) {
+  for (const std::string& output : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
     if (output.empty()) continue;
     for (const std::string& input : {paths.input, paths.depth}) {
       if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
@@ -40,8 +40,10 @@ void check_paths(const FramePaths& paths) {
       }
     }
   }
-  const std::pair<const char*, const std::string&> outputs[] = {
-      {"output", paths.output}, {"coc", paths.coc}, {"confidence", paths.confidence}};
+  const std::pair<const char*, const std::string&> outputs[] = {{"output", paths.output},
+                                                                {"coc", paths.coc},
+                                                                {"confidence", paths.confidence},
+                                                                {"tiles", paths.tiles}};
   for (const auto& [name, path] : outputs) {
     for (const auto& [other, other_path] : outputs) {
       if (&path == &other_path) break;
@@ -138,7 +140,7 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
 void check_outputs(const FramePaths& paths) {
   check_can_write(paths.output);
   const std::pair<const char*, const std::string&> data_files[] = {
-      {"coc", paths.coc}, {"confidence", paths.confidence}};
+      {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
   for (const auto& [name, path] : data_files) {
     if (path.empty()) continue;
     check_plane_format(path, name);
@@ -170,6 +172,10 @@ void write_outputs(const FramePaths& paths, Source& source, const Rendered& rend
   if (!paths.confidence.empty()) {
     write_plane(paths.confidence, "confidence", source.file, source.choice.part,
                 rendered.result.confidence);
+  }
+  if (!paths.tiles.empty()) {
+    write_plane(paths.tiles, "tiles", source.file, source.choice.part,
+                rendered.result.tile_classes);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "chain/highlights.h"
 #include "chain/layers.h"
 #include "chain/patterns.h"
+#include "chain/tile_classes.h"
 #include "kernels/params.h"
 #include "lens/aperture_table.h"
 #include "lens/cats_eye.h"
@@ -27,8 +28,12 @@ class Chain {
     Frame f = extended(frame, settings_.border, wants_nearest, report_);
     done("border");
     const Words mixed = repair_depth(f);
+    tiles_ = TileClasses(f);
+    tiles_.add_edges(mixed);
+    done("tiles");
     f = find_surfaces(std::move(f), mixed);
     const LightSources lights = take_highlights(f, mask);
+    tiles_.add(lights);
     if (settings_.border == Border::clamp) continue_colours(f);
     done("border");
     if (settings_.soften) f.channels = stages_.soften(f, report_.lens_points);
@@ -39,6 +44,8 @@ class Chain {
     done("rays");
     MethodResult out = crop(f, std::move(result));
     if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
+    report_.tiles = tiles_.shares();
+    out.tile_classes = tiles_.picture();
     done("crop");
     out.report = std::move(report_);
     return out;
@@ -50,10 +57,13 @@ class Chain {
     const double seconds = watch_.lap();
     const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
                                     [&](const StageTime& s) { return s.stage == stage; });
+    const std::size_t made = stages_.bytes_made(), bytes = made - bytes_;
+    bytes_ = made;
     if (found == report_.stages.end()) {
-      report_.stages.push_back({stage, seconds});
+      report_.stages.push_back({stage, seconds, bytes});
     } else {
       found->seconds += seconds;
+      found->bytes += bytes;
     }
   }
 
@@ -116,6 +126,8 @@ class Chain {
     const int directions = settings_.hidden == Hidden::on ? DEFRAY_FILL_DIRECTIONS : 8;
     Frame behind = stages_.fill(f, mixed, directions);
     done("fill");
+    tiles_.add_hidden(behind.inverse);
+    done("tiles");
     if (settings_.hidden == Hidden::on) add_patterns(f, mixed, behind);
     // Without `split` no pixel counts as mixed: all keep their colour and surface.
     const Words to_split = settings_.split_edges ? mixed : Words(mixed.size());
@@ -201,6 +213,8 @@ class Chain {
   Stages& stages_;
   RayPlan plan_;
   ChainReport report_;
+  TileClasses tiles_;
+  std::size_t bytes_ = stages_.bytes_made();
   Stopwatch watch_;
 };
 

@@ -133,6 +133,16 @@ Plane with_detail(const Values<float>& pinhole, const Values<float>& half_pinhol
   return out;
 }
 
+/// Each value for 2x2.
+Plane doubled(const Plane& half, int width, int height) {
+  Plane out;
+  for (int y = 0; y < height; ++y) {
+    const std::size_t row = size(y / 2) * size((width + 1) / 2);
+    for (int x = 0; x < width; ++x) out.push_back(half[row + size(x / 2)]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::int32_t half_size_coc(std::int32_t coc_quanta) {
@@ -222,6 +232,7 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Stages
                                               made.visible, f.width, f.height);
   }
   out.confidence = at_full_size(out.confidence, f.width, f.height);
+  out.tile_classes = doubled(out.tile_classes, f.width, f.height);
   if (wants_nearest) {
     std::vector<std::uint32_t> nearest(f.pixels());
     for (std::size_t i = 0; i < nearest.size(); ++i) {
@@ -232,8 +243,8 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Stages
     }
     out.nearest = std::move(nearest);
   }
-  out.report.stages.insert(out.report.stages.begin(), {"half size", halving});
-  out.report.stages.push_back({"full size", watch.lap()});
+  out.report.stages.insert(out.report.stages.begin(), {"half size", halving, 0});
+  out.report.stages.push_back({"full size", watch.lap(), 0});
   return std::move(made.result);
 }
 

@@ -18,6 +18,7 @@ class DeviceStages : public Stages {
   Quanta tiltshift(const DefrayTiltshiftParams& params) override;
   Words repair(const Frame& frame) override;
   Words edges(const Frame& frame) override;
+  std::size_t bytes_made() const override { return session_.traffic().made; }
   Frame fill(const Frame& frame, const Words& mixed, int directions) override;
   PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
                        const std::vector<PatternShift>& shifts,

@@ -31,6 +31,9 @@ class Stages {
   /// Throws Error(device) if it is known that there is less host memory than a frame needs.
   virtual void require_memory(const Frame&, std::size_t /*bytes*/) {}
 
+  /// Memory that a device has made so far.
+  virtual std::size_t bytes_made() const { return 0; }
+
   /// Kernel `coc`: radii of depths, planar, > 0; anything else is background.
   virtual Quanta coc(const Lens& lens, int display_width_px, const Values<float>& depth) = 0;
 

@@ -71,7 +71,7 @@ struct RenderSettings {
 
 /// Which files. Empty `depth`: depth is in `input`. Empty `coc`, `confidence`: not written.
 struct FramePaths {
-  std::string input, depth, output, coc, confidence = {};
+  std::string input, depth, output, coc, confidence = {}, tiles = {};
 };
 
 /// What was done, for people and machines.

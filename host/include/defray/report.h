@@ -20,10 +20,21 @@ struct DepthReport {
   double farthest_units = 0;
 };
 
-/// A stage and its time.
+/// A stage, its time, and the memory that a device had to make for it.
 struct StageTime {
   std::string stage;
   double seconds;
+  std::size_t bytes = 0;
+};
+
+/// Shares of a picture's tiles of 16 px by what they hold, each of the last that is true.
+struct TileShares {
+  std::size_t tiles = 0;  ///< In all.
+  double in_focus = 0;    ///< Every CoC below half a pixel.
+  double smooth = 0;      ///< Surfaces that the lens does not part.
+  double edges = 0;       ///< Mixed pixels.
+  double hidden = 0;      ///< A made-up surface behind.
+  double lights = 0;      ///< Highlights that became discs.
 };
 
 /// Of the stages around the ray distribution buffer.
@@ -37,6 +48,7 @@ struct ChainReport {
   int lens_points = 0;
   double confidence = 0;  ///< Mean share of rays that the input determines.
   std::vector<StageTime> stages;
+  TileShares tiles;
 };
 
 /// Of a render.

@@ -45,7 +45,6 @@ TEST_F(ChainCommand, EveryOptionChangesThePicture) {
   for (const std::string options : {"",
                                     "--literal",
                                     "--literal --jitter",
-                                    "--quality preview",
                                     "--pixels half",
                                     "--quality draft",
                                     "--quality high",
@@ -95,6 +94,27 @@ TEST_F(ChainCommand, ConfidenceIsAChannelAndInTheSummary) {
   EXPECT_NE(last_.find("of their rays determined by the input"), std::string::npos) << last_;
 }
 
+TEST_F(ChainCommand, TilesSayWhatTheyHold) {
+  rendered(bg + "--tiles-out tiles.exr --json");
+  const ImageFile file = ImageFile::read(folder / "tiles.exr");
+  EXPECT_EQ(file.parts()[0].channels, std::vector<std::string>{"tiles"});
+  const auto tiles = nlohmann::json::parse(last_)["chain"]["tiles"];
+  const Plane classes = file.plane(0, 0);
+  const auto has = [&](float tile_class) {
+    return std::count(classes.begin(), classes.end(), tile_class) > 0;
+  };
+  EXPECT_EQ(has(0), tiles["in_focus"] > 0);
+  EXPECT_EQ(has(3), tiles["hidden"] > 0);
+  EXPECT_TRUE(has(3));
+  EXPECT_EQ(std::count(classes.begin(), classes.end(), classes[0]) % 16, 0);
+  rendered(bg + "--stats");
+  for (const char* words : {"stage ", "rays ", "MiB made", "with hidden surfaces"}) {
+    EXPECT_NE(last_.find(words), std::string::npos) << words << " in " << last_;
+  }
+  expect_refused(bg + "--stats --json", {"--stats goes without --json"});
+  expect_refused(bg + "--stats --quiet", {"--stats goes without"});
+}
+
 TEST_F(ChainCommand, ReferenceGivesTheKernelsBits) {
   for (const std::string options :
        {"", "--quality preview", "--quality draft --cats-eye 0.5 --blades 6"}) {
@@ -113,8 +133,9 @@ TEST_F(ChainCommand, SameBitsForEveryMemoryAndWorkGroup) {
 TEST_F(ChainCommand, WrongUseIsSaid) {
   for (const std::string option :
        {"--quality high", "--hidden off", "--edges keep", "--highlights rays", "--border black",
-        "--keep-depth", "--confidence-out c.exr", "--blades 5", "--blade-curvature 1",
-        "--blade-rotation 3", "--squeeze 2", "--aperture-image a.png", "--cats-eye 1"}) {
+        "--keep-depth", "--confidence-out c.exr", "--tiles-out t.exr", "--stats", "--pixels half",
+        "--blades 5", "--blade-curvature 1", "--blade-rotation 3", "--squeeze 2",
+        "--aperture-image a.png", "--cats-eye 1"}) {
     const std::string name = option.substr(0, option.find(' '));
     expect_refused(bg + "--literal " + option, {name, "means nothing to --literal"});
     expect_refused(bg + "--method linear " + option, {name, "means nothing to --method linear"});
@@ -131,6 +152,9 @@ TEST_F(ChainCommand, WrongUseIsSaid) {
   expect_refused(bg + "--squeeze 0", {"squeeze", "0"});
   expect_refused(bg + "--confidence-out c.png", {"c.png", ".exr"});
   expect_refused(bg + "--confidence-out none.exr", {"none.exr", "same file"});
+  expect_refused(bg + "--tiles-out t.png", {"t.png", ".exr"});
+  expect_refused(bg + "--tiles-out none.exr", {"none.exr", "same file"});
+  expect_refused(bg + "--pixels quarter", {"--pixels", "half"});
 }
 
 }  // namespace

@@ -52,7 +52,8 @@ FrameOutcome outcome() {
   chain.border_is_cut = true;
   chain.lens_points = 137;
   chain.confidence = 0.75;
-  chain.stages = {{"lens", 0.25}, {"rays", 0.5}};
+  chain.stages = {{"lens", 0.25, 0}, {"rays", 0.5, 3 << 19}};
+  chain.tiles = {8, 0.5, 0.25, 0.125, 0.0625, 0.03125};
   r.chain = chain;
   return o;
 }
@@ -157,7 +158,15 @@ TEST(RenderReport, JsonHasEveryFigure) {
                            {"split_px", 13},
                            {"highlights", 14},
                            {"border_px", 15},
-                           {"stages_s", {{"lens", 0.25}, {"rays", 0.5}}}}},
+                           {"stages_s", {{"lens", 0.25}, {"rays", 0.5}}},
+                           {"stages_bytes", {{"lens", 0}, {"rays", 3 << 19}}},
+                           {"tiles",
+                            {{"count", 8},
+                             {"in_focus", 0.5},
+                             {"smooth", 0.25},
+                             {"edges", 0.125},
+                             {"hidden", 0.0625},
+                             {"lights", 0.03125}}}}},
                          {"nearest_coc_px", -4.5},
                          {"farthest_coc_px", 12.25},
                          {"coc_limited_px", 5},
@@ -167,6 +176,24 @@ TEST(RenderReport, JsonHasEveryFigure) {
                          {"render_s", 1.25},
                          {"write_s", 0.125}};
   EXPECT_EQ(json_of(outcome()), expected);
+}
+
+TEST(RenderReport, StatsTellOfStagesAndTiles) {
+  testing::internal::CaptureStdout();
+  cli::print_stats(outcome().report);
+  std::fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(),
+            "  stage            ms  share MiB made\n"
+            "  lens          250.0   33 %      0.0\n"
+            "  rays          500.0   67 %      1.5\n"
+            "  tiles: 50.0 % in focus, 25.0 % smooth, 12.5 % with edges, 6.2 % with hidden "
+            "surfaces, 3.1 % with lights\n");
+  FrameOutcome without = outcome();
+  without.report.chain.reset();
+  testing::internal::CaptureStdout();
+  cli::print_stats(without.report);
+  std::fflush(stdout);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(RenderReport, JsonSaysWhatBecameOfAFrame) {

@@ -74,9 +74,9 @@ TEST(Chain, ReportsItsStagesByName) {
     names.push_back(s.stage);
     EXPECT_GE(s.seconds, 0) << s.stage;
   }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"lens", "border", "edges", "repair", "fill", "patterns",
-                                      "split", "highlights", "soften", "rays", "crop"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"lens", "border", "edges", "repair", "tiles", "fill",
+                                             "patterns", "split", "highlights", "soften", "rays",
+                                             "crop"}));
   EXPECT_EQ(result.report.highlights, 1u);
   EXPECT_EQ(result.report.lens_points, 137);
   EXPECT_GT(result.report.behind, 0u);

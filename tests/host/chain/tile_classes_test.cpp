@@ -1,0 +1,48 @@
+// What a frame's tiles are said to hold.
+#include "chain/tile_classes.h"
+
+#include "support.h"
+
+namespace defray::test::tile_classes_test {
+namespace {
+
+/// 40x20 pixels with a margin of 2: 3x2 tiles.
+Frame frame_with_margin() {
+  Frame f{44, 24};
+  f.margin = 2;
+  f.coc_quanta = Quanta(f.pixels(), 127);
+  return f;
+}
+
+TEST(TileClasses, TheLastThatIsTrueCounts) {
+  Frame f = frame_with_margin();
+  f.coc_quanta.edit()[f.index(2 + 16, 2)] = -128;  // second tile
+  f.coc_quanta.edit()[f.index(0, 0)] = 1000;       // margin
+  std::vector<std::uint32_t> mixed(f.pixels());
+  mixed[f.index(2 + 32, 2)] = 1;  // third
+  mixed[f.index(2, 2 + 19)] = 1;  // fourth, and hidden
+  Plane inverse(f.pixels(), -1);
+  inverse[f.index(2, 2 + 16)] = 0;
+  inverse[f.index(43, 23)] = 1;  // margin
+  TileClasses tiles(f);
+  tiles.add_hidden(inverse);
+  tiles.add_edges(mixed);
+  LightSources lights;
+  lights.where = {{2 + 20, 2 + 18, 300, 0}, {1, 5, 300, 0}};  // fifth, and margin
+  tiles.add(lights);
+  const Plane picture = tiles.picture();
+  ASSERT_EQ(picture.size(), 800u);
+  const auto at = [&](int x, int y) { return picture[static_cast<std::size_t>(y * 40 + x)]; };
+  EXPECT_EQ((Plane{at(0, 0), at(16, 0), at(39, 15), at(15, 19), at(16, 16), at(32, 16)}),
+            (Plane{0, 1, 2, 3, 4, 0}));
+  EXPECT_EQ(at(15, 15), 0);
+  const TileShares shares = tiles.shares();
+  EXPECT_EQ(shares.tiles, 6u);
+  EXPECT_DOUBLE_EQ(shares.in_focus, 2 / 6.0);
+  for (const double share : {shares.smooth, shares.edges, shares.hidden, shares.lights}) {
+    EXPECT_DOUBLE_EQ(share, 1 / 6.0);
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::tile_classes_test
