@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """GEGL's blurs beside defray's qualities: time and PSNR against ray-traced truths, in one run.
 
-perf/gegl.py DEFRAY SCENES: SCENES holds folders with pinhole.exr, camera.json and
-truth_SETTING.exr, as `defray scene` writes them. Needs GEGL (apt-get install gegl libgegl-dev) and
-a C compiler; without them it says so and is done.
+perf/gegl.py DEFRAY [SCENES]: SCENES holds folders with pinhole.exr, camera.json and
+truth_SETTING.exr, as `defray scene` writes them; without it, two built-in scenes, small. Needs GEGL
+(apt-get install gegl libgegl-dev), oiiotool and a C compiler; without GEGL it says so and is done.
 
 GEGL gets each pixel's true radius as its mask (share of the largest); both work on two threads,
 with pictures in memory: the median of seven runs of GEGL, and of the last seven frames of eight.
@@ -72,26 +72,41 @@ class Case:
         return float(seconds), self.psnr(out)
 
 
+def built_in(defray, folder):
+    for scene in ["fence", "spheres"]:
+        run(defray, "scene", scene, "-o", folder / scene, "--width", 320, "--height", 208,
+            "--truth-samples", 64)
+    return folder
+
+
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    defray, scenes = sys.argv[1], pathlib.Path(sys.argv[2])
+    defray = sys.argv[1]
     if not shutil.which("pkg-config") or subprocess.run(
             ["pkg-config", "--exists", "gegl-0.4"]).returncode:
         print("GEGL is not installed (apt-get install gegl libgegl-dev): nothing to compare with.")
         return
     os.environ["GEGL_THREADS"] = "2"
-    print("| case | " + " | ".join([f"GEGL {b}" for b in BLURS] + QUALITIES) + " |")
-    print("|---" * (1 + len(BLURS) + len(QUALITIES)) + "|")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        blur = build(folder)
-        for truth in sorted(scenes.glob("*/truth_*.exr")):
-            setting = truth.stem.removeprefix("truth_")
-            case = Case(defray, truth.parent, setting, folder)
-            cells = [case.by_gegl(blur, b) for b in BLURS] + [case.by_defray(q) for q in QUALITIES]
-            row = " | ".join(f"{1000 * s:.0f} ms, {db:.2f} dB" for s, db in cells)
-            print(f"| {truth.parent.name} {setting} | {row} |", flush=True)
+        scenes = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else built_in(defray, folder)
+        compare(defray, scenes, folder)
+
+
+def compare(defray, scenes, folder):
+    truths = sorted(scenes.glob("*/truth_*.exr"))
+    if not truths:
+        sys.exit(f"{scenes}: no folder in it has a truth_SETTING.exr; 'defray scene' writes them")
+    print("| case | " + " | ".join([f"GEGL {b}" for b in BLURS] + QUALITIES) + " |")
+    print("|---" * (1 + len(BLURS) + len(QUALITIES)) + "|")
+    blur = build(folder)
+    for truth in truths:
+        setting = truth.stem.removeprefix("truth_")
+        case = Case(defray, truth.parent, setting, folder)
+        cells = [case.by_gegl(blur, b) for b in BLURS] + [case.by_defray(q) for q in QUALITIES]
+        row = " | ".join(f"{1000 * s:.0f} ms, {db:.2f} dB" for s, db in cells)
+        print(f"| {truth.parent.name} {setting} | {row} |", flush=True)
 
 
 if __name__ == "__main__":

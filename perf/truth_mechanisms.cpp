@@ -38,6 +38,7 @@ std::vector<Variant> variants() {
               "anti-aliased depth", [](auto&) {}, true),
           with(
               "anti-aliased depth, --keep-depth", [](auto& d) { d.repair_depth = false; }, true),
+          {"--quality preview", default_chain(Quality::preview)},
           {"--quality draft", default_chain(Quality::draft)},
           {"--quality high", default_chain(Quality::high)}};
 }

@@ -2,7 +2,7 @@
 # Runs every command of a README's "sh" blocks, in order, in a folder that holds nothing but this
 # README at its place. readme_test.sh README DEFRAY [--full]
 #
-# "```sh project": in the project's folder instead. "```sh slow": minutes, with --full only. The
+# "```sh project": in the project's folder instead. "```sh slow", "```sh project slow": with --full only. The
 # commands that build and test the whole project are left out: they run this test.
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -16,15 +16,15 @@ mkdir -p "$folder/$(dirname "$place")"
 cp "$readme" "$folder/$place"
 
 # Lines "KIND<TAB>COMMAND"; the kind is what follows "sh", or "plain".
-commands=$(awk '/^```sh( |$)/ {on = 1; kind = NF > 1 ? $2 : "plain"; next} /^```/ {on = 0}
+commands=$(awk '/^```sh( |$)/ {on = 1; kind = NF > 1 ? $2 $3 : "plain"; next} /^```/ {on = 0}
                 on && !/^#/ && NF {printf "%s\t%s\n", kind, $0}' "$readme" |
   grep -v -P -e '\tbash (cli/demo|tests/run|tests/mutate)\.sh' || true)
 count=0
 while IFS=$'\t' read -r kind command; do
   [ -z "$command" ] && continue
-  [ "$kind" = slow ] && [ "$full" != --full ] && continue
+  [[ $kind = *slow ]] && [ "$full" != --full ] && continue
   echo "\$ $command"
-  [ "$kind" = project ] && where=$project || where=$folder
+  [[ $kind = project* ]] && where=$project || where=$folder
   (cd "$where" && bash -c "$command" </dev/null)
   count=$((count + 1))
 done <<<"$commands"

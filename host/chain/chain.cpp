@@ -24,7 +24,7 @@ class Chain {
   Chain(const ChainSettings& settings, Stages& stages) : settings_(settings), stages_(stages) {}
 
   MethodResult run(const Frame& frame, bool wants_nearest, const Progress& progress) {
-    const ApertureMask mask = plan_lens(wants_nearest);
+    plan_lens(wants_nearest);
     Frame f = extended(frame, settings_.border, wants_nearest, report_);
     done("border");
     const Words mixed = repair_depth(f);
@@ -32,7 +32,7 @@ class Chain {
     tiles_.add_edges(mixed);
     done("tiles");
     f = find_surfaces(std::move(f), mixed);
-    const LightSources lights = take_highlights(f, mask);
+    const LightSources lights = take_highlights(f);
     tiles_.add(lights);
     if (settings_.border == Border::clamp) continue_colours(f);
     done("border");
@@ -67,15 +67,14 @@ class Chain {
     }
   }
 
-  ApertureMask plan_lens(bool wants_nearest) {
-    ApertureMask mask = rasterise(settings_.aperture);
+  void plan_lens(bool wants_nearest) {
+    validate(settings_.aperture);
     const auto points = make_lens_cells(settings_.cells_per_side, false).centres.size();
     report_.lens_points = static_cast<int>(points);
     plan_.cells = make_lens_samples(settings_.aperture, report_.lens_points);
     plan_.wants_nearest = wants_nearest;
     plan_.by = settings_.rays;
     done("lens");
-    return mask;
   }
 
   /// Depth that was anti-aliased has many pixels between two surfaces: of the built-in scenes' edge
@@ -148,12 +147,16 @@ class Chain {
     done("patterns");
   }
 
-  LightSources take_highlights(Frame& f, const ApertureMask& mask) {
+  LightSources take_highlights(Frame& f) {
     LightSources lights;
     if (settings_.highlights) {
       const int light_channels = static_cast<int>(f.channels.size()) - (f.has_alpha ? 1 : 0);
       const Values<float> kept = stages_.highlights(f, light_channels);
-      lights = take_light(f, kept, light_channels, make_aperture_table(mask), plan_.cells);
+      const auto is_light = [](float share) { return share != 1.0f; };
+      if (std::any_of(kept.begin(), kept.end(), is_light)) {
+        const ApertureTable table = make_aperture_table(rasterise(settings_.aperture));
+        lights = take_light(f, kept, light_channels, table, plan_.cells);
+      }
       report_.highlights = lights.where.size();
     }
     done("highlights");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.h"
+#include "base/plane.h"
 #include "lens/aperture_picture.h"
 #include "lens/iris.h"
 
@@ -53,13 +55,13 @@ ApertureMask rasterise(const Aperture& aperture) {
   if (!aperture.image.empty()) return rasterise_picture(aperture);
   const Shape shape(aperture);
   ApertureMask mask;
-  mask.coverage.reserve(side * side);
-  for (int row = 0; row < side; ++row) {
+  mask.coverage.resize(side * side);
+  parallel_for(side, [&](int row) {
     for (int column = 0; column < side; ++column) {
       const double open = shape.open_share((column + 0.5) * texel - 1, (row + 0.5) * texel - 1);
-      mask.coverage.push_back(static_cast<std::uint8_t>(std::lround(255 * open)));
+      mask.coverage[size(row * side + column)] = static_cast<std::uint8_t>(std::lround(255 * open));
     }
-  }
+  });
   return mask;
 }
 
