@@ -61,7 +61,11 @@ TEST_F(ValidateCommand, WritesBothReportsAndPasses) {
     EXPECT_GT(kernel["exact_share_of_bound"], 0);
     EXPECT_LE(kernel["exact_share_of_bound"], 1);
   }
-  const json& floats = device["kernels"][1];
+}
+
+TEST_F(ValidateCommand, OfFloatsEachValueHasItsDistance) {
+  expect_ok(defray(folder, "validate -o report --kernel linear_psf"));
+  const json floats = report()["devices"][0]["kernels"][0];
   std::uint64_t counted = 0;
   for (const auto& [bin, count] : floats["ulp_histogram"].items()) counted += count.get<int>();
   EXPECT_EQ(counted, floats["values"]);

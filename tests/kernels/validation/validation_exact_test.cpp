@@ -113,7 +113,7 @@ TEST(ValidateDevice, OneCaseOfOneKernel) {
   const KernelResult& kernel = result.kernels[0];
   EXPECT_TRUE(result.passed());
   EXPECT_EQ(kernel.cases, 1u);
-  EXPECT_EQ(kernel.verdict.compared, 13u * 7 * 3);
+  EXPECT_EQ(kernel.verdict.compared, 13u * 7 * (3 + 1));
   EXPECT_EQ(kernel.hash, validated("rdb_merge", "13x7,ties,coc=3,channels=3").kernels[0].hash);
   EXPECT_NE(kernel.hash, validated("rdb_merge", "13x7,ties,coc=4,channels=3").kernels[0].hash);
 }
