@@ -9,7 +9,7 @@
 namespace defray::validation {
 namespace {
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
 
 /// What a launch a band adds: it costs some devices (Mesa's, which compiles for each launch anew)
 /// milliseconds.
@@ -23,7 +23,7 @@ double band_work(const Case& c) {
 double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 
 double add_work(const Case& c) {
-  const double disc = std::min(square(2 * c.coc_px + 5), pixels(c));
+  const double disc = std::min(squared(2 * c.coc_px + 5), pixels(c));
   return (4 * pixels(c) + band_work(c)) * c.cells * c.cells + pixels(c) / 6 * disc * 8;
 }
 
@@ -48,7 +48,7 @@ double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8 + band_wor
 
 double linear_work(const Case& c) {
   const double side = 2 * std::floor(c.coc_px + 0.5) + 1;
-  return pixels(c) * square(side) * (1 + c.channels);
+  return pixels(c) * squared(side) * (1 + c.channels);
 }
 
 double match_work(const Case& c) {
@@ -58,11 +58,11 @@ double match_work(const Case& c) {
 double rdb_work(const Case& c) {
   const double side = c.jitter ? 2 * (c.coc_px / c.cells + 1) + 1 : 1;
   const double rays = pixels(c) * c.cells * c.cells;
-  return 4 * rays * (1 + std::min(square(side), pixels(c))) + band_work(c) * c.cells * c.cells;
+  return 4 * rays * (1 + std::min(squared(side), pixels(c))) + band_work(c) * c.cells * c.cells;
 }
 
 double ray_tiles_work(const Case& c) {
-  return 64 * pixels(c) + square(pixels(c) / 256 + 1) * DEFRAY_RAY_BINS;
+  return 64 * pixels(c) + squared(pixels(c) / 256 + 1) * DEFRAY_RAY_BINS;
 }
 
 double repair_work(const Case& c) { return 100 * pixels(c) + band_work(c); }
@@ -71,6 +71,6 @@ double soften_work(const Case& c) { return 300 * pixels(c) + band_work(c); }
 
 double split_work(const Case& c) { return 200 * pixels(c) + 2 * fill_work(c); }
 
-double tiles_work(const Case& c) { return pixels(c) + square(pixels(c) / 256 + 1); }
+double tiles_work(const Case& c) { return pixels(c) + squared(pixels(c) / 256 + 1); }
 
 }  // namespace defray::validation
