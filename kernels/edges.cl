@@ -26,19 +26,23 @@ int ramp(const int before, const int low, const int middle, const int high, cons
   return abs(from_low) <= abs(to_high) ? -1 : 1;
 }
 
+// How far apart limited radii are, signed: all the same to Oclgrind, whose unsigned vectors are
+// not.
+int16 apart(const int16 a, const int16 b) { return max(a, b) - min(a, b); }
+
 // Where all that may be an end of a ramp is close to its middle: there is none then. Of a steep one
 // one end is a jump away at least.
 int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                const int2 start) {
   const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
-  uint16 largest = 0u;
+  int16 largest = 0;
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
       const int16 coc = coc_of_run(p.width, p.height, coc_quanta, start + (int2)(x, y));
-      largest = max(largest, abs_diff(coc, own));
+      largest = max(largest, apart(coc, own));
     }
   }
-  return largest <= (uint16)(DEFRAY_JUMP_QUANTA);
+  return largest <= (int16)(DEFRAY_JUMP_QUANTA);
 }
 
 // The pixel whose depth a pixel should have.
@@ -82,13 +86,14 @@ __kernel void edges(const DefrayFrameParams p, __global const int* restrict coc_
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
   const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
-  uint16 largest = 0u;
+  int16 largest = 0;
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {
       const int16 coc = coc_of_run(p.width, p.height, coc_quanta, start + (int2)(i, j));
-      largest = max(largest, abs_diff(coc, own));
+      largest = max(largest, apart(coc, own));
     }
   }
-  const int16 is_mixed = largest > (uint16)(DEFRAY_JUMP_QUANTA);
-  store_run(p.width, mixed, start, as_uint16(is_mixed) & (uint16)(1u));
+  // The sign's bit; of comparisons between vectors Oclgrind keeps other bits.
+  const uint16 is_mixed = as_uint16(DEFRAY_JUMP_QUANTA - largest) >> 31u;
+  store_run(p.width, mixed, start, is_mixed);
 }

@@ -105,7 +105,7 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
   for (int j = -most; j <= most; ++j) {
     for (int i = -most; i <= most; ++i) {
       const int16 dx = s.stride * i, dy = s.stride * j;
-      const int16 is_tap = s.is_active & (s.taps >= max(i < 0 ? -i : i, j < 0 ? -j : j));
+      const int16 is_tap = s.is_active & (s.taps >= max(max(i, -i), max(j, -j)));
       if (!any(is_tap)) continue;
       const int16 is_there =
           (x + dx >= 0) & (x + dx < (int)p.width) & (y + dy >= 0) & (y + dy < (int)p.height);
