@@ -14,11 +14,10 @@ struct Candidate {
 
 std::vector<Candidate> candidates(bool is_quick) {
   std::vector<Candidate> all{{"linear", "", "--method linear", linear_of()}};
-  for (const auto& [quality, word] :
-       {std::pair{Quality::preview, "preview"},
-        {Quality::draft, "draft"},
-        {Quality::normal, "normal"},
-        {Quality::high, "high"}}) {
+  for (const auto& [quality, word] : {std::pair{Quality::preview, "preview"},
+                                      {Quality::draft, "draft"},
+                                      {Quality::normal, "normal"},
+                                      {Quality::high, "high"}}) {
     all.push_back({"RDB", word, fmt::format("--quality {}", word), default_chain(quality)});
   }
   for (const int n : {3, 5, 9, 17, 33}) {
