@@ -175,7 +175,7 @@ void write_outputs(const FramePaths& paths, Source& source, const Rendered& rend
   }
   if (!paths.tiles.empty()) {
     write_plane(paths.tiles, "tiles", source.file, source.choice.part,
-                rendered.result.tile_classes);
+                rendered.result.tiles.picture());
   }
 }
 

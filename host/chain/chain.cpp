@@ -8,7 +8,6 @@
 #include "chain/highlights.h"
 #include "chain/layers.h"
 #include "chain/patterns.h"
-#include "chain/tile_classes.h"
 #include "kernels/params.h"
 #include "lens/aperture_table.h"
 #include "lens/cats_eye.h"
@@ -45,7 +44,7 @@ class Chain {
     MethodResult out = crop(f, std::move(result));
     if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
     report_.tiles = tiles_.shares();
-    out.tile_classes = tiles_.picture();
+    out.tiles = std::move(tiles_);
     done("crop");
     out.report = std::move(report_);
     return out;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "chain/tile_classes.h"
 #include "defray/options.h"
 #include "defray/report.h"
 #include "frame/stages.h"
@@ -20,8 +21,8 @@ struct MethodResult {
   /// The pixel whose data (ids, normals) each pixel gets: that of the nearest surface its rays end
   /// on, made-up ones left out; its own where there is none. Of rays, if wanted.
   std::vector<std::uint32_t> nearest = {};
-  /// Class of each pixel's tile (chain/tile_classes.h). Of the chain.
-  Plane tile_classes = {};
+  /// Of the chain.
+  TileClasses tiles = {};
   ChainReport report = {};
 };
 

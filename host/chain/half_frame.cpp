@@ -150,15 +150,6 @@ Plane at_full_size(const Plane& half, int width, int height) {
   return out;
 }
 
-Plane doubled(const Plane& half, int width, int height) {
-  Plane out;
-  for (int y = 0; y < height; ++y) {
-    const std::size_t row = size(y / 2) * size((width + 1) / 2);
-    for (int x = 0; x < width; ++x) out.push_back(half[row + size(x / 2)]);
-  }
-  return out;
-}
-
 Plane with_detail(const Values<float>& pinhole, const Values<float>& half_pinhole,
                   const Plane& half_result, const Plane& half_visible, int width, int height) {
   const FullRows bases(half_pinhole.host(), width, height), results(half_result, width, height);

@@ -30,9 +30,6 @@ HalfFrame at_half_size(const Frame& frame);
 /// middles of blocks.
 Plane at_full_size(const Plane& half, int width, int height);
 
-/// The same, each value for the four pixels of its block.
-Plane doubled(const Plane& half, int width, int height);
-
 /// `half_result` at full size, with the detail of `pinhole` that `half_pinhole` lacks, by
 /// `half_visible` of it; but nothing darker than black, and nothing that is not a number.
 Plane with_detail(const Values<float>& pinhole, const Values<float>& half_pinhole,

@@ -78,7 +78,7 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Stages
                                               made.visible, f.width, f.height);
   }
   out.confidence = at_full_size(out.confidence, f.width, f.height);
-  out.tile_classes = doubled(out.tile_classes, f.width, f.height);
+  out.tiles.double_size(f.width, f.height);
   if (wants_nearest) out.nearest = nearest_at_full_size(f, half, out.nearest);
   out.report.stages.insert(out.report.stages.begin(), {"half size", halving, 0});
   out.report.stages.push_back({"full size", watch.lap(), 0});

@@ -58,11 +58,18 @@ TileShares TileClasses::shares() const {
           share(TileClass::edges), share(TileClass::hidden),   share(TileClass::lights)};
 }
 
+void TileClasses::double_size(int width, int height) {
+  width_ = width;
+  height_ = height;
+  zoom_ *= 2;
+}
+
 Plane TileClasses::picture() const {
+  const int shown = side * zoom_;
   Plane out(size(width_) * size(height_));
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const TileClass tile = tiles_[size(y / side) * size(across_) + size(x / side)];
+      const TileClass tile = tiles_[size(y / shown) * size(across_) + size(x / shown)];
       out[size(y) * size(width_) + size(x)] = static_cast<float>(tile);
     }
   }

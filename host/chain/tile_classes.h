@@ -27,6 +27,9 @@ class TileClasses {
   void add_hidden(const Values<float>& inverse);
   void add(const LightSources& lights);
 
+  /// The same tiles of a frame twice as large, of `width` x `height`.
+  void double_size(int width, int height);
+
   /// In all, and of each class.
   TileShares shares() const;
 
@@ -39,7 +42,7 @@ class TileClasses {
   void add(TileClass tile_class, const Is& is);
 
   static constexpr int side = 16;
-  int width_ = 0, height_ = 0, margin_ = 0, across_ = 0;
+  int width_ = 0, height_ = 0, margin_ = 0, across_ = 0, zoom_ = 1;
   std::vector<TileClass> tiles_;
 };
 

@@ -107,6 +107,8 @@ TEST_F(ChainCommand, TilesSayWhatTheyHold) {
   EXPECT_EQ(has(3), tiles["hidden"] > 0);
   EXPECT_TRUE(has(3));
   EXPECT_EQ(std::count(classes.begin(), classes.end(), classes[0]) % 16, 0);
+  rendered(bg + "--quality preview --tiles-out preview.exr");
+  EXPECT_EQ(ImageFile::read(folder / "preview.exr").plane(0, 0).size(), classes.size());
   rendered(bg + "--stats");
   for (const char* words : {"stage ", "rays ", "MiB made", "with hidden surfaces"}) {
     EXPECT_NE(last_.find(words), std::string::npos) << words << " in " << last_;

@@ -44,5 +44,21 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   }
 }
 
+TEST(TileClasses, AreShownTwiceAsLarge) {
+  Frame f{40, 20};
+  f.coc_quanta = Quanta(f.pixels(), 127);
+  f.coc_quanta.edit()[f.index(16, 16)] = 128;
+  TileClasses tiles(f);
+  tiles.double_size(79, 40);
+  const Plane picture = tiles.picture();
+  ASSERT_EQ(picture.size(), 79u * 40);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 79; ++x) {
+      const bool is_smooth = y >= 32 && x >= 32 && x < 64;
+      EXPECT_EQ(picture[static_cast<std::size_t>(y * 79 + x)], is_smooth ? 1 : 0) << x << " " << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace defray::test::tile_classes_test
