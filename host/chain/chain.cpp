@@ -8,72 +8,28 @@
 #include "chain/highlights.h"
 #include "chain/layers.h"
 #include "chain/patterns.h"
+#include "chain/ray_plan.h"
 #include "kernels/params.h"
 #include "lens/aperture_table.h"
-#include "lens/cats_eye.h"
-#include "lens/lens_samples.h"
-#include "rdb/rdb.h"
 
 namespace defray {
 namespace {
 
-/// The chain, stage by stage.
+/// What each stage of the chain does, and what it leaves for those after it and for the report.
 class Chain {
  public:
   Chain(const ChainSettings& settings, Stages& stages) : settings_(settings), stages_(stages) {}
 
-  MethodResult run(const Frame& frame, bool wants_nearest, const Progress& progress) {
-    plan_lens(wants_nearest);
-    Frame f = extended(frame, settings_.border, wants_nearest, report_);
-    done("border");
-    const Words mixed = repair_depth(f);
-    tiles_ = TileClasses(f);
-    tiles_.add_edges(mixed);
-    done("tiles");
-    f = find_surfaces(std::move(f), mixed);
-    const LightSources lights = take_highlights(f);
-    tiles_.add(lights);
-    if (settings_.border == Border::clamp) continue_colours(f);
-    done("border");
-    if (settings_.soften) f.channels = stages_.soften(f, report_.lens_points);
-    done("soften");
-    plan_rim(f);
-    done("lens");
-    RayResult result = stages_.rays(f, plan_, &lights, progress);
-    done("rays");
-    MethodResult out = crop(f, std::move(result));
-    if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
-    report_.tiles = tiles_.shares();
-    out.tiles = std::move(tiles_);
-    done("crop");
-    out.report = std::move(report_);
-    return out;
-  }
-
- private:
-  /// A stage that comes back adds to its time.
-  void done(const char* stage) {
-    const double seconds = watch_.lap();
-    const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
-                                    [&](const StageTime& s) { return s.stage == stage; });
-    const std::size_t made = stages_.bytes_made(), bytes = made - bytes_;
-    bytes_ = made;
-    if (found == report_.stages.end()) {
-      report_.stages.push_back({stage, seconds, bytes});
-    } else {
-      found->seconds += seconds;
-      found->bytes += bytes;
-    }
-  }
-
   void plan_lens(bool wants_nearest) {
-    validate(settings_.aperture);
-    const auto points = make_lens_cells(settings_.cells_per_side, false).centres.size();
-    report_.lens_points = static_cast<int>(points);
-    plan_.cells = make_lens_samples(settings_.aperture, report_.lens_points);
-    plan_.wants_nearest = wants_nearest;
-    plan_.by = settings_.rays;
+    plan_ = ray_plan(settings_, wants_nearest);
+    report_.lens_points = static_cast<int>(plan_.cells.centres.size());
     done("lens");
+  }
+
+  Frame extend(const Frame& frame) {
+    Frame f = extended(frame, settings_.border, plan_.wants_nearest, report_);
+    done("border");
+    return f;
   }
 
   /// Depth that was anti-aliased has many pixels between two surfaces: of the built-in scenes' edge
@@ -102,18 +58,10 @@ class Chain {
     return mixed;
   }
 
-  /// Gives each pixel another one's CoC, depth and data.
-  static void move_surfaces(Frame& f, std::span<const std::uint32_t> source) {
-    const auto moved = [&](auto& plane) {
-      if (plane.empty()) return;
-      auto copy = plane;
-      const auto from = copy.host();
-      const auto to = plane.edit();
-      for (std::size_t i = 0; i < source.size(); ++i) to[i] = from[source[i]];
-    };
-    moved(f.coc_quanta);
-    moved(f.inverse);
-    moved(f.data_of);
+  void classify(const Frame& f, const Words& mixed) {
+    tiles_ = TileClasses(f);
+    tiles_.add_edges(mixed);
+    done("tiles");
   }
 
   Frame find_surfaces(Frame f, const Words& mixed) {
@@ -135,17 +83,6 @@ class Chain {
     return f;
   }
 
-  void add_patterns(const Frame& f, const Words& mixed, Frame& behind) {
-    std::vector<bool> is_behind(f.pixels());
-    const auto inverse = behind.inverse.host();
-    for (std::size_t i = 0; i < inverse.size(); ++i) is_behind[i] = inverse[i] >= 0;
-    const Words pixels = pattern_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
-    PatternSettings patterns;
-    patterns.shifts = settings_.pattern_shifts;
-    improve_by_patterns(stages_, f, pixels, patterns, behind);
-    done("patterns");
-  }
-
   LightSources take_highlights(Frame& f) {
     LightSources lights;
     if (settings_.highlights) {
@@ -157,24 +94,77 @@ class Chain {
         lights = take_light(f, kept, light_channels, table, plan_.cells);
       }
       report_.highlights = lights.where.size();
+      tiles_.add(lights);
     }
     done("highlights");
     return lights;
   }
 
-  /// Where the frame lies: for what is random, and the lens's rim.
-  void plan_rim(const Frame& f) {
-    plan_.origin_x = f.origin_x;
-    plan_.origin_y = f.origin_y;
-    if (settings_.aperture.cats_eye == 0) return;
-    const int width = f.display_width > 0 ? f.display_width : f.width - 2 * f.margin;
-    const int height = f.display_height > 0 ? f.display_height : f.height - 2 * f.margin;
-    const auto rim = [&](int x, int y) {
-      return rim_centre(settings_.aperture.cats_eye, f.origin_x + x + 0.5, f.origin_y + y + 0.5,
-                        width, height);
+  void prepare_colours(Frame& f) {
+    if (settings_.border == Border::clamp) continue_colours(f);
+    done("border");
+    if (settings_.soften) f.channels = stages_.soften(f, report_.lens_points);
+    done("soften");
+  }
+
+  RayResult send_rays(const Frame& f, const LightSources& lights, const Progress& progress) {
+    place_rays(f, settings_.aperture.cats_eye, plan_);
+    done("lens");
+    RayResult result = stages_.rays(f, plan_, &lights, progress);
+    done("rays");
+    return result;
+  }
+
+  /// The picture that `frame`, which became `f`, gives.
+  MethodResult finish(const Frame& frame, const Frame& f, RayResult result) {
+    MethodResult out = crop(f, std::move(result));
+    if (frame.has_alpha) limit_alpha(frame.channels.back(), out.colour);
+    report_.tiles = tiles_.shares();
+    out.tiles = std::move(tiles_);
+    done("crop");
+    out.report = std::move(report_);
+    return out;
+  }
+
+ private:
+  /// A stage that comes back adds to its time.
+  void done(const char* stage) {
+    const double seconds = watch_.lap();
+    const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
+                                    [&](const StageTime& s) { return s.stage == stage; });
+    const std::size_t made = stages_.bytes_made(), bytes = made - bytes_;
+    bytes_ = made;
+    if (found == report_.stages.end()) {
+      report_.stages.push_back({stage, seconds, bytes});
+    } else {
+      found->seconds += seconds;
+      found->bytes += bytes;
+    }
+  }
+
+  /// Gives each pixel another one's CoC, depth and data.
+  static void move_surfaces(Frame& f, std::span<const std::uint32_t> source) {
+    const auto moved = [&](auto& plane) {
+      if (plane.empty()) return;
+      auto copy = plane;
+      const auto from = copy.host();
+      const auto to = plane.edit();
+      for (std::size_t i = 0; i < source.size(); ++i) to[i] = from[source[i]];
     };
-    for (int x = 0; x < f.width; ++x) plan_.rim_x.push_back(rim(x, 0)[0]);
-    for (int y = 0; y < f.height; ++y) plan_.rim_y.push_back(rim(0, y)[1]);
+    moved(f.coc_quanta);
+    moved(f.inverse);
+    moved(f.data_of);
+  }
+
+  void add_patterns(const Frame& f, const Words& mixed, Frame& behind) {
+    std::vector<bool> is_behind(f.pixels());
+    const auto inverse = behind.inverse.host();
+    for (std::size_t i = 0; i < inverse.size(); ++i) is_behind[i] = inverse[i] >= 0;
+    const Words pixels = pattern_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
+    PatternSettings patterns;
+    patterns.shifts = settings_.pattern_shifts;
+    improve_by_patterns(stages_, f, pixels, patterns, behind);
+    done("patterns");
   }
 
   /// Discs and rays of one surface meet along other borders than pixels do: a little more than all
@@ -225,28 +215,19 @@ constexpr std::size_t bytes_a_pixel = 200;
 
 }  // namespace
 
-ChainSettings settings_for(Quality quality) {
-  ChainSettings s;
-  if (quality == Quality::preview) {
-    s.cells_per_side = 6;
-    s.hidden = Hidden::smooth;
-    s.half_size = true;
-  }
-  if (quality == Quality::draft) {
-    s.cells_per_side = 9;
-    s.hidden = Hidden::smooth;
-  }
-  if (quality == Quality::high) {
-    s.cells_per_side = 33;
-    s.pattern_shifts = 48;
-  }
-  return s;
-}
-
 MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Stages& stages,
                        bool wants_nearest, const Progress& progress) {
   stages.require_memory(frame, frame.pixels() * bytes_a_pixel);
-  return Chain(settings, stages).run(frame, wants_nearest, progress);
+  Chain chain(settings, stages);
+  chain.plan_lens(wants_nearest);
+  Frame f = chain.extend(frame);
+  const Words mixed = chain.repair_depth(f);
+  chain.classify(f, mixed);
+  f = chain.find_surfaces(std::move(f), mixed);
+  const LightSources lights = chain.take_highlights(f);
+  chain.prepare_colours(f);
+  RayResult result = chain.send_rays(f, lights, progress);
+  return chain.finish(frame, f, std::move(result));
 }
 
 }  // namespace defray

@@ -86,6 +86,13 @@ Frame bright_fragments(const Input& in) {
   for (auto& channel : f.channels) {
     const auto plane = channel.edit();
     for (std::size_t i = 5; i < plane.size(); i += 13) plane[i] *= 500;
+    // What is a highlight in one half is none in the other.
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      const std::size_t x = i % size(f.width), row = i / size(f.width);
+      const bool is_wide = f.width > f.height;
+      const std::size_t half = size(is_wide ? f.width : f.height * f.layers) / 2;
+      if ((is_wide ? x : row) >= half) plane[i] *= 1e6f;
+    }
   }
   return f;
 }

@@ -5,10 +5,10 @@
 #include <limits>
 #include <optional>
 
+#include "defray/io.h"
 #include "image/image_file.h"
 #include "lens/depth.h"
 #include "numbers.h"
-#include "pipeline.h"
 #include "support.h"
 
 namespace defray::test::extreme_files_test {
@@ -94,10 +94,11 @@ TEST(ExtremeFiles, HalfFloatsAtTheirLimitsPassAClosedApertureBitForBit) {
   ImageFile::from_planes({"R", "G", "B", "Z"}, {half_limits, reversed, half_limits, depth}, count,
                          1)
       .write(folder / "in.exr");
+  Device devices[] = {Device::open(), Device::reference()};
   for (const auto& [method, kind] : all_methods) {
-    for (Stages* s : device_and_twins()) {
-      const auto result = render_frame({folder / "in.exr", "", folder / "out.exr", ""},
-                                       settings_of(method, kind, 0), *s);
+    for (Device& device : devices) {
+      const auto result = render_file(device, {folder / "in.exr", "", folder / "out.exr", ""},
+                                      settings_of(method, kind, 0));
       EXPECT_EQ(result.report.depth.background, 3u);  // 65504, inf and 0
       const ImageFile out = ImageFile::read(folder / "out.exr");
       std::vector<Plane> planes;
@@ -116,11 +117,12 @@ TEST(ExtremeFiles, LightBeyondHalfFloatsIsWrittenAsInfAndReported) {
     if (i % 20 < 10) depth[i] = 3;
   }
   const Plane bright(depth.size(), 65504.0f);
+  Device device = Device::open();
   for (const Sample sample : {Sample::half_float, Sample::single_float}) {
     ImageFile::from_planes({"R", "G", "B", "Z"}, {bright, bright, bright, depth}, 20, 20, sample)
         .write(folder / "in.exr");
-    const auto result = render_frame({folder / "in.exr", "", folder / "out.exr", ""},
-                                     settings_of(Method::linear, {}, 200), device());
+    const auto result = render_file(device, {folder / "in.exr", "", folder / "out.exr", ""},
+                                    settings_of(Method::linear, {}, 200));
     const Plane stored = ImageFile::read(folder / "out.exr").plane(0, 0);
     std::size_t beyond = 0;
     for (std::size_t i = 0; i < stored.size(); ++i) {
@@ -155,11 +157,12 @@ TEST(ExtremeFiles, NanDepthIsBackgroundThroughTheWholePipeline) {
   };
   write("inf.exr", depth);
   write("nan.exr", with_nan);
+  Device devices[] = {Device::open(), Device::reference()};
   for (const auto& [method, kind] : all_methods) {
     const RenderSettings settings = settings_of(method, kind, 100);
-    for (Stages* s : device_and_twins()) {
+    for (Device& device : devices) {
       const auto colour_of = [&](const char* name) {
-        return render_frame({folder / name, "", folder / "out.exr", ""}, settings, *s).colour;
+        return render_file(device, {folder / name, "", folder / "out.exr", ""}, settings).colour;
       };
       EXPECT_EQ(hash_of(colour_of("nan.exr")), hash_of(colour_of("inf.exr")))
           << "method " << static_cast<int>(method);

@@ -2,8 +2,6 @@
 #include "defray/io.h"
 #include "image/depth_plane.h"
 #include "image/output.h"
-#include "library/stages_of.h"
-#include "pipeline.h"
 
 namespace defray {
 
@@ -59,12 +57,6 @@ void PictureFile::write_plane(const std::string& path, const std::string& name,
     fail(ErrorKind::usage, "{}: {} is not of the size of the picture read", path, name);
   }
   defray::write_plane(path, name, state_->file, state_->choice.part, values);
-}
-
-FrameResult render_file(Device& device, const FramePaths& paths, const RenderSettings& settings,
-                        const Progress& progress) {
-  check_output_format(paths.output);
-  return render_frame(paths, settings, stages_of(device), progress);
 }
 
 }  // namespace defray

@@ -1,5 +1,4 @@
-#include "pipeline.h"
-
+// The main job: one frame from file to file.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -7,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "defray/io.h"
 #include "image/depth_plane.h"
 #include "image/further_channels.h"
 #include "image/nonfinite.h"
@@ -15,6 +15,7 @@
 #include "lens/camera.h"
 #include "lens/coc.h"
 #include "lens/depth.h"
+#include "library/stages_of.h"
 #include "render.h"
 
 namespace defray {
@@ -138,6 +139,7 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
 
 /// The outputs must be writable before the work.
 void check_outputs(const FramePaths& paths) {
+  check_output_format(paths.output);
   check_can_write(paths.output);
   const std::pair<const char*, const std::string&> data_files[] = {
       {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
@@ -181,14 +183,15 @@ void write_outputs(const FramePaths& paths, Source& source, const Rendered& rend
 
 }  // namespace
 
-FrameResult render_frame(const FramePaths& paths, const RenderSettings& settings, Stages& stages,
-                         const Progress& progress) {
-  FrameReport report;
-  report.paths = paths;
-  report.method = settings.method.method;
+FrameResult render_file(Device& device, const FramePaths& paths, const RenderSettings& settings,
+                        const Progress& progress) {
   check_paths(paths);
   check_outputs(paths);
 
+  Stages& stages = stages_of(device);
+  FrameReport report;
+  report.paths = paths;
+  report.method = settings.method.method;
   Stopwatch watch;
   Source source = read_source(paths, settings, report);
   report.read_seconds = watch.lap();
