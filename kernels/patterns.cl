@@ -20,15 +20,14 @@
 // coc_quanta   signed radius, 1/256 px
 // inverse      1/depth
 // difference   bit 24: a pair; below: its squared difference
-// sums         number of pairs << 40 | squared differences, weighted
+// columns      number of pairs << 40 | squared differences, weighted
 // behind_coc   [rows][width]                  radius of the synthesised fragment
 // behind_inverse [rows][width]                its 1/depth
 // channel_behind0..3  [rows][width]          its colour, before: smooth
 // channel0..3  [from source_row rows above the band on][width]   linear colours of the frame
-// sum          [rows][width]                  only where there is a fragment behind
-// weight       [rows][width]                  (w, w D), the same
-// Global size: (units), of DEFRAY_PATTERN_RUN pixels of a row; COLUMNS x STRIP; CHUNK of a row.
-// units        (x, y) of the first pixel, in the window
+// sums         [6][rows][width] of the four channels, of w, of w D; where there is a fragment
+// behind Global size: (units), of DEFRAY_PATTERN_RUN pixels of a row; COLUMNS x STRIP; CHUNK of a
+// row. units        (x, y) of the first pixel, in the window
 #include "colour.clh"
 #include "params.h"
 
@@ -98,7 +97,7 @@ ulong8 pairs_at(__global const uint* restrict difference, const size_t at, const
 // sum(x + 1) = sum(x) + values x + 1 ... x + n - values x - n + 1 ... x.
 __kernel void patterns_columns(const DefrayPatternParams p, __global const uint2* restrict units,
                                __global const uint* restrict difference,
-                               __global ulong* restrict sums) {
+                               __global ulong* restrict columns) {
   if (get_global_id(0) >= p.unit_count) return;
   const uint2 unit = units[get_global_id(0)];
   const int n = p.window_px;
@@ -115,7 +114,7 @@ __kernel void patterns_columns(const DefrayPatternParams p, __global const uint2
   after += pairs_at(difference, at, n, p.stride);
   const uint end = min(unit.y + DEFRAY_PATTERN_STRIP, p.margin_y + p.rows);
   for (uint y = unit.y; y < end; ++y, at += p.stride) {
-    vstore8(sum, 0, sums + at);
+    vstore8(sum, 0, columns + at);
     sum += after - before;
     const ulong8 passing = pairs_at(difference, at, 1, p.stride);
     after += pairs_at(difference, at, n + 1, p.stride) - passing;
@@ -123,69 +122,142 @@ __kernel void patterns_columns(const DefrayPatternParams p, __global const uint2
   }
 }
 
-// (w, w D) for a window's sum.
-float2 weight_of(const ulong sum) {
-  const long squares = (long)(sum & (1ul << DEFRAY_PATTERN_COUNT_BIT) - 1ul);
-  const float pairs = (float)(int)(sum >> DEFRAY_PATTERN_COUNT_BIT);
+// A window's weight, and its mean squared difference times that; eight windows.
+typedef struct {
+  float8 w, square_w;
+} Weights;
+
+Weights weights_of(const ulong8 windows) {
+  const long8 squares = convert_long8(windows & (1ul << DEFRAY_PATTERN_COUNT_BIT) - 1ul);
+  const float8 pairs = convert_float8(convert_int8(windows >> DEFRAY_PATTERN_COUNT_BIT));
   // White is 255. Two thirds of a step squared more: rounding to 8 bits hides as much.
-  const float d = (float)squares / pairs + 0.65025f;
-  const float q = 650.25f / d;
-  const float q2 = q * q;
-  const float w = q2 * q2 * q2;
-  return (float2)(w, w * d);
+  const float8 d = convert_float8(squares) / pairs + 0.65025f;
+  const float8 q = 650.25f / d;
+  const float8 q2 = q * q;
+  const float8 w = q2 * q2 * q2;
+  const Weights weights = {w, w * d};
+  return weights;
+}
+
+// Eight values, from so far on; beside each other from the first one on, or anywhere.
+int8 eight_ints(__global const int* restrict plane, const int8 places, const bool are_beside) {
+  if (are_beside) return vload8(0, plane + places.s0);
+  int from[8], values[8];
+  vstore8(places, 0, from);
+  for (int i = 0; i < 8; ++i) values[i] = plane[from[i]];
+  return vload8(0, values);
+}
+
+float8 eight_floats(__global const float* restrict plane, const int8 places,
+                    const bool are_beside) {
+  return as_float8(eight_ints((__global const int*)plane, places, are_beside));
+}
+
+// A plane of `sums`: values are added where there is a match, and begin at 0 with the first shift.
+void add_to(const DefrayPatternParams p, __global float* sum, const int count, const int8 is_match,
+            const float8 values) {
+  float before[8], after[8];
+  if (count == 8) {
+    const float8 old = p.is_first ? (float8)(0.0f) : vload8(0, sum);
+    vstore8(select(old, old + values, is_match), 0, sum);
+    return;
+  }
+  for (int i = 0; i < 8; ++i) before[i] = p.is_first || i >= count ? 0.0f : sum[i];
+  const float8 old = vload8(0, before);
+  vstore8(select(old, old + values, is_match), 0, after);
+  for (int i = 0; i < count; ++i) sum[i] = after[i];
+}
+
+// What a shift gives to `count` pixels of a row from `at` in the window, (x, y) in the band, on.
+void match(const DefrayPatternParams p, __global const uint* restrict pixels,
+           __global const int* restrict coc_quanta, __global const int* restrict behind_coc,
+           __global const float* restrict behind_inverse, CHANNEL_PARAMETERS(channel_behind),
+           CHANNEL_PARAMETERS(channel), __global float* restrict sums, const ulong8 windows,
+           const size_t at, const int x, const int y, const int count) {
+  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  const int8 is_behind =
+      lane < (int8)(count) && as_int8(vload8(0, pixels + at) & DEFRAY_PATTERN_BEHIND) != (int8)(0);
+  if (!any(is_behind)) return;
+  const size_t target = (size_t)y * p.width + (uint)x;
+  const bool is_whole = count == 8, is_parallel = p.parallel != 0.0f;
+  const int8 own = is_whole ? lane : select((int8)(0), lane, is_behind);
+  int8 shift_x = p.shift_x, shift_y = p.shift_y;
+  if (is_parallel) {
+    int xs[8], ys[8], looks[8];
+    vstore8(is_behind, 0, looks);
+    for (int i = 0; i < 8; ++i) {
+      const int2 shift = looks[i] ? shift_at(p, behind_inverse[target + (uint)i]) : (int2)(0);
+      xs[i] = shift.x;
+      ys[i] = shift.y;
+    }
+    shift_x = vload8(0, xs);
+    shift_y = vload8(0, ys);
+  }
+  const int8 there = lane + shift_y * (int)p.stride + shift_x;
+  const int8 flags = eight_ints((__global const int*)pixels + at, there, !is_parallel);
+  const int8 coc = eight_ints(coc_quanta + at, there, !is_parallel);
+  const uint8 apart = abs_diff(coc, eight_ints(behind_coc + target, own, is_whole));
+  const uint8 pairs = convert_uint8(windows >> DEFRAY_PATTERN_COUNT_BIT);
+  const int8 is_match = is_behind && (flags & (int)DEFRAY_PATTERN_KNOWN) != (int8)(0) &&
+                        pairs >= (uint8)(p.least_pairs) && apart <= (uint8)(p.tolerance_quanta);
+  const bool has_match = any(is_match);
+  if (!has_match && !p.is_first) return;
+
+  // Where there is a match its row is in the frame; the rest of the eight may not be.
+  const int from_x = x + p.shift_x;
+  const bool are_beside = has_match && !is_parallel && from_x >= 0 && from_x + 8 <= (int)p.width;
+  const int8 beside = lane + shift_y * (int)p.width + shift_x;
+  const int8 places = are_beside ? beside : select((int8)(0), beside, is_match);
+  const size_t source = (size_t)(p.source_row + (uint)y) * p.width + (uint)x;
+  const Weights weights = weights_of(windows);
+  const size_t plane = (size_t)p.rows * p.width;
+#define ADD_CHANNEL(i)                                                        \
+  add_to(p, sums + i * plane + target, count, is_match,                       \
+         weights.w * (eight_floats(channel##i + source, places, are_beside) - \
+                      eight_floats(channel_behind##i + target, own, is_whole)))
+  ADD_CHANNEL(0);
+  ADD_CHANNEL(1);
+  ADD_CHANNEL(2);
+  ADD_CHANNEL(3);
+  add_to(p, sums + 4 * plane + target, count, is_match, weights.w);
+  add_to(p, sums + 5 * plane + target, count, is_match, weights.square_w);
 }
 
 __kernel void patterns_match(const DefrayPatternParams p, __global const uint2* restrict units,
                              __global const uint* restrict pixels,
                              __global const int* restrict coc_quanta,
-                             __global const ulong* restrict sums,
+                             __global const ulong* restrict columns,
                              __global const int* restrict behind_coc,
                              __global const float* restrict behind_inverse,
                              CHANNEL_PARAMETERS(channel_behind), CHANNEL_PARAMETERS(channel),
-                             __global float4* restrict sum, __global float2* restrict weight) {
+                             __global float* restrict sums) {
   if (get_global_id(0) >= p.unit_count) return;
   const uint2 unit = units[get_global_id(0)];
-  const int n = p.window_px;
-  const uint x0 = unit.x - p.margin_x, y = unit.y - p.margin_y;
-  const size_t first = (size_t)unit.y * p.stride + unit.x;
+  const size_t n = (size_t)p.window_px, first = (size_t)unit.y * p.stride + unit.x;
   ulong window = 0ul, before = 0ul, after = 0ul;
-  for (int j = 0; j < n; ++j) {
-    before += sums[first - (size_t)j];
+  for (size_t j = 0; j < n; ++j) {
+    before += columns[first - j];
     window += before;
   }
-  for (int j = 1; j < n; ++j) {
-    after += sums[first + (size_t)j];
+  for (size_t j = 1; j < n; ++j) {
+    after += columns[first + j];
     window += after;
   }
-  after += sums[first + (size_t)n];
-  const uint count = min((uint)DEFRAY_PATTERN_CHUNK, p.width - x0);
-  for (uint i = 0; i < count; ++i) {
-    const size_t at = first + i;
-    if (pixels[at] & DEFRAY_PATTERN_BEHIND) {
-      const size_t target = (size_t)y * p.width + x0 + i;
-      const int2 shift = shift_at(p, behind_inverse[target]);
-      const size_t there = (size_t)((long)at + (long)shift.y * p.stride + shift.x);
-      const bool is_match = pixels[there] & DEFRAY_PATTERN_KNOWN &&
-                            window >> DEFRAY_PATTERN_COUNT_BIT >= p.least_pairs &&
-                            abs_diff(coc_quanta[there], behind_coc[target]) <= p.tolerance_quanta;
-      if (is_match || p.is_first) {
-        float4 total = p.is_first ? (float4)(0.0f) : sum[target];
-        float2 weights = p.is_first ? (float2)(0.0f) : weight[target];
-        if (is_match) {
-          const size_t source =
-              (size_t)((long)(p.source_row + y) + shift.y) * p.width + (x0 + i) + shift.x;
-          const float2 w = weight_of(window);
-          total += w.x * (colour_at(CHANNELS(channel), source) -
-                          colour_at(CHANNELS(channel_behind), target));
-          weights += w;
-        }
-        sum[target] = total;
-        weight[target] = weights;
-      }
+  after += columns[first + n];
+  const int x0 = (int)(unit.x - p.margin_x), y = (int)(unit.y - p.margin_y);
+  const int count = min(DEFRAY_PATTERN_CHUNK, (int)p.width - x0);
+  for (int i = 0; i < count; i += 8) {
+    ulong windows[8];
+    for (size_t k = 0; k < 8; ++k) {
+      const size_t at = first + (size_t)i + k;
+      windows[k] = window;
+      window += after - before;
+      const ulong passing = columns[at + 1];
+      after += columns[at + n + 1] - passing;
+      before += passing - columns[at + 1 - n];
     }
-    window += after - before;
-    const ulong passing = sums[at + 1];
-    after += sums[at + (size_t)n + 1] - passing;
-    before += passing - sums[at + 1 - (size_t)n];
+    match(p, pixels, coc_quanta, behind_coc, behind_inverse, CHANNELS(channel_behind),
+          CHANNELS(channel), sums, vload8(0, windows), first + (size_t)i, x0 + i, y,
+          min(8, count - i));
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 // Loops over all cores.
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -23,6 +25,16 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
     helpers.emplace_back(work, false);
   }
   work(true);
+}
+
+/// The same for a long row of short tasks: a stretch of them at a time.
+template <typename Task>
+void parallel_for_each(std::size_t count, const Task& task) {
+  constexpr std::size_t stretch = 1 << 15;
+  parallel_for(static_cast<int>((count + stretch - 1) / stretch), [&](int i) {
+    const std::size_t first = static_cast<std::size_t>(i) * stretch;
+    for (std::size_t k = first; k < std::min(first + stretch, count); ++k) task(k);
+  });
 }
 
 }  // namespace defray

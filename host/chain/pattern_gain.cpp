@@ -58,10 +58,10 @@ template <typename Word>
 Sums sums_of(const Frame& frame, const Words& pixels, int n, const Word& word) {
   Sums plane(pixels.size());
   const auto words = pixels.host();
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  parallel_for_each(words.size(), [&](std::size_t i) {
     const std::uint64_t v = words[i];
     if (v & DEFRAY_PATTERN_KNOWN) plane[i] = word(v & 255, v >> 8 & 255, v >> 16 & 255);
-  }
+  });
   sum_windows(frame.width, frame.height, n, plane);
   return plane;
 }
@@ -83,16 +83,16 @@ Plane pattern_variance(const Frame& frame, const Words& pixels, const PatternSet
       sums_of(frame, pixels, n, [](std::uint64_t, std::uint64_t, std::uint64_t b) { return b; });
   Plane variance(pixels.size());
   const auto words = pixels.host();
-  for (std::size_t i = 0; i < variance.size(); ++i) {
+  parallel_for_each(variance.size(), [&](std::size_t i) {
     const std::uint64_t count = squares[i] >> DEFRAY_PATTERN_COUNT_BIT;
-    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || count == 0) continue;
+    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || count == 0) return;
     // n sum(v^2) - sum(v)^2, below 2^62.4: exact, and never negative.
     const std::uint64_t scaled = count * (squares[i] & (one - 1)) -
                                  squared(red_green[i] & 0xffffffffu) - squared(red_green[i] >> 32) -
                                  squared(blue[i]);
     const auto known = static_cast<double>(count);
     variance[i] = static_cast<float>(static_cast<double>(scaled) / (known * known));
-  }
+  });
   return variance;
 }
 
@@ -101,16 +101,16 @@ void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& v
   const auto words = pixels.host();
   std::vector<std::span<float>> colour;
   for (Values<float>& channel : behind) colour.push_back(channel.edit());
-  for (std::size_t i = 0; i < variance.size(); ++i) {
+  parallel_for_each(variance.size(), [&](std::size_t i) {
     const float weight = sums.weight[i];
-    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || !(weight > 0) || !(variance[i] > 0)) continue;
+    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || !(weight > 0) || !(variance[i] > 0)) return;
     const float gain = 1 - sums.weighted_square[i] / weight / (2 * variance[i]);
-    if (!(gain > 0)) continue;
+    if (!(gain > 0)) return;
     for (std::size_t c = 0; c < colour.size(); ++c) {
       const float moved = colour[c][i] + gain * (sums.difference[c][i] / weight);
       if (std::isfinite(moved)) colour[c][i] = moved;
     }
-  }
+  });
 }
 
 }  // namespace defray

@@ -32,21 +32,22 @@ SearchedPicture whole_picture(const Frame& frame, const Words& pixels) {
   SearchedPicture p(frame.width, frame.height);
   p.coc.assign(frame.coc_quanta.begin(), frame.coc_quanta.end());
   const auto words = pixels.host();
-  for (std::size_t i = 0; i < words.size(); ++i) {
+  parallel_for_each(words.size(), [&](std::size_t i) {
     const std::uint32_t v = words[i];
     p.r[i] = static_cast<std::int16_t>(v & 255);
     p.g[i] = static_cast<std::int16_t>(v >> 8 & 255);
     p.b[i] = static_cast<std::int16_t>(v >> 16 & 255);
     p.known[i] = v & DEFRAY_PATTERN_KNOWN ? -1 : 0;
-  }
+  });
   return p;
 }
 
 /// Means over the known pixels of blocks that are at least half known.
 SearchedPicture block_means(const SearchedPicture& p) {
   SearchedPicture means(p.width / block, p.height / block);
-  for (int i = 0; i < means.width * means.height; ++i) {
-    const int x = i % means.width * block, y = i / means.width * block;
+  parallel_for_each(means.known.size(), [&](std::size_t i) {
+    const int x = static_cast<int>(i % size(means.width)) * block;
+    const int y = static_cast<int>(i / size(means.width)) * block;
     std::int64_t count = 0, r = 0, g = 0, b = 0, coc = 0;
     for (int k = 0; k < block * block; ++k) {
       const std::size_t at = size(y + k / block) * size(p.width) + size(x + k % block);
@@ -57,14 +58,13 @@ SearchedPicture block_means(const SearchedPicture& p) {
       b += p.b[at];
       coc += p.coc[at];
     }
-    if (2 * count < block * block) continue;
-    const std::size_t at = size(i);
-    means.r[at] = static_cast<std::int16_t>((r + count / 2) / count);
-    means.g[at] = static_cast<std::int16_t>((g + count / 2) / count);
-    means.b[at] = static_cast<std::int16_t>((b + count / 2) / count);
-    means.coc[at] = static_cast<std::int32_t>(coc / count);
-    means.known[at] = -1;
-  }
+    if (2 * count < block * block) return;
+    means.r[i] = static_cast<std::int16_t>((r + count / 2) / count);
+    means.g[i] = static_cast<std::int16_t>((g + count / 2) / count);
+    means.b[i] = static_cast<std::int16_t>((b + count / 2) / count);
+    means.coc[i] = static_cast<std::int32_t>(coc / count);
+    means.known[i] = -1;
+  });
   return means;
 }
 

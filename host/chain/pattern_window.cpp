@@ -77,12 +77,13 @@ DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margi
   return p;
 }
 
-PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels) {
+PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels,
+                           int first_row, int end_row) {
   const int n = p.window_px, rows = static_cast<int>(p.rows);
   const int left = static_cast<int>(p.margin_x), top = static_cast<int>(p.margin_y);
   constexpr int strip = DEFRAY_PATTERN_STRIP;
   Wanted match(p, DEFRAY_PATTERN_CHUNK, 1), columns(p, DEFRAY_PATTERN_COLUMNS, strip);
-  for (int y = 0; y < rows; ++y) {
+  for (int y = first_row; y < end_row; ++y) {
     const std::size_t row = static_cast<std::size_t>(y + top) * p.stride + p.margin_x;
     for (int x = 0; x < static_cast<int>(p.width); ++x) {
       if (!(pixels[row + static_cast<std::size_t>(x)] & DEFRAY_PATTERN_BEHIND)) continue;

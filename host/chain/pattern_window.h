@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/parallel.h"
 #include "chain/patterns.h"
 
 namespace defray {
@@ -33,18 +34,20 @@ std::vector<T> pattern_window(const Frame& frame, const DefrayPatternParams& p, 
                               const Values<T>& plane, T outside) {
   const std::size_t rows = p.rows + 2 * std::size_t{p.margin_y}, width = p.width;
   std::vector<T> window(rows * p.stride, outside);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::int64_t y = band_y + static_cast<std::int64_t>(row) - p.margin_y;
-    if (y < 0 || y >= frame.height) continue;
+  parallel_for(static_cast<int>(rows), [&](int row) {
+    const std::int64_t y = std::int64_t{band_y} + row - p.margin_y;
+    if (y < 0 || y >= frame.height) return;
     const auto from = plane.begin() + y * static_cast<std::int64_t>(width);
     std::copy(from, from + static_cast<std::int64_t>(width),
-              window.begin() + static_cast<std::int64_t>(row * p.stride + p.margin_x));
-  }
+              window.begin() + std::int64_t{row} * p.stride + p.margin_x);
+  });
   return window;
 }
 
-/// From the window of the frame's pixels.
-PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels);
+/// From the window of the frame's pixels: for the band's rows first_row to end_row - 1. The first
+/// is a multiple of DEFRAY_PATTERN_STRIP.
+PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels,
+                           int first_row, int end_row);
 
 /// Memory for a band of so many rows.
 std::size_t pattern_band_bytes(int width, const PatternMargins& margins, int rows);

@@ -1,9 +1,11 @@
 #include "chain/patterns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
+#include "base/parallel.h"
 #include "base/srgb.h"
 
 namespace defray {
@@ -18,31 +20,30 @@ std::vector<std::uint32_t> encoded_colours(const Frame& f, const Frame& behind,
   std::vector<std::uint32_t> encoded(f.pixels());
   const auto is_mixed = mixed.host();
   const auto inverse = behind.inverse.host();
-  for (std::size_t i = 0; i < encoded.size(); ++i) {
-    const bool hides = is_mixed[i] || inverse[i] >= 0 || f.is_in_margin(i);
-    encoded[i] = hides ? 0 : DEFRAY_PATTERN_KNOWN;
-  }
+  std::array<std::span<const float>, 3> rgb;
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto channel = f.channels[std::min(c, f.channels.size() - 1)].host();
-    for (std::size_t i = 0; i < encoded.size(); ++i) {
-      encoded[i] |= shown_8_bit(channel[i]) << (8 * c);
-    }
+    rgb[c] = f.channels[std::min(c, f.channels.size() - 1)].host();
   }
+  parallel_for_each(encoded.size(), [&](std::size_t i) {
+    const bool hides = is_mixed[i] || inverse[i] >= 0 || f.is_in_margin(i);
+    const std::uint32_t known = hides ? 0 : DEFRAY_PATTERN_KNOWN;
+    encoded[i] =
+        known | shown_8_bit(rgb[0][i]) | shown_8_bit(rgb[1][i]) << 8 | shown_8_bit(rgb[2][i]) << 16;
+  });
   return encoded;
 }
 
 Words pattern_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
                      const std::vector<bool>& is_behind) {
-  for (const Values<float>& channel : channels) {
-    const auto values = channel.host();
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      const bool is_plain = std::fabs(values[i]) <= 1.0f;  // no NaN is
+  std::vector<std::span<const float>> colour;
+  for (const Values<float>& channel : channels) colour.push_back(channel.host());
+  parallel_for_each(pixels.size(), [&](std::size_t i) {
+    for (const auto& channel : colour) {
+      const bool is_plain = std::fabs(channel[i]) <= 1.0f;  // no NaN is
       if (!is_plain) pixels[i] &= ~DEFRAY_PATTERN_KNOWN;
     }
-  }
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (is_behind[i]) pixels[i] |= DEFRAY_PATTERN_BEHIND;
-  }
+  });
   return pixels;
 }
 

@@ -1,14 +1,31 @@
 // Kernels `patterns_*`: band after band and shift after shift.
 #include <algorithm>
 #include <array>
+#include <list>
 
+#include "base/parallel.h"
 #include "chain/pattern_window.h"
 #include "device/device_stages.h"
 
 namespace defray {
 namespace {
 
-/// A band on the device, and its launches for one shift after the other.
+/// So many rows, a multiple of DEFRAY_PATTERN_STRIP, see all shifts before the next ones do: what
+/// lies between the kernels stays in the cache.
+constexpr int group_rows = 2 * DEFRAY_PATTERN_STRIP;
+
+/// Rows of a band in which something is hidden.
+struct PatternGroup {
+  PatternGroup(Session& session, PatternUnits of_rows)
+      : units(std::move(of_rows)),
+        difference(session.view(units.difference)),
+        columns(session.view(units.columns)),
+        match(session.view(units.match)) {}
+  PatternUnits units;
+  cl::Buffer difference, columns, match;
+};
+
+/// A band on the device, and its launches for a group of rows and a shift.
 class PatternBand {
  public:
   PatternBand(Session& session, const Frame& frame, const Words& pixels,
@@ -18,44 +35,46 @@ class PatternBand {
         p_(pattern_band(frame, margins, settings, band_y, band_rows)),
         pixels_(pattern_window(frame, p_, band_y, pixels, 0u)),
         coc_(pattern_window(frame, p_, band_y, frame.coc_quanta, 0)),
-        inverse_(pattern_window(frame, p_, band_y, frame.inverse, 0.0f)),
-        units_(pattern_units(p_, pixels_)) {
-    if (!anything()) return;
+        inverse_(pattern_window(frame, p_, band_y, frame.inverse, 0.0f)) {
+    for (int y = 0; y < band_rows; y += group_rows) {
+      PatternUnits units = pattern_units(p_, pixels_, y, std::min(y + group_rows, band_rows));
+      if (!units.match.empty()) groups_.emplace_back(session, std::move(units));
+    }
+    if (groups_.empty()) return;
     pixel_buffer_ = session.view(pixels_);
     coc_buffer_ = session.view(coc_);
     inverse_buffer_ = session.view(inverse_);
-    difference_units_ = session.view(units_.difference);
-    column_units_ = session.view(units_.columns);
-    match_units_ = session.view(units_.match);
     // Where no unit writes, nothing is known.
     difference_ = session.buffer(pixels_.size() * sizeof(std::uint32_t));
-    sums_ = session.buffer(pixels_.size() * sizeof(std::uint64_t));
+    columns_ = session.buffer(pixels_.size() * sizeof(std::uint64_t));
     session.clear(difference_, pixels_.size() * sizeof(std::uint32_t));
-    session.clear(sums_, pixels_.size() * sizeof(std::uint64_t));
+    session.clear(columns_, pixels_.size() * sizeof(std::uint64_t));
   }
 
-  bool anything() const { return !units_.match.empty(); }
+  const std::list<PatternGroup>& groups() const { return groups_; }
   const DefrayPatternParams& params() const { return p_; }
 
-  void difference(PatternShift shift) {
+  void difference(const PatternGroup& group, PatternShift shift) {
     p_.shift_x = shift.x;
     p_.shift_y = shift.y;
     p_.parallel = shift.parallel;
-    launch("patterns_difference", units_.difference, difference_units_, pixel_buffer_, coc_buffer_,
-           inverse_buffer_, difference_);
+    launch("patterns_difference", group.units.difference, group.difference, pixel_buffer_,
+           coc_buffer_, inverse_buffer_, difference_);
   }
 
-  void columns() { launch("patterns_columns", units_.columns, column_units_, difference_, sums_); }
+  void columns(const PatternGroup& group) {
+    launch("patterns_columns", group.units.columns, group.columns, difference_, columns_);
+  }
 
   template <typename... Buffers>
-  void match(bool is_first, const Buffers&... buffers) {
+  void match(const PatternGroup& group, bool is_first, const Buffers&... buffers) {
     p_.is_first = is_first;
-    launch("patterns_match", units_.match, match_units_, pixel_buffer_, coc_buffer_, sums_,
+    launch("patterns_match", group.units.match, group.match, pixel_buffer_, coc_buffer_, columns_,
            buffers...);
   }
 
   std::vector<std::uint32_t> read_difference() const { return read<std::uint32_t>(difference_); }
-  std::vector<std::uint64_t> read_sums() const { return read<std::uint64_t>(sums_); }
+  std::vector<std::uint64_t> read_columns() const { return read<std::uint64_t>(columns_); }
 
  private:
   template <typename... Buffers>
@@ -82,9 +101,8 @@ class PatternBand {
   std::vector<std::uint32_t> pixels_;
   std::vector<std::int32_t> coc_;
   Plane inverse_;
-  PatternUnits units_;
-  cl::Buffer pixel_buffer_, coc_buffer_, inverse_buffer_, difference_units_, column_units_,
-      match_units_, difference_, sums_;
+  std::list<PatternGroup> groups_;
+  cl::Buffer pixel_buffer_, coc_buffer_, inverse_buffer_, difference_, columns_;
 };
 
 /// Four channels from `count` pixels on; a missing one repeats the last.
@@ -101,7 +119,7 @@ std::array<cl::Buffer, 4> four_channels(Session& session, const Planes& planes, 
 void match_band(Session& session, const Frame& frame, const Frame& behind, const Words& pixels,
                 PatternBand& band, int band_y, const std::vector<PatternShift>& shifts,
                 PatternSums& out) {
-  if (!band.anything()) return;
+  if (band.groups().empty()) return;
   const DefrayPatternParams& p = band.params();
   const std::size_t first = size(band_y) * p.width, count = std::size_t{p.rows} * p.width;
   const int source_y = band_y - static_cast<int>(p.source_row);
@@ -112,28 +130,26 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
   const cl::Buffer behind_coc =
       session.view(&behind.coc_quanta[first], count * sizeof(std::int32_t));
   const cl::Buffer behind_inverse = session.view(&behind.inverse[first], count * sizeof(float));
-  const cl::Buffer sum = session.buffer(count * sizeof(cl_float4));
-  const cl::Buffer weight = session.buffer(count * sizeof(cl_float2));
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    band.difference(shifts[i]);
-    band.columns();
-    band.match(i == 0, behind_coc, behind_inverse, smooth, source, sum, weight);
+  const std::size_t planes = 4 + 2;  // channels, weight and weighted square
+  const cl::Buffer buffer = session.buffer(planes * count * sizeof(float));
+  for (const PatternGroup& group : band.groups()) {
+    for (std::size_t i = 0; i < shifts.size(); ++i) {
+      band.difference(group, shifts[i]);
+      band.columns(group);
+      band.match(group, i == 0, behind_coc, behind_inverse, smooth, source, buffer);
+    }
   }
   const auto words = pixels.host().subspan(first, count);
   const auto is_behind = [&](std::size_t i) { return (words[i] & DEFRAY_PATTERN_BEHIND) != 0; };
-  session.look_at<cl_float4>(sum, count, [&](std::span<const cl_float4> sums) {
-    for (std::size_t c = 0; c < out.difference.size(); ++c) {
-      for (std::size_t i = 0; i < count; ++i) {
-        if (is_behind(i)) out.difference[c][first + i] = sums[i].s[c];
+  session.look_at<float>(buffer, planes * count, [&](std::span<const float> sums) {
+    parallel_for_each(count, [&](std::size_t i) {
+      if (!is_behind(i)) return;
+      for (std::size_t c = 0; c < out.difference.size(); ++c) {
+        out.difference[c][first + i] = sums[c * count + i];
       }
-    }
-  });
-  session.look_at<cl_float2>(weight, count, [&](std::span<const cl_float2> weights) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!is_behind(i)) continue;
-      out.weight[first + i] = weights[i].s[0];
-      out.weighted_square[first + i] = weights[i].s[1];
-    }
+      out.weight[first + i] = sums[4 * count + i];
+      out.weighted_square[first + i] = sums[5 * count + i];
+    });
   });
 }
 
@@ -157,8 +173,8 @@ std::vector<std::uint32_t> DeviceStages::pattern_difference(const Frame& frame, 
                                                             PatternShift shift,
                                                             const PatternSettings& settings) {
   PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
-  if (!band.anything()) return std::vector<std::uint32_t>(pixels.size());
-  band.difference(shift);
+  if (band.groups().empty()) return std::vector<std::uint32_t>(pixels.size());
+  for (const PatternGroup& group : band.groups()) band.difference(group, shift);
   return band.read_difference();
 }
 
@@ -166,10 +182,12 @@ std::vector<std::uint64_t> DeviceStages::pattern_columns(const Frame& frame, con
                                                          PatternShift shift,
                                                          const PatternSettings& settings) {
   PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
-  if (!band.anything()) return std::vector<std::uint64_t>(pixels.size());
-  band.difference(shift);
-  band.columns();
-  return band.read_sums();
+  if (band.groups().empty()) return std::vector<std::uint64_t>(pixels.size());
+  for (const PatternGroup& group : band.groups()) {
+    band.difference(group, shift);
+    band.columns(group);
+  }
+  return band.read_columns();
 }
 
 PatternSums DeviceStages::patterns(const Frame& frame, const Frame& behind, const Words& pixels,

@@ -228,10 +228,22 @@ TEST(PatternUnits, AreThoseNearSomethingHidden) {
         difference.insert({x / run * run, word(row)});
       }
     }
-    const PatternUnits units = pattern_units(p, pixels);
+    const PatternUnits units = pattern_units(p, pixels, 0, 140);
     EXPECT_EQ(cells_of(units.match), match);
     EXPECT_EQ(cells_of(units.columns), columns);
     EXPECT_EQ(cells_of(units.difference), difference);
+
+    // Those of a part of the rows.
+    constexpr int strip = DEFRAY_PATTERN_STRIP;
+    const PatternUnits upper = pattern_units(p, pixels, 0, strip);
+    const PatternUnits lower = pattern_units(p, pixels, strip, 140);
+    const auto put_together = [](Cells a, const Cells& b) {
+      return a.insert(b.begin(), b.end()), a;
+    };
+    EXPECT_EQ(put_together(cells_of(upper.match), cells_of(lower.match)), match);
+    EXPECT_EQ(put_together(cells_of(upper.columns), cells_of(lower.columns)), columns);
+    EXPECT_EQ(upper.match.size() + lower.match.size(), match.size());
+    for (const PatternUnit& unit : upper.match) EXPECT_LT(unit.y, word(top + strip));
   }
 }
 
