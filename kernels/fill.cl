@@ -129,21 +129,35 @@ void clear_run(const DefrayFillParams p, __global const int* restrict coc_quanta
   }
 }
 
-// What lies behind a pixel, of what its rays have met: `steps` away in each direction, RUN apart.
+// What the rays of a run's pixels in one direction have found.
+void look_from_run(const DefrayFillParams p, __global const int* restrict coc_quanta,
+                   __global const float* restrict inverse, __global const uint* restrict mixed,
+                   CHANNEL_PARAMETERS(channel), const int2 start, const float2 direction,
+                   const int16 own, const int farthest, Found* found) {
+  int steps[RUN], owns[RUN];
+  look_behind(p, coc_quanta, mixed, start, direction, own, farthest, steps);
+  vstore16(own, 0, owns);
+  for (int i = 0; i < RUN; ++i) {
+    found[i].distance = 0.0f;
+    if (steps[i] == 0) continue;
+    const int2 at = start + (int2)(i, 0);
+    const Found f = continue_back(p, coc_quanta, inverse, mixed, at, direction, steps[i], owns[i]);
+    found[i] = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, direction, f);
+  }
+}
+
+// What lies behind a pixel, of what its rays have found, RUN apart.
 void fill_pixel(const DefrayFillParams p, __global const int* restrict coc_quanta,
                 __global const float* restrict inverse, __global const uint* restrict mixed,
-                CHANNEL_PARAMETERS(channel), const int2 at, const int own, const int* steps,
-                __global int* restrict behind_coc, __global float* restrict behind_inverse,
-                WRITTEN_CHANNELS(behind)) {
+                CHANNEL_PARAMETERS(channel), const int2 at, const int own,
+                const Found* by_direction, __global int* restrict behind_coc,
+                __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind)) {
   Found found[DEFRAY_FILL_DIRECTIONS];
   float bright[DEFRAY_FILL_DIRECTIONS];
   uint count = 0u, nearest = 0u;
   for (uint i = 0; i < p.directions; ++i) {
-    const int t = steps[i * RUN];
-    if (t == 0) continue;
-    const float2 direction = direction_of(p, i);
-    Found f = continue_back(p, coc_quanta, inverse, mixed, at, direction, t, own);
-    f = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, direction, f);
+    const Found f = by_direction[i * RUN];
+    if (f.distance == 0.0f) continue;
     found[count] = f;
     bright[count] = brightness(colour_at(CHANNELS(channel), f.source));
     if (f.distance < found[nearest].distance) nearest = count;
@@ -199,14 +213,16 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   if (farthest[tile] == DEFRAY_NOTHING_BEHIND) return;
 
   const int16 own = own_of_run(p, coc_quanta, mixed, start);
-  int steps[DEFRAY_FILL_DIRECTIONS * RUN], owns[RUN];
-  vstore16(own, 0, owns);
+  // Direction by direction: neighbours find what lies close together in memory.
+  Found found[DEFRAY_FILL_DIRECTIONS * RUN];
   for (uint i = 0; i < p.directions; ++i) {
-    look_behind(p, coc_quanta, mixed, start, direction_of(p, i), own, farthest[tile],
-                steps + i * RUN);
+    look_from_run(p, coc_quanta, inverse, mixed, CHANNELS(channel), start, direction_of(p, i), own,
+                  farthest[tile], found + i * RUN);
   }
+  int owns[RUN];
+  vstore16(own, 0, owns);
   for (int i = 0; i < run_length(p.width, start); ++i) {
     fill_pixel(p, coc_quanta, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i],
-               steps + i, behind_coc, behind_inverse, CHANNELS(behind));
+               found + i, behind_coc, behind_inverse, CHANNELS(behind));
   }
 }

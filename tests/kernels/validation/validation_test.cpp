@@ -132,6 +132,34 @@ INSTANTIATE_TEST_SUITE_P(Cases, KernelCase,
                          testing::Values("13x7,ties,coc=3,wild,channels=3,jitter,band=2,seed=5",
                                          "41x37,random,coc=3,channels=3,cells=3,band=5,seed=6"));
 
+/// Values of a check's outcome.
+struct Compared {
+  explicit Compared(const char* kernel) {
+    const Case c = parse_case("13x7,random,coc=3,channels=3,cells=3,seed=7");  // two layers
+    const Outcome out = run_case(session(), find_check(kernel), c).kernel;
+    integers = out.integers.size();
+    for (const Plane& plane : out.planes) floats += plane.size();
+  }
+  std::size_t integers = 0, floats = 0;
+};
+
+TEST(KernelChecks, CompareAllThatAKernelWrites) {
+  struct Row {
+    const char* kernel;
+    std::size_t integers, floats;  // a pixel
+  };
+  constexpr std::size_t colour = 3;
+  for (const Row& row : {Row{"assemble", 2 * 3, 2 * colour}, Row{"fill", 1, 1 + colour},
+                         Row{"rdb_gather", 1, colour}, Row{"rdb_merge", 1, colour},
+                         Row{"split", 2 * 2, 2 * (1 + colour)}}) {
+    const Compared compared(row.kernel);
+    EXPECT_EQ(compared.integers, 13 * 7 * row.integers) << row.kernel;
+    EXPECT_EQ(compared.floats, 13 * 7 * row.floats) << row.kernel;
+  }
+  const Compared pad("rdb_pad");  // key, sending and coverage
+  EXPECT_EQ(pad.integers * colour, pad.floats * 3);
+}
+
 /// Copies to the device and back of one case that wants bands of so many rows.
 std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
   Session& own = check.needs_two_passes ? session_without_int64() : session();
