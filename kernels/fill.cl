@@ -147,10 +147,9 @@ void look_from_run(const DefrayFillParams p, __global const int* restrict coc_qu
 }
 
 // What lies behind a pixel, of what its rays have found, RUN apart.
-void fill_pixel(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                __global const float* restrict inverse, __global const uint* restrict mixed,
-                CHANNEL_PARAMETERS(channel), const int2 at, const int own,
-                const Found* by_direction, __global int* restrict behind_coc,
+void fill_pixel(const DefrayFillParams p, __global const float* restrict inverse,
+                __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
+                const int own, const Found* by_direction, __global int* restrict behind_coc,
                 __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind)) {
   Found found[DEFRAY_FILL_DIRECTIONS];
   float bright[DEFRAY_FILL_DIRECTIONS];
@@ -222,7 +221,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
   int owns[RUN];
   vstore16(own, 0, owns);
   for (int i = 0; i < run_length(p.width, start); ++i) {
-    fill_pixel(p, coc_quanta, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i],
-               found + i, behind_coc, behind_inverse, CHANNELS(behind));
+    fill_pixel(p, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i], found + i,
+               behind_coc, behind_inverse, CHANNELS(behind));
   }
 }

@@ -51,11 +51,11 @@ fs::path folder_of(const std::string& path) {
 }
 
 /// Hidden, beside the target, unique to this process, with the same extension: image libraries
-/// choose the format by it.
-std::string temporary_name(const std::string& path) {
+/// choose the format by it. What only asks has names of its own: another thread may be writing.
+std::string temporary_name(const std::string& path, char mark = '-') {
   const fs::path target(path);
-  const std::string name =
-      fmt::format(".{}.defray-{}{}", target.stem().string(), getpid(), target.extension().string());
+  const std::string name = fmt::format(".{}.defray{}{}{}", target.stem().string(), mark, getpid(),
+                                       target.extension().string());
   return (folder_of(path) / name).string();
 }
 
@@ -74,7 +74,7 @@ void check_can_write(const std::string& path) {
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
   }
-  const std::string probe = temporary_name(path);
+  const std::string probe = temporary_name(path, '?');
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
     fail(ErrorKind::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
@@ -163,50 +164,75 @@ RenderJob job_of(const Source& source, const RenderSettings& settings, const Fra
   return job;
 }
 
-void write_outputs(const FramePaths& paths, Source& source, const Rendered& rendered,
-                   const ColourChoice& choice, const std::vector<Plane>& planes,
-                   FrameReport& report) {
-  write_picture(paths.output, source.file, choice, planes, report.notes);
-  if (!paths.coc.empty()) {
-    write_plane(paths.coc, "coc", source.file, source.choice.part,
-                radii_px(rendered.frame.coc_quanta.host()));
-  }
-  if (!paths.confidence.empty()) {
-    write_plane(paths.confidence, "confidence", source.file, source.choice.part,
-                rendered.result.confidence);
-  }
-  if (!paths.tiles.empty()) {
-    write_plane(paths.tiles, "tiles", source.file, source.choice.part,
-                rendered.result.tiles.picture());
-  }
+}  // namespace
+
+struct FileRender::State {
+  FramePaths paths;
+  RenderSettings settings;
+  FrameReport report = {};
+  std::optional<Source> source = {};
+  // What is to be written, in host memory.
+  ColourChoice choice = {};
+  std::vector<Plane> planes = {};
+  Plane coc_px = {}, confidence = {}, tiles = {};
+};
+
+FileRender::FileRender(const FramePaths& paths, const RenderSettings& settings)
+    : state_(std::make_unique<State>(State{paths, settings})) {
+  state_->report.paths = paths;
+  state_->report.method = settings.method.method;
 }
 
-}  // namespace
+FileRender::FileRender(FileRender&&) noexcept = default;
+FileRender& FileRender::operator=(FileRender&&) noexcept = default;
+FileRender::~FileRender() = default;
+
+void FileRender::read() {
+  State& s = *state_;
+  check_paths(s.paths);
+  check_outputs(s.paths);
+  Stopwatch watch;
+  s.source.emplace(read_source(s.paths, s.settings, s.report));
+  s.report.read_seconds = watch.lap();
+}
+
+void FileRender::render(Device& device, const Progress& progress) {
+  State& s = *state_;
+  Stages& stages = stages_of(device);
+  Stopwatch watch;
+  Rendered rendered = defray::render(job_of(*s.source, s.settings, s.report), stages, progress);
+  describe(rendered, s.settings.method, s.report);
+  s.choice = s.source->choice;
+  s.planes = std::move(rendered.result.colour);
+  render_light(*s.source, rendered.frame, s.settings, stages, s.report, s.choice, s.planes);
+  move_data(*s.source, rendered.result.nearest, s.report);
+  if (!s.paths.coc.empty()) s.coc_px = radii_px(rendered.frame.coc_quanta.host());
+  if (!s.paths.tiles.empty()) s.tiles = rendered.result.tiles.picture();
+  s.confidence = std::move(rendered.result.confidence);
+  s.report.render_seconds = watch.lap();
+}
+
+FrameResult FileRender::write() {
+  State& s = *state_;
+  Stopwatch watch;
+  write_picture(s.paths.output, s.source->file, s.choice, s.planes, s.report.notes);
+  const auto write_data = [&](const std::string& path, const char* name, const Plane& plane) {
+    if (!path.empty()) write_plane(path, name, s.source->file, s.source->choice.part, plane);
+  };
+  write_data(s.paths.coc, "coc", s.coc_px);
+  write_data(s.paths.confidence, "confidence", s.confidence);
+  write_data(s.paths.tiles, "tiles", s.tiles);
+  s.report.write_seconds = watch.lap();
+  s.planes.resize(s.source->choice.channels.size());  // the picture's own
+  return {std::move(s.report), std::move(s.planes)};
+}
 
 FrameResult render_file(Device& device, const FramePaths& paths, const RenderSettings& settings,
                         const Progress& progress) {
-  check_paths(paths);
-  check_outputs(paths);
-
-  Stages& stages = stages_of(device);
-  FrameReport report;
-  report.paths = paths;
-  report.method = settings.method.method;
-  Stopwatch watch;
-  Source source = read_source(paths, settings, report);
-  report.read_seconds = watch.lap();
-
-  Rendered rendered = render(job_of(source, settings, report), stages, progress);
-  describe(rendered, settings.method, report);
-  ColourChoice choice = source.choice;
-  std::vector<Plane> planes = rendered.result.colour;
-  render_light(source, rendered.frame, settings, stages, report, choice, planes);
-  move_data(source, rendered.result.nearest, report);
-  report.render_seconds = watch.lap();
-
-  write_outputs(paths, source, rendered, choice, planes, report);
-  report.write_seconds = watch.lap();
-  return {std::move(report), std::move(rendered.result.colour)};
+  FileRender frame(paths, settings);
+  frame.read();
+  frame.render(device, progress);
+  return frame.write();
 }
 
 }  // namespace defray

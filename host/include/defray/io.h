@@ -94,6 +94,27 @@ struct FrameResult {
   std::vector<std::vector<float>> colour;  ///< As written.
 };
 
+/// One frame from file to file in three steps, each once and in this order. A frame's read() and
+/// write() may go on in other threads while the device renders another's.
+class DEFRAY_API FileRender {
+ public:
+  FileRender(const FramePaths& paths, const RenderSettings& settings);
+  FileRender(FileRender&&) noexcept;
+  FileRender& operator=(FileRender&&) noexcept;
+  ~FileRender();
+
+  /// Looks whether the outputs can be written, and reads the input. Throws Error.
+  void read();
+  /// Throws Error.
+  void render(Device& device, const Progress& progress = {});
+  /// Throws Error.
+  FrameResult write();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// Renders one frame from file to file, as `defray render` does. Throws Error.
 DEFRAY_API FrameResult render_file(Device& device, const FramePaths& paths,
                                    const RenderSettings& settings, const Progress& progress = {});

@@ -1,0 +1,136 @@
+#include "sequence_run.h"
+
+#include <filesystem>
+
+#include "image/display.h"
+#include "image/output.h"
+#include "image/sequence.h"
+
+namespace defray::cli {
+namespace {
+
+FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
+  if (!frame) return paths;
+  for (std::string* path :
+       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence, &paths.tiles}) {
+    if (!path->empty()) *path = frame_path(*path, *frame);
+  }
+  return paths;
+}
+
+Device open_device(const RenderJob& job) {
+  check_output_format(job.paths.output);
+  Device device = Device::open(job.device, {job.math});
+  if (job.is_on_reference()) return device;
+  device.set_memory(job.memory_bytes());
+  for (const WorkGroup& group : job.work_groups) {
+    if (group.kernel.empty()) {
+      device.set_work_group(group.x, group.y);
+    } else {
+      device.set_work_group(group.kernel, group.x, group.y);
+    }
+  }
+  return device;
+}
+
+}  // namespace
+
+SequenceRun::SequenceRun(const RenderJob& job, std::vector<std::optional<int>> frames)
+    : job_(job),
+      frames_(std::move(frames)),
+      bar_(frames_.size(), frames_.size() == 1 ? "frame" : "frames", !job.quiet),
+      device_(open_device(job)) {}
+
+template <typename Step>
+void SequenceRun::Work::attempt(const Step& step) {
+  if (!file || error) return;
+  try {
+    step();
+  } catch (const Error& e) {
+    error = e;
+  }
+}
+
+SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
+  Work work{{frame, paths_of(job_.paths, frame), "ok", "", {}}, nullptr, {}, {}};
+  if (job_.skip_existing && std::filesystem::exists(work.outcome.paths.output)) {
+    work.outcome.status = "skipped";
+    return work;
+  }
+  work.file = std::make_unique<FileRender>(work.outcome.paths, job_.settings);
+  work.attempt([&] { work.file->read(); });
+  return work;
+}
+
+std::size_t SequenceRun::render() {
+  const auto read_ahead = [&](std::size_t i) {
+    return std::async(std::launch::async, [this, i] { return read(frames_[i]); });
+  };
+  std::future<Work> reading = read_ahead(0), writing;
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    Work work = reading.get();
+    if (i + 1 < frames_.size()) reading = read_ahead(i + 1);
+    work.attempt([&] {
+      bar_.update(i, 0);
+      work.file->render(device_, [&](double share) { bar_.update(i, share); });
+    });
+    if (writing.valid()) finish(writing.get());
+    if (!work.file || work.error) {
+      finish(std::move(work));
+      continue;
+    }
+    writing = std::async(std::launch::async, [work = std::move(work)]() mutable {
+      work.attempt([&] {
+        FrameResult result = work.file->write();
+        work.outcome.report = std::move(result.report);
+        work.colour = std::move(result.colour);
+      });
+      return std::move(work);
+    });
+  }
+  if (writing.valid()) finish(writing.get());
+  return failed_;
+}
+
+void SequenceRun::finish(Work work) {
+  if (work.error) {
+    work.outcome.status = "failed";
+    work.outcome.error = message_of(*work.error);
+    if (job_.json) report(work.outcome);
+    bar_.clear();
+    if (!job_.skip_bad_frames || work.error->kind() == ErrorKind::device) throw *work.error;
+    fmt::print(stderr, "defray: error: {}\n", work.outcome.error);
+    ++failed_;
+    return;
+  }
+  if (work.file) {
+    last_ = std::move(work.colour);
+    last_data_ = work.outcome.report.data;
+    last_display_ = work.outcome.report.display;
+  }
+  report(work.outcome);
+}
+
+void SequenceRun::show_last() {
+  std::string why;
+  if (last_.empty()) return;
+  if (!has_display(why)) {
+    fmt::print(stderr, "defray: --show skipped: {}\n", why);
+    return;
+  }
+  bar_.clear();
+  show("defray: " + job_.paths.output, to_display_window(last_, last_data_, last_display_),
+       last_display_.width, last_display_.height);
+}
+
+void SequenceRun::report(const FrameOutcome& outcome) {
+  bar_.clear();
+  if (job_.json) {
+    print_json_line(outcome, device_.name());
+  } else if (!job_.quiet) {
+    print_text(outcome, device_.name());
+    if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
+  }
+}
+
+}  // namespace defray::cli

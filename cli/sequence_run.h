@@ -1,0 +1,53 @@
+#pragma once
+// defray render over its frames: while the device renders one, the next is read and the last is
+// written.
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "defray/defray.h"
+#include "progress.h"
+#include "render_job.h"
+#include "render_report.h"
+
+namespace defray::cli {
+
+class SequenceRun {
+ public:
+  /// Opens the device. A single frame without a number is a picture. Throws Error.
+  SequenceRun(const RenderJob& job, std::vector<std::optional<int>> frames);
+
+  /// Renders all, and tells about each in its order. How many have failed, where --skip-bad-frames
+  /// lets the run go on; else throws the first one's Error.
+  std::size_t render();
+
+  /// The last picture in a window.
+  void show_last();
+
+ private:
+  /// A frame on its way: what goes wrong in one step keeps it from the next.
+  struct Work {
+    FrameOutcome outcome;
+    std::unique_ptr<FileRender> file;  ///< None where the frame is skipped.
+    std::optional<Error> error;
+    std::vector<Plane> colour;  ///< As written.
+
+    template <typename Step>
+    void attempt(const Step& step);
+  };
+
+  Work read(std::optional<int> frame) const;
+  void finish(Work work);
+  void report(const FrameOutcome& outcome);
+
+  const RenderJob& job_;
+  std::vector<std::optional<int>> frames_;
+  ProgressBar bar_;
+  Device device_;
+  std::size_t failed_ = 0;
+  std::vector<Plane> last_;
+  Window last_data_, last_display_;
+};
+
+}  // namespace defray::cli
