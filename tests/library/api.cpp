@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -216,6 +217,13 @@ void check_files(Device& device, const std::string& input, const std::string& fo
       defray::render_file(device, {input, "", folder + "/file.exr", "", ""}, settings);
   expect(frame.colour == result.colour, "render_file has the bits of render");
   expect(frame.report.depth_channel == "Z" && frame.report.chain, "files have a report");
+
+  defray::FileRender steps({input, "", folder + "/steps.exr", "", ""}, settings);
+  std::thread([&] { steps.read(); }).join();
+  steps.render(device);
+  defray::FrameResult written;
+  std::thread([&] { written = steps.write(); }).join();
+  expect(written.colour == result.colour, "steps have the bits of render_file");
 
   expect_error(ErrorKind::input, "none.exr", [] { defray::PictureFile::read("none.exr"); });
   expect_error(ErrorKind::usage, "the colour to write is not of the size of the picture read",

@@ -52,6 +52,35 @@ TEST(Sequence, RendersFindsSkipsAndReports) {
   EXPECT_TRUE(std::filesystem::exists(folder / "b.0005.exr"));
 }
 
+/// While one frame is rendered the next is read and the last is written.
+TEST(Sequence, FramesAreThoseOfCommandsOfTheirOwn) {
+  const Folder folder;
+  for (int i = 1; i <= 4; ++i) {
+    write_picture_file(folder, fmt::format("s.000{}.exr", i), {"R", "G", "B", "Z"}, {20 + i, 16});
+  }
+  expect_ok(defray(folder, "render s.%04d.exr -o a.%04d.exr --coc-out c.%04d.exr -q" + lens));
+  for (int i = 1; i <= 4; ++i) {
+    expect_ok(defray(folder, fmt::format("render s.000{}.exr -o b.exr -q", i) + lens));
+    EXPECT_EQ(file_hash(folder / fmt::format("a.000{}.exr", i)), file_hash(folder / "b.exr"));
+    EXPECT_TRUE(std::filesystem::exists(folder / fmt::format("c.000{}.exr", i)));
+  }
+}
+
+TEST(Sequence, AFrameThatCannotBeWrittenEndsTheRunAfterThoseBeforeIt) {
+  const Folder folder;
+  for (int i = 1; i <= 4; ++i) {
+    write_picture_file(folder, fmt::format("s.000{}.exr", i), {"R", "G", "B", "Z"});
+  }
+  std::filesystem::create_directory(folder / "a.0003.exr");
+  const Result result = defray(folder, "render s.%04d.exr -o a.%04d.exr --json" + lens);
+  EXPECT_EQ(result.code, 4);
+  EXPECT_NE(result.err.find("a.0003.exr: is a folder"), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3);
+  EXPECT_LT(result.out.find("a.0001.exr"), result.out.find("a.0002.exr"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.0002.exr"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.0004.exr"));
+}
+
 TEST(Sequence, ProgressBarOnATerminalOnly) {
   const Folder folder;
   for (const char* name : {"s.0001.exr", "s.0002.exr"}) {
