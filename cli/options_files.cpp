@@ -82,7 +82,9 @@ OptionGroup file_options(RenderJob& job) {
         "1-8, 1-10x2, 1,5,9-12"},
        {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},
        {"--skip-bad-frames", flag(job.skip_bad_frames),
-        "Report a frame that fails, go on, exit with 1 at the end"}}};
+        "Report a frame that fails, go on, exit with 1 at the end"},
+       {"--no-overlap", flag(job.no_overlap),
+        "Read, render and write one frame after the other: less memory"}}};
 }
 
 OptionGroup channel_options(RenderJob& job) {

@@ -35,6 +35,7 @@ struct RenderJob {
   std::vector<WorkGroup> work_groups;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
   bool stats = false;
+  bool no_overlap = false;  ///< Of a frame's rendering with the next's reading, the last's writing.
 
   /// Throws Error(usage).
   std::size_t memory_bytes() const;

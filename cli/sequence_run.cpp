@@ -64,7 +64,8 @@ SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
 
 std::size_t SequenceRun::render() {
   const auto read_ahead = [&](std::size_t i) {
-    return std::async(std::launch::async, [this, i] { return read(frames_[i]); });
+    return std::async(job_.no_overlap ? std::launch::deferred : std::launch::async,
+                      [this, i] { return read(frames_[i]); });
   };
   std::future<Work> reading = read_ahead(0), writing;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
@@ -87,6 +88,7 @@ std::size_t SequenceRun::render() {
       });
       return std::move(work);
     });
+    if (job_.no_overlap) finish(writing.get());
   }
   if (writing.valid()) finish(writing.get());
   return failed_;

@@ -53,7 +53,7 @@ class Case:
         for i in range(1, FRAMES + 1):
             shutil.copy(self.pinhole, self.folder / f"in.{i:04}.exr")
         lines = run(self.defray, "render", self.folder / "in.####.exr", "-o",
-                    self.folder / "out.####.exr", *self.lens, "--quality", quality, "--json")
+                    self.folder / "out.####.exr", *self.lens, "--quality", quality, "--no-overlap", "--json")
         seconds = [json.loads(line)["render_s"] for line in lines.splitlines()]
         return statistics.median(seconds[1:]), self.psnr(self.folder / "out.0001.exr")
 

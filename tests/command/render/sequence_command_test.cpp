@@ -66,6 +66,21 @@ TEST(Sequence, FramesAreThoseOfCommandsOfTheirOwn) {
   }
 }
 
+TEST(Sequence, WithoutOverlapAFrameCanBeMadeOfTheLast) {
+  const Folder folder;
+  write_picture_file(folder, "s.0001.exr", {"R", "G", "B", "Z"});
+  for (int i = 2; i <= 4; ++i) {
+    std::filesystem::create_symlink(fmt::format("a.000{}.exr", i - 1),
+                                    folder / fmt::format("s.000{}.exr", i));
+  }
+  const std::string command = "render s.%04d.exr -o a.%04d.exr --frames 1-4 --json" + lens;
+  const Result result = defray(folder, command + "--no-overlap");
+  expect_ok(result);
+  EXPECT_NE(file_hash(folder / "a.0004.exr"), file_hash(folder / "a.0003.exr"));
+  const auto first = nlohmann::json::parse(result.out.substr(0, result.out.find('\n')));
+  for (const char* step : {"read_s", "render_s", "write_s"}) EXPECT_GT(first[step], 1e-6) << step;
+}
+
 TEST(Sequence, AFrameThatCannotBeWrittenEndsTheRunAfterThoseBeforeIt) {
   const Folder folder;
   for (int i = 1; i <= 4; ++i) {

@@ -8,6 +8,7 @@
 
 #include "numbers.h"
 #include "support.h"
+#include "validation/pattern_input.h"
 #include "validation/report.h"
 
 namespace defray::test::validation_test {
@@ -158,6 +159,14 @@ TEST(KernelChecks, CompareAllThatAKernelWrites) {
   }
   const Compared pad("rdb_pad");  // key, sending and coverage
   EXPECT_EQ(pad.integers * colour, pad.floats * 3);
+}
+
+TEST(KernelChecks, ShowWhatPatternsChange) {
+  const Case c = parse_case("41x37,random,coc=3,channels=3,seed=6");
+  const validation::Run run = run_case(session(), find_check("patterns_match"), c);
+  const PatternCase p(c, run.input, false);
+  const auto smooth = p.behind.channels[0].host();
+  EXPECT_FALSE(std::equal(smooth.begin(), smooth.end(), run.kernel.planes[0].begin()));
 }
 
 /// Copies to the device and back of one case that wants bands of so many rows.
