@@ -10,8 +10,6 @@
 namespace defray {
 namespace {
 
-constexpr int mask_side = ApertureMask::side;
-
 struct Luminance {
   int width = 0, height = 0;
   std::vector<double> values;
@@ -82,9 +80,9 @@ struct Footprint {
 /// the mask.
 std::vector<Footprint> footprints(int pixels, double extent) {
   std::vector<Footprint> all;
-  for (int t = 0; t < mask_side; ++t) {
+  for (int t = 0; t < ApertureMask::side; ++t) {
     const auto pixel_at = [&](int edge) {
-      const double from_middle = (static_cast<double>(edge) / mask_side - 0.5) / extent;
+      const double from_middle = (static_cast<double>(edge) / ApertureMask::side - 0.5) / extent;
       return std::clamp((from_middle + 0.5) * pixels, 0.0, static_cast<double>(pixels));
     };
     const double begin = pixel_at(t), end = pixel_at(t + 1);
