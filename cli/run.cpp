@@ -14,7 +14,7 @@
 #include "defray/defray.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
-#include "option_table.h"
+#include "options/option_table.h"
 
 namespace defray::cli {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz.h"
-#include "parse.h"
+#include "options/parse.h"
 
 using namespace defray;
 

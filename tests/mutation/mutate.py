@@ -26,7 +26,7 @@ EQUIVALENT = f"{PROJECT}/tests/mutation/equivalent.txt"
 NOT_MUTATED = ("host/scenes/builtin/", "host/scenes/geometry/texture.cpp", "host/validation/grid.cpp",
                "host/validation/input.cpp", "host/validation/pattern_input.cpp",
                "host/validation/stage_input.cpp", "host/validation/work.cpp", "host/validation/arithmetic.cpp",
-               "cli/validate_arithmetic.cpp", "cli/main.cpp")
+               "cli/validate/validate_arithmetic.cpp", "cli/main.cpp")
 
 
 def sources(folder):

@@ -1,5 +1,5 @@
 // What words and numbers on the command line mean, and what `defray devices` says of a device.
-#include "parse.h"
+#include "options/parse.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // What `defray render` prints of a frame, line by line: every figure that it has, and no other.
-#include "render_report.h"
+#include "render/render_report.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "commands/picture.h"
 
 #include <filesystem>
 

@@ -7,7 +7,7 @@
 #include "defray/defray.h"
 #include "image/safe_output.h"
 #include "progress.h"
-#include "validate.h"
+#include "validate/validate.h"
 #include "validation/arithmetic.h"
 
 namespace defray::cli {

@@ -1,6 +1,6 @@
 // The files, channels and depth of defray render.
 #include "image/further_channels.h"
-#include "render_job.h"
+#include "render/render_job.h"
 
 namespace defray::cli {
 namespace {

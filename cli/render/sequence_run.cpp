@@ -1,4 +1,4 @@
-#include "sequence_run.h"
+#include "render/sequence_run.h"
 
 #include <filesystem>
 

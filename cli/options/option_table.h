@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "methods/method.h"
-#include "option_value.h"
+#include "options/option_value.h"
 
 namespace defray::cli {
 

@@ -1,5 +1,5 @@
 // defray validate: every kernel against its scalar twin, on this machine's devices.
-#include "validate.h"
+#include "validate/validate.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
-#include "math_words.h"
+#include "options/math_words.h"
 #include "progress.h"
 #include "validation/report.h"
 

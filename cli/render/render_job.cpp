@@ -1,4 +1,4 @@
-#include "render_job.h"
+#include "render/render_job.h"
 
 #include "lens/depth.h"
 #include "methods/tiltshift.h"

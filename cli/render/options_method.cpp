@@ -1,5 +1,5 @@
 // The method of defray render, what each of them has, and the device.
-#include "render_job.h"
+#include "render/render_job.h"
 
 namespace defray::cli {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "commands/picture.h"
 #include "image/display.h"
-#include "picture.h"
 
 namespace defray::cli {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "commands.h"
+#include "commands/picture.h"
 #include "exit_code.h"
 #include "image/channels.h"
 #include "image/display.h"
@@ -14,7 +15,6 @@
 #include "lens/depth.h"
 #include "measure/edge_band.h"
 #include "measure/metrics.h"
-#include "picture.h"
 #include "reference/twin_stages.h"
 
 namespace defray::cli {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/text.h"
-#include "words.h"
+#include "options/words.h"
 
 namespace defray::cli {
 

@@ -3,8 +3,8 @@
 #include "defray/defray.h"
 #include "exit_code.h"
 #include "image/sequence.h"
-#include "render_job.h"
-#include "sequence_run.h"
+#include "render/render_job.h"
+#include "render/sequence_run.h"
 
 namespace defray::cli {
 namespace {

@@ -1,5 +1,5 @@
 // The options of defray render that bring the ray distribution buffer closer to the truth.
-#include "render_job.h"
+#include "render/render_job.h"
 
 namespace defray::cli {
 namespace {

@@ -1,5 +1,5 @@
 // What defray render prints about a frame.
-#include "render_report.h"
+#include "render/render_report.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "parse.h"
+#include "options/parse.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "words.h"
+#include "options/words.h"
 
 namespace defray::cli {
 namespace {

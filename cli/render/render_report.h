@@ -1,6 +1,5 @@
 #pragma once
-// defray render: its options (render_job.h and the tables of options_*.cpp), the run over frames
-// (render.cpp), what is printed (render_report.cpp).
+// What defray render prints about a frame.
 #include <optional>
 #include <string>
 

@@ -10,8 +10,8 @@
 #include "image/ldr.h"
 #include "image/safe_output.h"
 #include "lens/camera.h"
-#include "lens_rows.h"
 #include "measure/psf_report.h"
+#include "options/lens_rows.h"
 #include "progress.h"
 
 namespace defray::cli {

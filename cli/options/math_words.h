@@ -1,7 +1,7 @@
 #pragma once
 // --math, of every command that has it.
 #include "defray/device.h"
-#include "words.h"
+#include "options/words.h"
 
 namespace defray::cli {
 

@@ -8,9 +8,9 @@
 #include "defray/device.h"
 #include "defray/io.h"
 #include "lens/camera.h"
-#include "math_words.h"
-#include "option_table.h"
-#include "parse.h"
+#include "options/math_words.h"
+#include "options/option_table.h"
+#include "options/parse.h"
 
 namespace defray::cli {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lens/camera.h"
-#include "option_table.h"
+#include "options/option_table.h"
 
 namespace defray::cli {
 

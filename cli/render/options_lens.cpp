@@ -1,8 +1,8 @@
 // The lens of defray render.
 #include <cmath>
 
-#include "lens_rows.h"
-#include "render_job.h"
+#include "options/lens_rows.h"
+#include "render/render_job.h"
 
 namespace defray::cli {
 namespace {

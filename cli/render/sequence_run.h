@@ -8,8 +8,8 @@
 
 #include "defray/defray.h"
 #include "progress.h"
-#include "render_job.h"
-#include "render_report.h"
+#include "render/render_job.h"
+#include "render/render_report.h"
 
 namespace defray::cli {
 

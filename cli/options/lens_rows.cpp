@@ -1,4 +1,4 @@
-#include "lens_rows.h"
+#include "options/lens_rows.h"
 
 namespace defray::cli {
 namespace {
