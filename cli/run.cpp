@@ -19,7 +19,7 @@
 namespace defray::cli {
 namespace {
 
-constexpr const char* about = R"(defray: depth of field for pinhole renders with depth, on OpenCL.
+constexpr const char* what_it_is = R"(defray: depth of field for pinhole renders with depth, on OpenCL.
 
 It turns a picture with depth into the picture a real lens takes, and can say how far from the
 truth a fast setting is.)";
@@ -104,7 +104,7 @@ void refuse_empty_values(const CLI::App& command) {
 }
 
 int run_command(int argc, char** argv) {
-  CLI::App app{about, "defray"};
+  CLI::App app{what_it_is, "defray"};
   app.footer(examples);
   app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
