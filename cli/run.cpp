@@ -19,7 +19,8 @@
 namespace defray::cli {
 namespace {
 
-constexpr const char* what_it_is = R"(defray: depth of field for pinhole renders with depth, on OpenCL.
+constexpr const char* what_it_is =
+    R"(defray: depth of field for pinhole renders with depth, on OpenCL.
 
 It turns a picture with depth into the picture a real lens takes, and can say how far from the
 truth a fast setting is.)";

@@ -11,7 +11,8 @@ namespace defray {
 namespace {
 
 /// So many rows, a multiple of DEFRAY_PATTERN_STRIP, see all shifts before the next ones do: what
-/// lies between the kernels stays in the cache.
+/// lies between the kernels stays in the cache. 64 to 256 rows take the same time, a frame 1.3 as
+/// long.
 constexpr int group_rows = 2 * DEFRAY_PATTERN_STRIP;
 
 /// Rows of a band in which something is hidden.

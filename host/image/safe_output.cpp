@@ -74,7 +74,7 @@ void check_can_write(const std::string& path) {
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
   }
-  const std::string probe = temporary_name(path, '?');
+  const std::string probe = temporary_name(path, '+');
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
     fail(ErrorKind::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),

@@ -198,6 +198,7 @@ void FileRender::read() {
 
 void FileRender::render(Device& device, const Progress& progress) {
   State& s = *state_;
+  if (!s.source) fail(ErrorKind::usage, "{}: read() comes before render()", s.paths.input);
   Stages& stages = stages_of(device);
   Stopwatch watch;
   Rendered rendered = defray::render(job_of(*s.source, s.settings, s.report), stages, progress);
@@ -214,6 +215,7 @@ void FileRender::render(Device& device, const Progress& progress) {
 
 FrameResult FileRender::write() {
   State& s = *state_;
+  if (s.planes.empty()) fail(ErrorKind::usage, "{}: render() comes before write()", s.paths.input);
   Stopwatch watch;
   write_picture(s.paths.output, s.source->file, s.choice, s.planes, s.report.notes);
   const auto write_data = [&](const std::string& path, const char* name, const Plane& plane) {

@@ -219,7 +219,9 @@ void check_files(Device& device, const std::string& input, const std::string& fo
   expect(frame.report.depth_channel == "Z" && frame.report.chain, "files have a report");
 
   defray::FileRender steps({input, "", folder + "/steps.exr", "", ""}, settings);
+  expect_error(ErrorKind::usage, "read() comes before render()", [&] { steps.render(device); });
   std::thread([&] { steps.read(); }).join();
+  expect_error(ErrorKind::usage, "render() comes before write()", [&] { steps.write(); });
   steps.render(device);
   defray::FrameResult written;
   std::thread([&] { written = steps.write(); }).join();

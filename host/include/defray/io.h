@@ -105,9 +105,9 @@ class DEFRAY_API FileRender {
 
   /// Looks whether the outputs can be written, and reads the input. Throws Error.
   void read();
-  /// Throws Error.
+  /// Throws Error, of kind usage before read().
   void render(Device& device, const Progress& progress = {});
-  /// Throws Error.
+  /// Throws Error, of kind usage before render().
   FrameResult write();
 
  private:
