@@ -16,6 +16,7 @@ BUDGET = 1 / 3          # of a mutant's tests, quickest first: a minute of three
 QUICK = 1 / 20          # those that together take so much, 3 of 4 tests, go first
 COMPILE_SECONDS = 300   # some take ten on an idle core
 VALIDATE_SECONDS = 200  # of some kernels it takes twenty on idle cores
+FAULTS_SECONDS = 900    # all faults; the next time, from the kernel cache, a third of it
 HANGS = 30, 6           # seconds, and times the usual time, from where on tests count as hanging
 # A header that more objects include is left out, frames and defaults among them, as it would take
 # minutes each to compile.
@@ -36,7 +37,7 @@ class Build:
                 self.members.setdefault(path, members)
         self.compile.pop(f"{project}/cli/main.cpp", None)  # no library has it
         self.link = {program: self._ninja("-t", "commands", f"bin/{program}").strip().split("\n")[-1]
-                     for program in PROGRAMS + ["defray"]}
+                     for program in PROGRAMS + ["defray", "faults_tests"]}
         self.included_by = {}
         self._read_dependencies()
 
@@ -253,4 +254,8 @@ def try_mutant(worker, path, text, near, far, tests, kernels, budget=BUDGET):
         if code != 0:
             return f"timed out in {name}" if code is None else f"killed by {first_failure(said)}"
         count += len(indices)
+    if path.startswith("host/validation/"):  # a blind check passes all kernels, and the faults put into them
+        code, said = worker.run([program("faults_tests"), "--gtest_fail_fast"], FAULTS_SECONDS, environment)
+        if code != 0:
+            return "timed out in faults_tests" if code is None else f"killed by {first_failure(said)}"
     return f"survived {count} tests"
