@@ -47,11 +47,8 @@ std::vector<Plane> DeviceStages::linear(const Frame& f, const Progress& progress
   const int reach = linear_reach(coc_quanta);
   const DiscNorms norm(reach + 1);
   std::vector<Plane> out(f.channels.size(), Plane(coc_quanta.size())), band_out(f.channels.size());
-  const std::size_t budget = session_.memory_bytes();
-  const int rows = linear_band_rows(width, height, reach, budget);
-  for (int y = 0; y < height; y += rows) {
-    const int band_rows = std::min(rows, height - y);
-    const PaddedBand band(width, height, y, band_rows, reach);
+  for (const BandRows& rows : linear_bands(width, height, reach, session_.memory_bytes())) {
+    const PaddedBand band(width, height, rows, reach);
     const Plane radius = band.plane([&](std::size_t i) { return radius_px(coc_quanta[i]); });
     std::vector<Plane> scaled;
     for (const Values<float>& channel : f.channels) {
@@ -65,13 +62,13 @@ std::vector<Plane> DeviceStages::linear(const Frame& f, const Progress& progress
     p.source_stride = static_cast<std::uint32_t>(band.stride);
     p.target_stride = static_cast<std::uint32_t>(PaddedBand::target_stride_for(width));
     p.reach = reach;
-    blur_band(session_, p, band, band_rows, radius, scaled, band_out, [&](int done) {
-      if (progress) progress(static_cast<double>(y + done) / height);
+    blur_band(session_, p, band, rows.rows, radius, scaled, band_out, [&](int done) {
+      if (progress) progress(static_cast<double>(rows.y + done) / height);
     });
     for (std::size_t c = 0; c < out.size(); ++c) {
-      for (int row = 0; row < band_rows; ++row) {
+      for (int row = 0; row < rows.rows; ++row) {
         std::copy_n(band_out[c].begin() + std::int64_t{row} * p.target_stride, width,
-                    out[c].begin() + std::int64_t{y + row} * width);
+                    out[c].begin() + std::int64_t{rows.y + row} * width);
       }
     }
   }

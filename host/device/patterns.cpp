@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "chain/pattern_window.h"
 #include "device/device_stages.h"
+#include "frame/band_rows.h"
 
 namespace defray {
 namespace {
@@ -154,12 +155,12 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
   });
 }
 
-/// Rows of a band whose planes fit the memory; at least one, whatever it takes.
-int band_rows_for(const Frame& frame, const PatternMargins& margins, std::size_t memory_bytes) {
+/// Bands whose planes fit the memory.
+std::vector<BandRows> bands_of(const Frame& frame, const PatternMargins& margins,
+                               std::size_t memory_bytes) {
   const std::size_t none = pattern_band_bytes(frame.width, margins, 0);
   const std::size_t row = pattern_band_bytes(frame.width, margins, 1) - none;
-  const std::size_t left = memory_bytes - std::min(none, memory_bytes);
-  return static_cast<int>(std::clamp<std::size_t>(left / row, 1, size(frame.height)));
+  return cut_into_bands(frame.height, rows_that_fit(frame.height, memory_bytes, none, row), 0);
 }
 
 PatternBand whole_frame(Session& session, const Frame& frame, const Words& pixels,
@@ -197,11 +198,9 @@ PatternSums DeviceStages::patterns(const Frame& frame, const Frame& behind, cons
   PatternSums out(frame.channels.size(), pixels.size());
   if (shifts.empty()) return out;
   const PatternMargins margins(shifts, settings.window_px);
-  const int most = band_rows_for(frame, margins, session_.memory_bytes());
-  for (int y = 0; y < frame.height; y += most) {
-    const int rows = std::min(most, frame.height - y);
-    PatternBand band(session_, frame, pixels, margins, settings, y, rows);
-    match_band(session_, frame, behind, pixels, band, y, shifts, out);
+  for (const BandRows& rows : bands_of(frame, margins, session_.memory_bytes())) {
+    PatternBand band(session_, frame, pixels, margins, settings, rows.y, rows.rows);
+    match_band(session_, frame, behind, pixels, band, rows.y, shifts, out);
   }
   return out;
 }

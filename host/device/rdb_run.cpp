@@ -18,10 +18,9 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
       passes_(plan_rdb_passes(frame.width, frame.height, static_cast<int>(cells_),
                               rdb_reach(largest_coc(frame.coc_quanta.host())),
                               session.memory_bytes(), lights && !lights->empty())),
-      buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().band_rows),
+      buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().rows),
                size(passes_.front().cell_count)),
-      filled_(
-          session.buffer(size(frame.width) * size(passes_.front().band_rows) * sizeof(cl_uint))) {}
+      filled_(session.buffer(size(frame.width) * size(passes_.front().rows) * sizeof(cl_uint))) {}
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
   return size(pass.first_cell + pass.cell_count) == cells_;
@@ -35,8 +34,8 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   DefrayRdbParams p = buffers_.params();
   p.window_y = word(window_y(pass));
   p.window_rows = word(pass.window_y + pass.window_rows - window_y(pass));
-  p.band_y = word(pass.band_y);
-  p.band_rows = word(pass.band_rows);
+  p.band_y = word(pass.y);
+  p.band_rows = word(pass.rows);
   p.first_cell = word(pass.first_cell);
   p.cell_count = word(pass.cell_count);
   p.is_first_pass = pass.first_cell == 0;
@@ -45,11 +44,10 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
 }
 
 void RdbRun::view_window(const RdbPass& pass) {
-  if (window_band_y_ == pass.band_y || (holds_frame_ && window_band_y_ >= 0)) return;
-  window_band_y_ = pass.band_y;
+  if (window_band_y_ == pass.y || (holds_frame_ && window_band_y_ >= 0)) return;
+  window_band_y_ = pass.y;
   const BandRows all{0, frame_.height, 0, frame_.height};
-  const BandRows rows{pass.band_y, pass.band_rows, pass.window_y, pass.window_rows};
-  Band band(session_, "rdb_scatter", frame_, holds_frame_ ? all : rows);
+  Band band(session_, "rdb_scatter", frame_, holds_frame_ ? all : pass);
   window_ = {band.in(frame_.coc_quanta), band.in(frame_.depth), band.in(frame_.coverage),
              band.in(frame_.data_of), band.in(frame_.channels)};
 }
@@ -80,7 +78,7 @@ void RdbRun::merge(const RdbPass& pass) {
 }
 
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
-  std::vector<RdbWinner> result(size(frame_.width) * size(pass.band_rows) * size(pass.cell_count));
+  std::vector<RdbWinner> result(size(frame_.width) * size(pass.rows) * size(pass.cell_count));
   session_.read(buffers_.winner, result.data(), result.size() * sizeof(RdbWinner));
   return result;
 }

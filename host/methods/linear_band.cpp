@@ -39,7 +39,7 @@ double DiscNorms::operator()(double radius) const {
   return count_[i] + (count_[o] - count_[i]) * outer - (distance_[o] - distance_[i]);
 }
 
-int linear_band_rows(int width, int height, int reach, std::size_t memory_bytes) {
+std::vector<BandRows> linear_bands(int width, int height, int reach, std::size_t memory_bytes) {
   const std::size_t least = linear_band_bytes(width, reach, 1);
   if (memory_bytes < least) {
     fail(ErrorKind::usage,
@@ -47,8 +47,8 @@ int linear_band_rows(int width, int height, int reach, std::size_t memory_bytes)
          field("memory"), std::ldexp(static_cast<double>(memory_bytes), -20), width, reach,
          (least >> 20) + 1);
   }
-  const std::size_t row = linear_band_bytes(width, reach, 2) - least;
-  return static_cast<int>(std::min(size(height), 1 + (memory_bytes - least) / row));
+  const std::size_t none = linear_band_bytes(width, reach, 0);
+  return cut_into_bands(height, rows_that_fit(height, memory_bytes, none, least - none), reach);
 }
 
 std::vector<std::int32_t> row_reaches(const Plane& radius, const PaddedBand& band) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "frame/band_rows.h"
 #include "kernels/params.h"
 
 namespace defray {
@@ -24,10 +25,10 @@ class DiscNorms {
 /// One band's source planes with the frame's edge pixels repeated around them.
 class PaddedBand {
  public:
-  PaddedBand(int width, int height, int band_y, int band_rows, int reach)
-      : width_(width), height_(height), first_(band_y - reach), reach_(reach) {
+  PaddedBand(int width, int height, const BandRows& band, int reach)
+      : width_(width), height_(height), first_(band.y - reach), reach_(reach) {
     stride = stride_for(width, reach);
-    rows = size(band_rows + 2 * reach);
+    rows = size(band.rows + 2 * reach);
   }
 
   /// Floats in a row: reach on both sides, and whole runs from the first target pixel on.
@@ -60,8 +61,8 @@ class PaddedBand {
   int width_, height_, first_, reach_;
 };
 
-/// Rows of a band whose planes fit the memory. Throws Error(usage) if not even one does.
-int linear_band_rows(int width, int height, int reach, std::size_t memory_bytes);
+/// Bands whose planes fit the memory. Throws Error(usage) if not even one row's do.
+std::vector<BandRows> linear_bands(int width, int height, int reach, std::size_t memory_bytes);
 
 /// Reach of each row of a padded band.
 std::vector<std::int32_t> row_reaches(const Plane& radius, const PaddedBand& band);

@@ -17,24 +17,6 @@ std::array<cl::Buffer, 4> four(std::size_t count, const Channel& channel) {
 
 }  // namespace
 
-std::vector<BandRows> cut_into_bands(int height, std::int64_t reach, int step,
-                                     std::size_t row_bytes, std::size_t memory_bytes) {
-  const std::int64_t end = height;
-  // Windows begin up to a step earlier than they need to.
-  const std::int64_t affordable =
-      static_cast<std::int64_t>(memory_bytes / std::max<std::size_t>(1, row_bytes)) - 2 * reach -
-      step;
-  const std::int64_t rows = std::max<std::int64_t>(affordable / step, 1) * step;
-  std::vector<BandRows> bands;
-  for (std::int64_t y = 0; y < end; y += rows) {
-    const std::int64_t window_y = std::max<std::int64_t>(0, y - reach) / step * step;
-    const std::int64_t window_end = std::min(end, y + rows + reach);
-    bands.push_back({static_cast<int>(y), static_cast<int>(std::min(rows, end - y)),
-                     static_cast<int>(window_y), static_cast<int>(window_end - window_y)});
-  }
-  return bands;
-}
-
 Band::Band(Session& session, const std::string& kernel, const Frame& frame, const BandRows& rows)
     : session_(session),
       kernel_(kernel),
@@ -71,8 +53,8 @@ void for_each_band(Session& session, const char* kernel, const Frame& frame, std
   if (!holds_planes(session, kernel, frame)) {
     const Launch& launch = launch_of(kernel);
     const std::size_t row_bytes = size(frame.width) * size(frame.layers) * launch.bytes_a_surface;
-    bands = cut_into_bands(frame.height, reach_px + launch.reach_px, step, row_bytes,
-                           session.memory_bytes());
+    bands = cut_into_windows(frame.height, reach_px + launch.reach_px, step, row_bytes,
+                             session.memory_bytes());
   }
   for (const BandRows& rows : bands) {
     Band band(session, kernel, frame, rows);

@@ -9,23 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "frame/band_rows.h"
 #include "frame/frame.h"
 #include "opencl/launch_table.h"
 #include "opencl/session.h"
 
 namespace defray {
-
-/// Rows that are worked out, and those that they depend on, themselves among them.
-struct BandRows {
-  int y, rows;
-  int window_y, window_rows;
-};
-
-/// Bands from the top with windows of `reach` rows more on each side that take at most
-/// `memory_bytes`. Bands and windows begin at multiples of `step` rows: no band has fewer, whatever
-/// the budget.
-std::vector<BandRows> cut_into_bands(int height, std::int64_t reach, int step,
-                                     std::size_t row_bytes, std::size_t memory_bytes);
 
 /// One band at work. Planes are [height][stride], or [window_rows][stride] of them on the device;
 /// the kernel runs over the band's rows alone.

@@ -35,7 +35,7 @@ const std::vector<Launch>& launch_table() {
       {"patterns_match", 16, 1},
       {"rdb_clear", 256, 1},
       {"rdb_gather", 1, 1},
-      // Bands are cut by rdb/rdb_plan.h; so much says whether the frame stays on the device.
+      // Cells take the most (rdb/rdb_plan.h); this says whether the frame stays on the device.
       {"rdb_merge", 64, 1, 1, 3 * plane + 2 * colour},
       {"rdb_nearest", 64, 1},
       {"rdb_pad", 64, 1},

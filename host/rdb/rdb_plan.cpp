@@ -35,8 +35,8 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   }
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);
-  const int rows = static_cast<int>(std::max<std::size_t>(
-      1, std::min({static_cast<std::size_t>(height), memory_bytes / row_bytes, rows_wanted})));
+  const int rows = static_cast<int>(
+      std::min(size(rows_that_fit(height, memory_bytes, 0, row_bytes)), rows_wanted));
   const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
   const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
                                           row_bytes * static_cast<std::size_t>(rows));
@@ -44,17 +44,9 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
                                                            for_cells / (band * rdb_bytes_a_cell)));
   std::vector<RdbPass> passes;
-  for (int y = 0; y < height; y += rows) {
-    RdbPass pass{};
-    pass.band_y = y;
-    pass.band_rows = std::min(rows, height - y);
-    pass.window_y = static_cast<int>(std::max<std::int64_t>(0, std::int64_t{y} - reach));
-    const std::int64_t end = std::int64_t{y} + pass.band_rows + reach;
-    pass.window_rows = static_cast<int>(std::min<std::int64_t>(height, end)) - pass.window_y;
+  for (const BandRows& of_band : cut_into_bands(height, rows, reach)) {
     for (int k = 0; k < cell_count; k += cells) {
-      pass.first_cell = k;
-      pass.cell_count = std::min(cells, cell_count - k);
-      passes.push_back(pass);
+      passes.push_back({of_band, k, std::min(cells, cell_count - k)});
     }
   }
   return passes;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/band_rows.h"
+
 namespace defray {
 
 /// A winner of one cell: all ones where no ray arrived.
@@ -17,10 +19,8 @@ struct RdbWinner {
 inline constexpr std::size_t rdb_bytes_a_cell = sizeof(RdbWinner);
 inline constexpr std::size_t rdb_bytes_a_sum = 4 * sizeof(float) + 4 * sizeof(std::uint32_t);
 
-/// One pass: which target rows, which lens cells, and which source rows can reach them.
-struct RdbPass {
-  int band_y, band_rows;
-  int window_y, window_rows;
+/// One pass: which target rows, which source rows can reach them, and which lens cells.
+struct RdbPass : BandRows {
   int first_cell, cell_count;
 };
 

@@ -115,7 +115,7 @@ std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
 
 std::size_t band_memory(const char* kernel, const Case& c, int layers) {
   const Launch& launch = launch_of(kernel);
-  const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_bands
+  const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_windows
   return size(rows) * size(c.width) * size(layers) * launch.bytes_a_surface;
 }
 

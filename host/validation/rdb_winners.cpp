@@ -36,7 +36,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
     const std::vector<RdbWinner> winners = run.winners(pass);
     const std::size_t band = winners.size() / size(pass.cell_count);
     const auto window = static_cast<std::int64_t>(run.first_source(pass));
-    const std::size_t first = size(pass.band_y) * size(frame.width);
+    const std::size_t first = size(pass.y) * size(frame.width);
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const std::size_t cell = i / band + size(pass.first_cell);
       all[cell * pixels + first + i % band] =

@@ -54,7 +54,7 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
     const std::size_t row_bytes = 40 * layers * launch.bytes_a_surface, given = 200 * row_bytes;
     std::size_t rows = 0;
     for (const BandRows& band :
-         cut_into_bands(600, launch.reach_px + stage.reach_px, stage.step, row_bytes, given)) {
+         cut_into_windows(600, launch.reach_px + stage.reach_px, stage.step, row_bytes, given)) {
       rows += static_cast<std::size_t>(band.window_rows);
     }
     const InBands bands(session(), given);
@@ -77,9 +77,9 @@ TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
     int last_y = -1;
     for (const RdbPass& pass :
          plan_rdb_passes(40, 600, static_cast<int>(cells), rdb_reach(2 * 256), given, false)) {
-      if (pass.band_y != last_y) windows += 40 * size(pass.window_rows);
-      last_y = pass.band_y;
-      band_pixels = std::max(band_pixels, 40 * size(pass.band_rows));
+      if (pass.y != last_y) windows += 40 * size(pass.window_rows);
+      last_y = pass.y;
+      band_pixels = std::max(band_pixels, 40 * size(pass.rows));
       most_cells = std::max(most_cells, size(pass.cell_count));
     }
     // CoC, depth, coverage and four channels of windows; cells' winners, and sums: four channels,
@@ -98,7 +98,7 @@ TEST(Memory, BandsHaveAsManyRowsAsFit) {
     for (const int step : {1, 16}) {
       for (const std::size_t rows : {1u, 40u, 77u, 200u}) {
         constexpr std::size_t row_bytes = 1000;
-        const auto bands = cut_into_bands(301, reach, step, row_bytes, rows * row_bytes);
+        const auto bands = cut_into_windows(301, reach, step, row_bytes, rows * row_bytes);
         int next = 0;
         for (const BandRows& b : bands) {
           EXPECT_EQ(b.y, next);

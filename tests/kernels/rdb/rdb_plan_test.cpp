@@ -14,11 +14,11 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
       const auto passes = plan_rdb_passes(100, height, 69, 12, budget);
       std::vector<int> seen(static_cast<std::size_t>(height));
       for (const RdbPass& p : passes) {
-        const std::size_t pixels = 100 * static_cast<std::size_t>(p.band_rows);
+        const std::size_t pixels = 100 * static_cast<std::size_t>(p.rows);
         EXPECT_LE(pixels * (8 * static_cast<std::size_t>(p.cell_count) + 24), budget);
-        EXPECT_LE(p.window_y, std::max(0, p.band_y - 12));
-        EXPECT_GE(p.window_y + p.window_rows, std::min(height, p.band_y + p.band_rows + 12));
-        for (int y = p.band_y; y < p.band_y + p.band_rows; ++y) {
+        EXPECT_LE(p.window_y, std::max(0, p.y - 12));
+        EXPECT_GE(p.window_y + p.window_rows, std::min(height, p.y + p.rows + 12));
+        for (int y = p.y; y < p.y + p.rows; ++y) {
           seen[static_cast<std::size_t>(y)] += p.cell_count;
         }
       }

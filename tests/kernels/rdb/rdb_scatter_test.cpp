@@ -48,7 +48,7 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
     const std::vector<RdbWinner> winners = run.winners(pass);
     const std::size_t band = winners.size() / static_cast<std::size_t>(pass.cell_count);
     const auto window = static_cast<std::int64_t>(run.first_source(pass));
-    const std::int64_t first = std::int64_t{pass.band_y} * size.width;
+    const std::int64_t first = std::int64_t{pass.y} * size.width;
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const RdbWinner& w = winners[i];
       auto& found = all[i / band + static_cast<std::size_t>(pass.first_cell)]
