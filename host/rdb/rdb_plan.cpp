@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/plane.h"
 #include "kernels/params.h"
 
 namespace defray {
