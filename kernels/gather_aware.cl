@@ -11,79 +11,136 @@
 //
 // coc_quanta  [height][width]                 signed radius, 1/256 px
 // reach       [tiles_y][tiles_x]              largest radius that matters to a tile, quanta
-// samples, rotations, channel0..3, out        as in gather_literal
+// samples, rotations, colour, out         as in gather_literal
 // Samples are taken at whole pixels: no colour is mixed across an edge.
-#include "frame.clh"
+// Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
 #include "gather.clh"
 
+// Whole pixels nearest to places of at most 2^22, halves to the even one.
+int16 nearest_of(const float16 places) { return as_int16(places + 0x1.8p23f) - as_int(0x1.8p23f); }
+
 // Share of a disc's border pixel at this distance from its centre.
-float covers(const float radius, const float distance) {
-  return clamp(radius + 0.5f - distance, 0.0f, 1.0f);
+float16 covers(const float16 radius, const float16 distance) {
+  return clamp(radius + 0.5f - distance, (float16)(0.0f), (float16)(1.0f));
 }
 
 // Pixels that the disc of this radius with its soft border covers: its integral, at least a pixel.
-float disc_area(const float radius) {
-  return fmax(3.14159274f * (radius * radius + 0.0833333358f), 1.0f);
+float16 disc_area(const float16 radius) {
+  return fmax(3.14159274f * (radius * radius + 0.0833333358f), (float16)(1.0f));
 }
 
-// Pixels, or parts of one, that one of so many samples over a disc stands for.
-float pixels_a_sample(const float radius, const uint count) {
-  return disc_area(radius) / (float)max(count, 1u);
+// What the pixels of a run gather: nearer surfaces, and their own with what lies behind.
+typedef struct {
+  float4 near_sum[RUN], base_sum[RUN];  // of differences to the pixel's own colour
+  float16 near_weight, base_weight;
+} Gathered;
+
+// How a pixel's samples are shared out. Where near discs come from far beyond the pixel's own,
+// every second pair of samples stays within its own: else too few would be left for it.
+typedef struct {
+  float16 search, own_coc, own_radius;
+  int16 splits;
+  float16 near_area, base_area;  // pixels, or parts of one, that one sample stands for
+} Discs;
+
+Discs discs_of(const uint sample_count, const float16 own_coc, const float search) {
+  Discs d;
+  d.search = search;
+  d.own_coc = own_coc;
+  d.own_radius = fabs(own_coc);
+  d.splits = d.search * d.search > 2.0f * d.own_radius * d.own_radius;
+  const uint base_count = (sample_count + 1u) / 4u * 2u;
+  const float all = (float)max(sample_count, 1u);
+  const float near_split = (float)max(sample_count - base_count, 1u);
+  const float base_split = (float)max(base_count, 1u);
+  d.near_area = disc_area(d.search) / select((float16)(all), (float16)(near_split), d.splits);
+  d.base_area = disc_area(select(d.search, d.own_radius, d.splits)) /
+                select((float16)(all), (float16)(base_split), d.splits);
+  return d;
+}
+
+// Adds differences to the pixels' own colours, none where the share is 0, whatever the colour.
+void add_colours(const float16 shares, const uint* source, __global const float4* restrict colour,
+                 const float4* own, float4* sums) {
+  if (!any(shares > 0.0f)) return;
+  float share[RUN];
+  vstore16(shares, 0, share);
+  for (int k = 0; k < RUN; ++k) {
+    const float4 given = share[k] * (colour[source[k]] - own[k]);
+    sums[k] += select((float4)(0.0f), given, (float4)(share[k]) > 0.0f);
+  }
+}
+
+// Adds sample `i` of all pixels of the run.
+void add_sample(const DefrayGatherParams p, const Discs d, const uint i, const float2 sample,
+                const RunVectors turn, __global const int* restrict coc_quanta,
+                __global const float4* restrict colour, const uint x, const uint y,
+                const float4* own, Gathered* sums) {
+  const uint odd = p.sample_count & 1u;  // an odd set begins with its centre, pairs follow
+  const bool is_base_pair = (i + odd) / 2u & 1u;
+  const int16 none = 0;
+  const int16 only_base = is_base_pair ? d.splits : none,
+              only_near = is_base_pair ? none : d.splits;
+  const RunVectors offset = offsets_of(sample, turn, select(d.search, d.own_radius, only_base));
+  const int16 away_x = nearest_of(offset.x), away_y = nearest_of(offset.y);
+  const int16 at_x = clamp((int)x + RUN_LANES + away_x, (int16)(0), (int16)((int)p.width - 1));
+  const int16 at_y = clamp((int)y + away_y, (int16)(0), (int16)((int)p.height - 1));
+  uint source[RUN];
+  vstore16(as_uint16(at_y) * p.width + as_uint16(at_x), 0, source);
+  int lanes[RUN];
+  for (int k = 0; k < RUN; ++k) lanes[k] = coc_quanta[source[k]];
+  const float16 coc = convert_float16(vload16(0, lanes)) * (1.0f / 256.0f * p.radius_scale);
+  const float16 dx = convert_float16(away_x), dy = convert_float16(away_y);
+  const float16 distance = sqrt(dx * dx + dy * dy);
+  const float16 nearer = clamp(d.own_coc - coc - 0.5f, (float16)(0.0f), (float16)(1.0f));
+  const float16 near = nearer * covers(fabs(coc), distance) * d.near_area / disc_area(fabs(coc));
+  const float16 base = (1.0f - nearer) * covers(d.own_radius, distance);
+  const float16 near_share = select(near, (float16)(0.0f), only_base);
+  const float16 base_share = select(base, (float16)(0.0f), only_near);
+  sums->near_weight += near_share;
+  sums->base_weight += base_share;
+  add_colours(near_share, source, colour, own, sums->near_sum);
+  add_colours(base_share, source, colour, own, sums->base_sum);
 }
 
 __kernel void gather_aware(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                            __global const int* restrict reach,
                            __global const float2* restrict samples,
-                           __global const float2* restrict rotations, CHANNEL_PARAMETERS(channel),
-                           __global float4* restrict out) {
-  const uint x = get_global_id(0);
+                           __global const float2* restrict rotations,
+                           __global const float4* restrict colour, __global float4* restrict out) {
+  const uint x = (uint)get_global_id(0) * RUN;
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
   const uint y = p.band_y + row;
-  const size_t target = (size_t)row * p.width + x;
-  const size_t own_at = (size_t)y * p.width + x;
-  const float quantum = (1.0f / 256.0f) * p.radius_scale;
-  const float4 own = colour_at(CHANNELS(channel), own_at);
-  const float own_coc = (float)coc_quanta[own_at] * quantum;
+  const int count = min(RUN, (int)(p.width - x));
+  const size_t first = (size_t)y * p.width + x;
   const uint tiles_x = (p.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
   const uint tile = y / DEFRAY_GATHER_TILE * tiles_x + x / DEFRAY_GATHER_TILE;
-  const float search = (float)reach[tile] * quantum;
-  const float2 turn = gather_turn(p, rotations, x, y);
-  // Where near discs come from far beyond the pixel's own, every second pair of samples stays
-  // within its own: else too few would be left for it.
-  const float own_radius = fabs(own_coc);
-  const bool splits = search * search > 2.0f * own_radius * own_radius;
-  const uint odd = p.sample_count & 1u;  // an odd set begins with its centre, pairs follow
-  const uint base_count = splits ? (p.sample_count + 1u) / 4u * 2u : p.sample_count;
-  const uint near_count = splits ? p.sample_count - base_count : p.sample_count;
-  const float near_area = pixels_a_sample(search, near_count);
-  const float base_area = pixels_a_sample(splits ? own_radius : search, base_count);
-
-  float4 near_sum = 0.0f, base_sum = 0.0f;  // of differences to the pixel's own colour
-  float near_weight = 0.0f,
-        base_weight = 1.0f / fmax(base_area, 1.0f);  // the pixel itself: one pixel
-  for (uint i = 0; i < p.sample_count && search >= 0.5f; ++i) {
-    const bool only_base = splits && ((i + odd) / 2u & 1u);
-    const bool only_near = splits && !only_base;
-    const int2 away = nearest_px((only_base ? own_radius : search) * rotated(samples[i], turn));
-    const float2 offset = convert_float2(away);
-    const int2 at =
-        clamp((int2)((int)x, (int)y) + away, 0, (int2)((int)p.width - 1, (int)p.height - 1));
-    const size_t source = (size_t)at.y * p.width + (uint)at.x;
-    const float coc = (float)coc_quanta[source] * quantum;
-    const float distance = sqrt(offset.x * offset.x + offset.y * offset.y);
-    const float nearer = clamp(own_coc - coc - 0.5f, 0.0f, 1.0f);
-    const float4 c = colour_at(CHANNELS(channel), source) - own;
-    const float near = nearer * covers(fabs(coc), distance) * near_area / disc_area(fabs(coc));
-    const float base = (1.0f - nearer) * covers(own_radius, distance);
-    const float near_share = only_base ? 0.0f : near, base_share = only_near ? 0.0f : base;
-    near_sum += near_share > 0.0f ? near_share * c : (float4)(0.0f);
-    base_sum += base_share > 0.0f ? base_share * c : (float4)(0.0f);
-    near_weight += near_share;
-    base_weight += base_share;
+  const float search = (float)reach[tile] * (1.0f / 256.0f * p.radius_scale);
+  if (!(search >= 0.5f)) {
+    for (int i = 0; i < count; ++i) out[first + (size_t)i] = colour[first + (size_t)i];
+    return;
+  }
+  const Discs discs = discs_of(p.sample_count, gather_radii(p, coc_quanta, first, count), search);
+  const RunVectors turn = gather_turns(p, rotations, x, y);
+  Gathered sums;
+  float4 own[RUN];
+  for (int i = 0; i < RUN; ++i) {
+    own[i] = colour[first + (size_t)min(i, count - 1)];
+    sums.near_sum[i] = sums.base_sum[i] = 0.0f;
+  }
+  sums.near_weight = 0.0f;
+  sums.base_weight = 1.0f / fmax(discs.base_area, (float16)(1.0f));  // the pixel itself: one pixel
+  for (uint i = 0; i < p.sample_count; ++i) {
+    add_sample(p, discs, i, samples[i], turn, coc_quanta, colour, x, y, own, &sums);
   }
   // Together the near discs cover at most all of the pixel.
-  const float4 near_mean = near_sum / fmax(near_weight, 1.0f);
-  const float rest = fmax(1.0f - near_weight, 0.0f);
-  out[target] = search >= 0.5f ? own + (near_mean + rest * (base_sum / base_weight)) : own;
+  float near_total[RUN], rest[RUN], base_weight[RUN];
+  vstore16(fmax(sums.near_weight, (float16)(1.0f)), 0, near_total);
+  vstore16(fmax(1.0f - sums.near_weight, (float16)(0.0f)), 0, rest);
+  vstore16(sums.base_weight, 0, base_weight);
+  for (int i = 0; i < count; ++i) {
+    const float4 near_mean = sums.near_sum[i] / near_total[i];
+    out[first + (size_t)i] = own[i] + (near_mean + rest[i] * (sums.base_sum[i] / base_weight[i]));
+  }
 }

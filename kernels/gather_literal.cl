@@ -7,42 +7,68 @@
 // coc_quanta   [height][width]     signed radius, 1/256 px; its sign does not matter here
 // samples      [sample_count]      (x, y) in the unit disc
 // rotations    [DEFRAY_GATHER_ROTATIONS]  (cos, sin)
-// channel0..3  [height][width]
-// out          [band_rows][width]
-// Global size: (width, band_rows).
-#include "frame.clh"
+// colour, out  [height][width]     four channels; rows of the band are written
+// Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
 #include "gather.clh"
+
+// Whole pixels at or below places of less than 2^31. (Of floor PoCL makes a call.)
+int16 whole_px(const float16 places) {
+  const int16 towards_zero = convert_int16(places);
+  return select(towards_zero, towards_zero - 1, convert_float16(towards_zero) > places);
+}
+
+// The colour `part` of a pixel beyond `low`, bilinear.
+float4 colour_between(const DefrayGatherParams p, __global const float4* restrict colour,
+                      const int2 low, const float2 part) {
+  const int2 last = (int2)((int)p.width - 1, (int)p.height - 1);
+  const int2 a = clamp(low, 0, last), b = clamp(low + 1, 0, last);
+  const size_t top = (size_t)a.y * p.width, bottom = (size_t)b.y * p.width;
+  const float4 c00 = colour[top + (uint)a.x], c10 = colour[top + (uint)b.x];
+  const float4 c01 = colour[bottom + (uint)a.x], c11 = colour[bottom + (uint)b.x];
+  const float4 upper = c00 + (c10 - c00) * part.x;
+  const float4 lower = c01 + (c11 - c01) * part.x;
+  return upper + (lower - upper) * part.y;
+}
 
 __kernel void gather_literal(const DefrayGatherParams p, __global const int* restrict coc_quanta,
                              __global const float2* restrict samples,
-                             __global const float2* restrict rotations, CHANNEL_PARAMETERS(channel),
+                             __global const float2* restrict rotations,
+                             __global const float4* restrict colour,
                              __global float4* restrict out) {
-  const uint x = get_global_id(0);
+  const uint x = (uint)get_global_id(0) * RUN;
   const uint row = get_global_id(1);
   if (x >= p.width || row >= p.band_rows) return;
   const uint y = p.band_y + row;
-  const size_t target = (size_t)row * p.width + x;
-  const size_t own_at = (size_t)y * p.width + x;
-  const float4 own = colour_at(CHANNELS(channel), own_at);
-  const float radius = fabs((float)coc_quanta[own_at]) * (1.0f / 256.0f) * p.radius_scale;
-  const float2 turn = gather_turn(p, rotations, x, y);
+  const int count = min(RUN, (int)(p.width - x));
+  const size_t first = (size_t)y * p.width + x;
+  const float16 radii = fabs(gather_radii(p, coc_quanta, first, count));
+  const RunVectors turn = gather_turns(p, rotations, x, y);
 
-  float4 sum = 0.0f;
-  for (uint i = 0; i < p.sample_count && radius > 0.0f; ++i) {
-    const float2 offset = radius * rotated(samples[i], turn);
-    const int2 whole = whole_px(offset);
-    const float2 part = offset - convert_float2(whole);  // exact: no digits are lost to a large x
-    const int2 low = (int2)((int)x, (int)y) + whole;
-    const int2 last = (int2)((int)p.width - 1, (int)p.height - 1);
-    const int2 a = clamp(low, 0, last), b = clamp(low + 1, 0, last);
-    const size_t top = (size_t)a.y * p.width, bottom = (size_t)b.y * p.width;
-    const float4 c00 = colour_at(CHANNELS(channel), top + (uint)a.x);
-    const float4 c10 = colour_at(CHANNELS(channel), top + (uint)b.x);
-    const float4 c01 = colour_at(CHANNELS(channel), bottom + (uint)a.x);
-    const float4 c11 = colour_at(CHANNELS(channel), bottom + (uint)b.x);
-    const float4 upper = c00 + (c10 - c00) * part.x;
-    const float4 lower = c01 + (c11 - c01) * part.x;
-    sum += upper + (lower - upper) * part.y - own;
+  float radius[RUN];
+  vstore16(radii, 0, radius);
+  float4 sum[RUN];
+  for (int i = 0; i < RUN; ++i) sum[i] = 0.0f;
+  for (uint k = 0; k < p.sample_count; ++k) {
+    const RunVectors offset = offsets_of(samples[k], turn, radii);
+    const int16 whole_x = whole_px(offset.x), whole_y = whole_px(offset.y);
+    // Exact: no digits are lost to a large x.
+    const float16 part_x = offset.x - convert_float16(whole_x);
+    const float16 part_y = offset.y - convert_float16(whole_y);
+    int low_x[RUN], low_y[RUN];
+    float along_x[RUN], along_y[RUN];
+    vstore16((int)x + RUN_LANES + whole_x, 0, low_x);
+    vstore16((int)y + whole_y, 0, low_y);
+    vstore16(part_x, 0, along_x);
+    vstore16(part_y, 0, along_y);
+    for (int i = 0; i < count; ++i) {
+      if (!(radius[i] > 0.0f)) continue;
+      const float4 there =
+          colour_between(p, colour, (int2)(low_x[i], low_y[i]), (float2)(along_x[i], along_y[i]));
+      sum[i] += there - colour[first + (size_t)i];
+    }
   }
-  out[target] = radius > 0.0f ? own + sum / (float)p.sample_count : own;
+  for (int i = 0; i < count; ++i) {
+    const float4 own = colour[first + (size_t)i];
+    out[first + (size_t)i] = radius[i] > 0.0f ? own + sum[i] / (float)p.sample_count : own;
+  }
 }

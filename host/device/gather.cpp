@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/parallel.h"
 #include "device/device_stages.h"
 #include "lens/coc.h"
 
@@ -11,46 +12,50 @@ namespace defray {
 namespace {
 
 /// Rows of a launch: enough work to fill a device, few enough for a progress bar to move.
-constexpr int gather_rows_per_launch = 128;
+constexpr std::uint32_t gather_rows_per_launch = 128;
 
 /// What stays on the device from pass to pass.
 struct GatherBuffers {
   cl::Buffer coc, reach, points, turns;
 };
 
+/// Four channels of each pixel together, as samples fetch them; a missing one repeats the last.
+std::vector<cl_float4> packed_colours(const Planes& channels) {
+  std::array<std::span<const float>, 4> planes;
+  for (std::size_t c = 0; c < 4; ++c) planes[c] = channels[std::min(c, channels.size() - 1)].host();
+  std::vector<cl_float4> packed(planes[0].size());
+  parallel_for_each(packed.size(), [&](std::size_t i) {
+    for (std::size_t c = 0; c < 4; ++c) packed[i].s[c] = planes[c][i];
+  });
+  return packed;
+}
+
+std::vector<Plane> planes_of(std::span<const cl_float4> packed, std::size_t channels) {
+  std::vector<Plane> planes(channels, Plane(packed.size()));
+  parallel_for_each(packed.size(), [&](std::size_t i) {
+    for (std::size_t c = 0; c < channels; ++c) planes[c][i] = packed[i].s[c];
+  });
+  return planes;
+}
+
 /// One pass over the frame.
-std::vector<Plane> gather_once(Session& session, DefrayGatherParams p, GatherKind kind,
-                               const GatherBuffers& shared, const Planes& channels,
-                               const Progress& progress) {
-  const int width = static_cast<int>(p.width), height = static_cast<int>(p.height);
-  std::array<cl::Buffer, 4> in;
-  // The kernel always takes four channels; a missing one repeats the last and is not read back.
-  for (std::size_t c = 0; c < 4; ++c) {
-    in[c] = c < channels.size() ? session.in(channels[c]) : in[c - 1];
-  }
-  const std::size_t most = size(width) * size(std::min(gather_rows_per_launch, height));
-  const cl::Buffer out = session.buffer(most * sizeof(cl_float4));
-  std::vector<Plane> result(channels.size(), Plane(channels[0].size()));
-  for (int y = 0; y < height; y += gather_rows_per_launch) {
-    p.band_y = word(y);
-    p.band_rows = word(std::min(gather_rows_per_launch, height - y));
-    const std::size_t count = std::size_t{p.width} * p.band_rows;
+void gather_once(Session& session, DefrayGatherParams p, GatherKind kind,
+                 const GatherBuffers& shared, const cl::Buffer& colour, const cl::Buffer& out,
+                 const Progress& progress) {
+  const std::size_t runs = (std::size_t{p.width} + DEFRAY_RUN - 1) / DEFRAY_RUN;
+  for (; p.band_y < p.height; p.band_y += gather_rows_per_launch) {
+    p.band_rows = std::min(gather_rows_per_launch, p.height - p.band_y);
     if (kind == GatherKind::literal) {
-      session.launch("gather_literal", {p.width, p.band_rows}, p, shared.coc, shared.points,
-                     shared.turns, in, out);
+      session.launch("gather_literal", {runs, p.band_rows}, p, shared.coc, shared.points,
+                     shared.turns, colour, out);
     } else {
-      session.launch("gather_aware", {p.width, p.band_rows}, p, shared.coc, shared.reach,
-                     shared.points, shared.turns, in, out);
+      session.launch("gather_aware", {runs, p.band_rows}, p, shared.coc, shared.reach,
+                     shared.points, shared.turns, colour, out);
     }
-    const std::size_t first = size(y) * p.width;
-    session.look_at<cl_float4>(out, count, [&](std::span<const cl_float4> band) {
-      for (std::size_t c = 0; c < result.size(); ++c) {
-        for (std::size_t i = 0; i < count; ++i) result[c][first + i] = band[i].s[c];
-      }
-    });
-    if (progress) progress(static_cast<double>(p.band_y + p.band_rows) / height);
+    if (!progress) continue;
+    session.finish();
+    progress(static_cast<double>(p.band_y + p.band_rows) / p.height);
   }
-  return result;
 }
 
 }  // namespace
@@ -83,16 +88,24 @@ std::vector<Plane> DeviceStages::gather(const Frame& f, const GatherSettings& se
   if (settings.kind == GatherKind::aware) reach = gather_reach(f);
   const GatherBuffers shared{session_.in(f.coc_quanta), session_.view(reach),
                              session_.view(samples.points), session_.view(samples.turns)};
-  Planes channels = f.channels;
-  std::vector<Plane> result;
+  const std::vector<cl_float4> packed = packed_colours(f.channels);
+  const std::size_t bytes = packed.size() * sizeof(cl_float4);
+  std::array<cl::Buffer, 2> made{session_.buffer(bytes)};
+  if (settings.passes > 1) made[1] = session_.buffer(bytes);
+  cl::Buffer colour = session_.view(packed);
   for (int pass = 0; pass < settings.passes; ++pass) {
     const auto share = [&](double done) {
       if (progress) progress((pass + done) / settings.passes);
     };
-    result = gather_once(session_, gather_params(settings, f.width, f.height, pass), settings.kind,
-                         shared, channels, share);
-    channels = Planes::view(result);
+    const cl::Buffer& out = made[size(pass % 2)];
+    gather_once(session_, gather_params(settings, f.width, f.height, pass), settings.kind, shared,
+                colour, out, share);
+    colour = out;
   }
+  std::vector<Plane> result;
+  session_.look_at<cl_float4>(colour, packed.size(), [&](std::span<const cl_float4> pixels) {
+    result = planes_of(pixels, f.channels.size());
+  });
   return result;
 }
 

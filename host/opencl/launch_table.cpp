@@ -23,8 +23,8 @@ const std::vector<Launch>& launch_table() {
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
       {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_RUN},
-      {"gather_aware", 64, 1},
-      {"gather_literal", 64, 1},
+      {"gather_aware", 8, 1},
+      {"gather_literal", 8, 1},
       {"gather_reach", 16, 1},
       {"gather_tiles", 16, 1},
       {"highlights", 64, 1, 0, 3 * plane + colour},
