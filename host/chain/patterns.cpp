@@ -54,6 +54,23 @@ PatternShift shift_at(const PatternShift& shift, float inverse) {
   return {std::clamp(shift.x, -length, length), std::clamp(shift.y, -length, length)};
 }
 
+void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& variance,
+                    Planes& behind) {
+  const auto words = pixels.host();
+  std::vector<std::span<float>> colour;
+  for (Values<float>& channel : behind) colour.push_back(channel.edit());
+  parallel_for_each(variance.size(), [&](std::size_t i) {
+    const float weight = sums.weight[i];
+    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || !(weight > 0) || !(variance[i] > 0)) return;
+    const float gain = 1 - sums.weighted_square[i] / weight / (2 * variance[i]);
+    if (!(gain > 0)) return;
+    for (std::size_t c = 0; c < colour.size(); ++c) {
+      const float moved = colour[c][i] + gain * (sums.difference[c][i] / weight);
+      if (std::isfinite(moved)) colour[c][i] = moved;
+    }
+  });
+}
+
 void improve_by_patterns(Stages& stages, const Frame& frame, const Words& pixels,
                          const PatternSettings& settings, Frame& behind) {
   const auto is_behind = [](std::uint32_t pixel) { return (pixel & DEFRAY_PATTERN_BEHIND) != 0; };
