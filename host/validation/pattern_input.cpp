@@ -6,6 +6,17 @@
 
 namespace defray::validation {
 
+namespace {
+
+/// Every second of few digits: parallel shifts of exactly the shortest and longest length, and
+/// halfway between pixels.
+float any_inverse(Random& random) {
+  const double value = random.next();
+  return static_cast<float>(random.next() < 0.5 ? value : std::floor(16 * value) / 16);
+}
+
+}  // namespace
+
 int window_of(const Case& c) { return std::array{25, 1, 2, 7}[c.seed % 4]; }
 
 PatternCase::PatternCase(const Case& c, const Input& in, bool hides_everything)
@@ -36,8 +47,8 @@ void PatternCase::add_pixel(Random random, const Input& in, bool hides_everythin
     word |= static_cast<std::uint32_t>(v > 0 ? 255 * std::min(v, 1.0f) : 0.0f) << (8 * k);
   }
   encoded_.push_back(word);
-  inverse_.push_back(static_cast<float>(random.next()));
-  behind_inverse_.push_back(static_cast<float>(random.next()));
+  inverse_.push_back(any_inverse(random));
+  behind_inverse_.push_back(any_inverse(random));
   behind_.push_back(hides_everything || random.next() < 0.1);
 }
 
@@ -54,7 +65,7 @@ void PatternCase::add_shifts(const Case& c) {
   }
   // The first is what kernels by themselves are checked with.
   PatternShift& parallel = shifts[c.seed % 2];
-  parallel.parallel = static_cast<float>(80 * random.next());
+  parallel.parallel = static_cast<float>(std::floor(80 * random.next()));
   (c.seed % 3 == 0 ? parallel.x : parallel.y) = 0;
 }
 

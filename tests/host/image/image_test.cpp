@@ -256,5 +256,17 @@ TEST(Text, NearestSpelling) {
   EXPECT_EQ(nearest_spelling("--zzz", words), "");
 }
 
+TEST(Image, APartOfAFileKeepsItsAlpha) {
+  const Folder folder;
+  const Plane v(6, 0.5f);
+  const ImageFile file = ImageFile::from_planes({"A", "R", "G", "B"}, {v, v, v, v}, 3, 2);
+  const auto alpha_of = [&](const std::vector<int>& channels) {
+    file.extract(0, channels).write(folder / "part.tif");
+    return OIIO::ImageInput::open(folder / "part.tif")->spec().alpha_channel;
+  };
+  EXPECT_EQ(alpha_of({1, 2, 3, 0}), 3);
+  EXPECT_EQ(alpha_of({1, 2, 3}), -1);
+}
+
 }  // namespace
 }  // namespace defray::test::image_test

@@ -176,10 +176,16 @@ TEST(Camera, BadFiles) {
   const Folder folder;
   expect_error(ErrorKind::input, {"cannot open"},
                [&] { read_camera_json(folder / "none.json", "", 1); });
-  for (const char* text :
-       {"", "{", "[1]", "3", R"({"focal_length_mm": "x"})", R"({"focus_settings": 3})"}) {
-    expect_error(ErrorKind::input, {"camera.json"},
-                 [&] { read_camera_json(write_text(folder, text), "", 1); });
+  const std::vector<std::pair<const char*, const char*>> mistakes = {
+      {"", "camera.json: not valid JSON: parse error at line 1"},
+      {"{", "camera.json: not valid JSON: parse error at line 1, column 2"},
+      {"[1]", "camera.json: not a JSON object"},
+      {"3", "camera.json: not a JSON object"},
+      {R"({"focal_length_mm": "x"})", "camera.json: 'focal_length_mm' is not a number"},
+      {R"({"focus_settings": 3})", "camera.json: 'focus_settings' is no object"}};
+  for (const auto& mistake : mistakes) {
+    expect_error(ErrorKind::input, {mistake.second},
+                 [&] { read_camera_json(write_text(folder, mistake.first), "", 1); });
   }
   expect_error(ErrorKind::input, {"cannot open"}, [&] { read_camera_json(folder.path(), "", 1); });
   const CameraValues half =

@@ -23,11 +23,15 @@ class PlotLayout : public testing::Test {
     plot_.series.push_back({"one", {{0, 0}, {10, 4}}, true, true});
     plot_.series.push_back({"", {{2, 1}}, false, true});
     plot_.series.push_back({"three", {{4, 1}}, true, true});
-    write_plot(folder_ / "plot.png", plot_);
-    picture_ = read_ldr(folder_ / "plot.png", Content::data);
+    draw();
     const auto low = plot_position(plot_, {0, 0}), high = plot_position(plot_, {10, 4});
     left_ = std::lround(low[0]), bottom_ = std::lround(low[1]);
     right_ = std::lround(high[0]), top_ = std::lround(high[1]);
+  }
+
+  void draw() {
+    write_plot(folder_ / "plot.png", plot_);
+    picture_ = read_ldr(folder_ / "plot.png", Content::data);
   }
 
   std::array<long, 3> colour(int x, int y) const {
@@ -96,6 +100,16 @@ TEST_F(PlotLayout, TitlesStandInTheMiddleOfWhatTheyName) {
   EXPECT_GT(y_name.bottom - y_name.top, 3 * (y_name.right - y_name.left));  // upright
   EXPECT_GT(y_name.left, 2);
   EXPECT_LT(y_name.right, 30);
+}
+
+TEST_F(PlotLayout, LongTitlesAreAsSmallAsTheyMustBe) {
+  plot_.title = std::string(150, 'W');
+  plot_.x_label = std::string(120, 'W');
+  draw();
+  const Ink title = text(0, 0, plot_width_px, top_ - 8);
+  EXPECT_NEAR(title.right - title.left, plot_width_px - 40, 12);
+  const Ink x_name = text(0, bottom_ + 30, plot_width_px, plot_height_px);
+  EXPECT_NEAR(x_name.right - x_name.left, right_ - left_, 12);
 }
 
 TEST_F(PlotLayout, TheLegendHasALineASeriesWithAName) {

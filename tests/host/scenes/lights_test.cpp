@@ -126,6 +126,13 @@ TEST(Shapes, OverlapOfDiscs) {
   EXPECT_EQ(disc_overlap(1.5, 0.5), 0);
   EXPECT_EQ(disc_overlap(0.25, 0.5), 0.25);
   EXPECT_EQ(disc_overlap(0.5, 2), 1);
+  for (const double apart : {1e-16, 3e-16, 1e-15, 1e-12}) {
+    for (double radius = 0.01; radius < 3; radius *= 1.01) {
+      const double most = std::min(1.0, radius * radius);
+      EXPECT_NEAR(disc_overlap((1 + radius) * (1 - apart), radius), 0, 1e-6) << radius;
+      EXPECT_NEAR(disc_overlap(std::fabs(1 - radius) * (1 + apart), radius), most, 1e-6) << radius;
+    }
+  }
   EXPECT_NEAR(disc_overlap(1, 1), 2.0 / 3 - std::sqrt(3) / (2 * std::numbers::pi), 1e-12);
   // Against counting.
   for (const double radius : {0.3, 0.9, 1.4}) {

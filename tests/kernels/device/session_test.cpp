@@ -42,6 +42,15 @@ Session with_substitution(const Substitution& substitution) {
   return Session(device_under_test(), options);
 }
 
+TEST(Session, NamesTheArgumentThatIsNoneOfTheKernels) {
+  const std::string said =
+      "clSetKernelArg(coc, 3) failed on " + device_under_test().name + ": CL_INVALID_ARG";
+  expect_error(ErrorKind::device, {said}, [] {
+    const cl::Buffer buffer = session().buffer(4);
+    session().launch("coc", {1}, DefrayCocParams{}, buffer, buffer, cl_uint{1});
+  });
+}
+
 TEST(Session, WorkGroupsAreOfOneKernelOrOfAll) {
   Session own = with_substitution({"__kernel void coc(",
                                    "__kernel void coc(__global uint* size) {\n"
