@@ -78,6 +78,11 @@ OptionGroup file_options(RenderJob& job) {
         "Write what each tile of 16 px holds: 0 in focus, 1 smooth, 2 edges, 3 hidden surfaces, "
         "4 lights (.exr, .tif)",
         {.field = "tiles", .scope = of_stages}},
+       {"--compression",
+        with_default(value(job.settings.compression), "the input's"),
+        "Of what is written: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (EXR), none, "
+        "lzw, zip, packbits (TIFF); pxr24, b44 and dwa lose a little",
+        {.field = "compression"}},
        {"--frames", with_default(value(job.frames), "every file that matches"),
         "1-8, 1-10x2, 1,5,9-12"},
        {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},

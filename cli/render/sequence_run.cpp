@@ -38,8 +38,7 @@ Device open_device(const RenderJob& job) {
 SequenceRun::SequenceRun(const RenderJob& job, std::vector<std::optional<int>> frames)
     : job_(job),
       frames_(std::move(frames)),
-      bar_(frames_.size(), frames_.size() == 1 ? "frame" : "frames", !job.quiet),
-      device_(open_device(job)) {}
+      bar_(frames_.size(), frames_.size() == 1 ? "frame" : "frames", !job.quiet) {}
 
 template <typename Step>
 void SequenceRun::Work::attempt(const Step& step) {
@@ -68,12 +67,13 @@ std::size_t SequenceRun::render() {
                       [this, i] { return read(frames_[i]); });
   };
   std::future<Work> reading = read_ahead(0), writing;
+  device_.emplace(open_device(job_));
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     Work work = reading.get();
     if (i + 1 < frames_.size()) reading = read_ahead(i + 1);
     work.attempt([&] {
       bar_.update(i, 0);
-      work.file->render(device_, [&](double share) { bar_.update(i, share); });
+      work.file->render(*device_, [&](double share) { bar_.update(i, share); });
     });
     if (writing.valid()) finish(writing.get());
     if (!work.file || work.error) {
@@ -128,9 +128,9 @@ void SequenceRun::show_last() {
 void SequenceRun::report(const FrameOutcome& outcome) {
   bar_.clear();
   if (job_.json) {
-    print_json_line(outcome, device_.name());
+    print_json_line(outcome, device_->name());
   } else if (!job_.quiet) {
-    print_text(outcome, device_.name());
+    print_text(outcome, device_->name());
     if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
   }
 }

@@ -44,7 +44,7 @@ class SequenceRun {
   const RenderJob& job_;
   std::vector<std::optional<int>> frames_;
   ProgressBar bar_;
-  Device device_;
+  std::optional<Device> device_;  ///< Opened while the first frame is read.
   std::size_t failed_ = 0;
   std::vector<Plane> last_;
   Window last_data_, last_display_;

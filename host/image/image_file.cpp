@@ -230,8 +230,13 @@ std::optional<double> ImageFile::metadata_number(const std::string& name) const 
 bool ImageFile::is_lossy() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
     const std::string compression = part.spec.get_string_attribute("compression");
-    return compression.starts_with("dwa") || compression.starts_with("jpeg");
+    return compression.starts_with("dwa") || compression.starts_with("jpeg") ||
+           compression.starts_with("b44") || compression == "pxr24";
   });
+}
+
+void ImageFile::set_compression(const std::string& name) {
+  for (Part& part : parts_) part.spec.attribute("compression", name);
 }
 
 ImageFile ImageFile::extract(int part, const std::vector<int>& channels) const {

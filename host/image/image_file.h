@@ -57,8 +57,12 @@ class ImageFile {
   /// A number among the metadata of any part, whatever type it was stored in (text included).
   std::optional<double> metadata_number(const std::string& name) const;
 
-  /// True where writing with the file's own compression (DWA, JPEG in TIFF) changes values.
+  /// True where writing with the file's own compression (DWA, B44, PXR24, JPEG in TIFF) changes
+  /// values.
   bool is_lossy() const;
+
+  /// Of all parts, as OpenImageIO names it.
+  void set_compression(const std::string& name);
 
   /// Writes all parts with their windows, metadata, types and compression where the format of
   /// `path` is the one that was read; throws Error(output) otherwise or when writing fails.

@@ -15,6 +15,10 @@ namespace {
 
 bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
+bool is_tiff(const std::string& path) {
+  return lower_extension(path) == ".tif" || lower_extension(path) == ".tiff";
+}
+
 void write_display_encoded(const std::string& path, const PartInfo& part,
                            const std::vector<Plane>& colour, std::vector<std::string>& notes) {
   std::size_t clipped = 0;
@@ -73,6 +77,21 @@ void check_output_format(const std::string& path) {
   fail(ErrorKind::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
 }
 
+void check_compression(const std::string& path, const std::string& compression) {
+  if (compression.empty()) return;
+  std::vector<std::string> known;
+  if (is_exr(path)) {
+    known = {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  } else if (is_tiff(path)) {
+    known = {"none", "lzw", "zip", "packbits"};
+  } else {
+    fail(ErrorKind::usage, "{} goes with .exr and .tif, not with {}", field("compression"), path);
+  }
+  if (std::find(known.begin(), known.end(), compression) != known.end()) return;
+  fail(ErrorKind::usage, "{} '{}' is none of {}'s.{} Known: {}", field("compression"), compression,
+       lower_extension(path), did_you_mean(compression, known), join(known, " "));
+}
+
 bool keeps_other_channels(const std::string& path, const ImageFile& file) {
   const bool same_format = lower_extension(path) == lower_extension(file.path());
   return !is_ldr_path(path) && (same_format || (is_exr(path) && is_ldr_path(file.path())));
@@ -109,7 +128,7 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
 }
 
 void check_plane_format(const std::string& path, const std::string& name) {
-  if (!is_exr(path) && lower_extension(path) != ".tif" && lower_extension(path) != ".tiff") {
+  if (!is_exr(path) && !is_tiff(path)) {
     fail(ErrorKind::usage, "{}: {} is data, not colour; --{}-out takes .exr or .tif", path, name,
          name);
   }

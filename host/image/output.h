@@ -12,6 +12,9 @@ namespace defray {
 /// Throws Error(usage) unless the extension of `path` is one that defray writes.
 void check_output_format(const std::string& path);
 
+/// Throws Error(usage) unless a file of this name can be compressed so. Empty: as the input is.
+void check_compression(const std::string& path, const std::string& compression);
+
 /// What the display window shows: planes cropped to it, black where there is no data.
 std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Window& data,
                                      const Window& display);

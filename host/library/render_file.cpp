@@ -139,14 +139,16 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
 }
 
 /// The outputs must be writable before the work.
-void check_outputs(const FramePaths& paths) {
+void check_outputs(const FramePaths& paths, const std::string& compression) {
   check_output_format(paths.output);
+  check_compression(paths.output, compression);
   check_can_write(paths.output);
   const std::pair<const char*, const std::string&> data_files[] = {
       {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
   for (const auto& [name, path] : data_files) {
     if (path.empty()) continue;
     check_plane_format(path, name);
+    check_compression(path, compression);
     check_can_write(path);
   }
 }
@@ -190,7 +192,7 @@ FileRender::~FileRender() = default;
 void FileRender::read() {
   State& s = *state_;
   check_paths(s.paths);
-  check_outputs(s.paths);
+  check_outputs(s.paths, s.settings.compression);
   Stopwatch watch;
   s.source.emplace(read_source(s.paths, s.settings, s.report));
   s.report.read_seconds = watch.lap();
@@ -217,6 +219,7 @@ FrameResult FileRender::write() {
   State& s = *state_;
   if (s.planes.empty()) fail(ErrorKind::usage, "{}: render() comes before write()", s.paths.input);
   Stopwatch watch;
+  if (!s.settings.compression.empty()) s.source->file.set_compression(s.settings.compression);
   write_picture(s.paths.output, s.source->file, s.choice, s.planes, s.report.notes);
   const auto write_data = [&](const std::string& path, const char* name, const Plane& plane) {
     if (!path.empty()) write_plane(path, name, s.source->file, s.source->choice.part, plane);

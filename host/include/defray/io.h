@@ -58,6 +58,7 @@ class DEFRAY_API PictureFile {
 struct RenderSettings {
   ChannelRequest request;
   std::vector<std::string> channels;  ///< Names or globs of further channels for the lens.
+  std::string compression;            ///< Of EXR and TIFF outputs, "zip"; empty: the input's.
   DepthSettings depth;
   CameraValues camera;  ///< Explicit values; they win over metadata.
   bool camera_from_metadata = false;
