@@ -1,4 +1,5 @@
-// Twins of kernels/patterns.cl and patterns_match.cl: sums over whole windows, nothing running along.
+// Twins of kernels/patterns.cl and patterns_match.cl: sums over whole windows, nothing running
+// along.
 #include <cstdlib>
 
 #include "base/parallel.h"
