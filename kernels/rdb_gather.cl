@@ -65,6 +65,7 @@ __attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const
         is_open = any_of(left);
       }
     }
+    find_whether_all_differ(s);
   }
 }
 
