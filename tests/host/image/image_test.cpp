@@ -167,6 +167,17 @@ TEST(Ldr, SixteenBitsSpanFromBlackToWhite) {
   EXPECT_EQ(read.planes[0].back(), 1.0f);
 }
 
+TEST(Ldr, EachPixelHasItsOwnAlpha) {
+  const Folder folder;
+  const Plane alpha{0.2f, 0.4f, 0.6f, 0.8f, 1, 0};
+  write_ldr(folder / "a.png", {3, 2, {"R", "G", "B", "A"}, {alpha, alpha, alpha, alpha}});
+  const LdrPicture read = read_ldr(folder / "a.png");
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    EXPECT_FLOAT_EQ(read.planes[3][i], alpha[i]);  // 51, 102, ... of 255
+    EXPECT_NEAR(read.planes[0][i], alpha[i], 1e-6);
+  }
+}
+
 TEST(Ldr, PngAlphaIsStraightAndOursPremultiplied) {
   const Folder folder;
   write_ldr(folder / "a.png", {1, 1, {"R", "G", "B", "A"}, {{0.25f}, {0.1f}, {0}, {0.5f}}});

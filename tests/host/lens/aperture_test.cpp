@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lens/aperture_mask.h"
+#include "lens/iris.h"
 #include "support.h"
 
 namespace defray::test::aperture_test {
@@ -156,6 +157,20 @@ TEST(Aperture, RefusesWhatIsNotAllowed) {
   refused({6, 0, 0, 1, "a.png", 0}, {"aperture.image", "blades"});
   refused(blades(0, 0.5), {"curvature", "blades"});
   refused({0, 0, 30, 1, "a.png", 0}, {"rotation_deg", "blades"});
+}
+
+TEST(Iris, SharesOfStraightBladesAreTriangles) {
+  for (const int count : {3, 5, 8}) {
+    const Iris iris(blades(count));
+    const double half_blade = pi / count, start = iris.edge_at_share(0).angle;
+    for (int i = 0; i <= 1000; ++i) {
+      const double share = i / 1000.0 / count;  // of the first blade, from its middle on
+      const double of_half = i <= 500 ? 2 * i / 1000.0 : 2 - 2 * i / 1000.0;
+      const double within = std::atan(of_half * std::tan(half_blade));
+      const double angle = i <= 500 ? within : 2 * half_blade - within;
+      EXPECT_NEAR(iris.edge_at_share(share).angle - start, angle, 1e-6) << count << " " << i;
+    }
+  }
 }
 
 }  // namespace
