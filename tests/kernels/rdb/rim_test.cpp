@@ -4,7 +4,9 @@
 
 #include "chain/chain.h"
 #include "lens/cats_eye.h"
+#include "lens/lens_cells.h"
 #include "methods/method.h"
+#include "rdb/rdb.h"
 #include "support.h"
 
 namespace defray::test::rim_test {
@@ -64,6 +66,19 @@ TEST(Rim, LampsLoseTheirOuterSide) {
   const auto [low_x, low_y] = shift_of(60, 60, 30, 30, 0, 140, 60, 200);
   EXPECT_NEAR(low_x, 0, 0.05);
   EXPECT_LT(low_y, -0.3);
+}
+
+TEST(Rim, ItsEdgeItselfIsOpen) {
+  Frame frame{3, 1, std::vector<std::int32_t>(3), Plane(3, 4), {Plane(3, 1)}};
+  RayPlan plan;
+  plan.cells = make_lens_cells(1, false);  // its middle alone
+  plan.rim_x = {65535, 65536, 65537};
+  plan.rim_y = {0};
+  for (const RaysBy by : {RaysBy::gather, RaysBy::scatter}) {
+    plan.by = by;
+    EXPECT_EQ(device().rays(frame, plan).seen, (std::vector<std::uint32_t>{1, 1, 0}));
+  }
+  EXPECT_EQ(twins().rays(frame, plan).seen, (std::vector<std::uint32_t>{1, 1, 0}));
 }
 
 /// Of an even wall the input determines all rays that pass the rim, however few, where they do not
