@@ -129,56 +129,6 @@ void add_matches(const DefrayPatternParams p, CHANNEL_PARAMETERS(channel_behind)
   add_to(sums + 5 * plane + target, count, is_match, weights.square_w);
 }
 
-// The sum over a window, and by how much the next one's is larger.
-typedef struct {
-  ulong sum, change;
-} Window;
-
-ulong sum_of_eight(const ulong8 v) {
-  const ulong4 a = v.lo + v.hi;
-  return a.x + a.y + a.z + a.w;
-}
-
-// With weights n - |j|: from one pixel to the next, n values weigh one more and n one less.
-Window window_at(const DefrayPatternParams p, __global const ulong* restrict columns,
-                 const size_t at) {
-  const long n = p.window_px;
-  ulong8 sum = 0ul, change = 0ul;
-  for (long j = 1 - n; j <= n; j += 8) {
-    const ulong8 values = vload8(0, columns + (size_t)((long)at + j));
-    const long8 away = j + (long8)(0, 1, 2, 3, 4, 5, 6, 7);
-    sum += values * as_ulong8(max(n - as_long8(abs(away)), (long8)(0)));
-    change += select((ulong8)(0ul), values, away > (long8)(0) && away <= (long8)(n));
-    change -= select((ulong8)(0ul), values, away <= (long8)(0));
-  }
-  const Window window = {sum_of_eight(sum), sum_of_eight(change)};
-  return window;
-}
-
-// Each lane with all before it.
-ulong8 running(const ulong8 v) {
-  const ulong8 pairs = v + (ulong8)(0ul, v.s0123, v.s45, v.s6);
-  const ulong8 fours = pairs + (ulong8)(0ul, 0ul, pairs.s0123, pairs.s45);
-  return fours + (ulong8)(0ul, 0ul, 0ul, 0ul, fours.s0123);
-}
-
-// The sums over the windows of eight pixels, and the one after them.
-ulong8 eight_windows(const DefrayPatternParams p, __global const ulong* restrict columns,
-                     const size_t at, Window* window) {
-  const size_t n = (size_t)p.window_px;
-  const ulong8 passing = vload8(0, columns + at + 1);
-  const ulong8 bends =
-      vload8(0, columns + at + 1 + n) - 2ul * passing + vload8(0, columns + at + 1 - n);
-  const ulong8 next_changes = window->change + running(bends);
-  const ulong8 changes =
-      (ulong8)(window->change, next_changes.s0123, next_changes.s45, next_changes.s6);
-  const ulong8 next_sums = window->sum + running(changes);
-  const ulong8 sums = (ulong8)(window->sum, next_sums.s0123, next_sums.s45, next_sums.s6);
-  window->sum = next_sums.s7;
-  window->change = next_changes.s7;
-  return sums;
-}
-
 __kernel void patterns_match(const DefrayPatternParams p, __global const uint2* restrict units,
                              __global const uint* restrict pixels,
                              __global const int* restrict coc_quanta,
@@ -208,10 +158,28 @@ __kernel void patterns_match(const DefrayPatternParams p, __global const uint2* 
   }
   if (begin >= end) return;
 
-  Window window = window_at(p, columns, in_window + (size_t)begin);
+  const size_t n = (size_t)p.window_px, first = in_window + (size_t)begin;
+  ulong window = 0ul, before = 0ul, after = 0ul;
+  for (size_t j = 0; j < n; ++j) {
+    before += columns[first - j];
+    window += before;
+  }
+  for (size_t j = 1; j < n; ++j) {
+    after += columns[first + j];
+    window += after;
+  }
+  after += columns[first + n];
   for (int i = begin; i < end; i += 8) {
-    const ulong8 windows = eight_windows(p, columns, in_window + (size_t)i, &window);
-    add_matches(p, CHANNELS(channel_behind), CHANNELS(channel), sums, matches[i / 8], windows,
-                x + i, y, min(8, count - i));
+    ulong windows[8];
+    for (size_t k = 0; k < 8; ++k) {
+      const size_t at = in_window + (size_t)i + k;
+      windows[k] = window;
+      window += after - before;
+      const ulong passing = columns[at + 1];
+      after += columns[at + n + 1] - passing;
+      before += passing - columns[at + 1 - n];
+    }
+    add_matches(p, CHANNELS(channel_behind), CHANNELS(channel), sums, matches[i / 8],
+                vload8(0, windows), x + i, y, min(8, count - i));
   }
 }
