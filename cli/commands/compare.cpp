@@ -119,10 +119,19 @@ void print_text(const Comparison& c, const std::optional<BandErrors>& band) {
   print_errors("outside it", band->outside);
 }
 
-/// A NaN is never good enough.
+/// Says which bounds are missed. A NaN is never good enough.
 bool misses_a_bound(const CompareOptions& o, const Comparison& c) {
-  return (o.min_psnr && !(c.psnr_srgb_db >= *o.min_psnr)) ||
-         (o.min_ssim && !(c.ssim >= *o.min_ssim)) || (o.max_error && !(c.worst <= *o.max_error));
+  bool misses = false;
+  const auto check = [&](const char* option, const std::optional<double>& bound, double found,
+                         bool is_kept) {
+    if (!bound || is_kept) return;
+    fmt::print(stderr, "defray: {} {:g} is missed: {:.6g}\n", option, *bound, found);
+    misses = true;
+  };
+  check("--min-psnr", o.min_psnr, c.psnr_srgb_db, c.psnr_srgb_db >= o.min_psnr.value_or(0));
+  check("--min-ssim", o.min_ssim, c.ssim, c.ssim >= o.min_ssim.value_or(0));
+  check("--max-error", o.max_error, c.worst, c.worst <= o.max_error.value_or(0));
+  return misses;
 }
 
 int run(const CompareOptions& o) {

@@ -132,6 +132,7 @@ void SequenceRun::report(const FrameOutcome& outcome) {
   } else if (!job_.quiet) {
     print_text(outcome, device_->name());
     if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
+    std::fflush(stdout);  // a log shows each frame as it is done
   }
 }
 

@@ -13,6 +13,10 @@
 namespace defray {
 namespace {
 
+const std::vector<std::string> exr_compressions{"none",  "rle", "zips", "zip",  "piz",
+                                                "pxr24", "b44", "b44a", "dwaa", "dwab"};
+const std::vector<std::string> tiff_compressions{"none", "lzw", "zip", "packbits"};
+
 bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
 bool is_tiff(const std::string& path) {
@@ -77,19 +81,20 @@ void check_output_format(const std::string& path) {
   fail(ErrorKind::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
 }
 
-void check_compression(const std::string& path, const std::string& compression) {
+void check_compression(const std::vector<std::string>& paths, const std::string& compression) {
   if (compression.empty()) return;
-  std::vector<std::string> known;
-  if (is_exr(path)) {
-    known = {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
-  } else if (is_tiff(path)) {
-    known = {"none", "lzw", "zip", "packbits"};
-  } else {
-    fail(ErrorKind::usage, "{} goes with .exr and .tif, not with {}", field("compression"), path);
+  bool is_of_use = false;
+  for (const std::string& path : paths) {
+    if (!is_exr(path) && !is_tiff(path)) continue;
+    is_of_use = true;
+    const std::vector<std::string>& known = is_exr(path) ? exr_compressions : tiff_compressions;
+    if (std::find(known.begin(), known.end(), compression) != known.end()) continue;
+    fail(ErrorKind::usage, "{} '{}' is none of {}'s.{} Known: {}", field("compression"),
+         compression, lower_extension(path), did_you_mean(compression, known), join(known, " "));
   }
-  if (std::find(known.begin(), known.end(), compression) != known.end()) return;
-  fail(ErrorKind::usage, "{} '{}' is none of {}'s.{} Known: {}", field("compression"), compression,
-       lower_extension(path), did_you_mean(compression, known), join(known, " "));
+  if (is_of_use) return;
+  fail(ErrorKind::usage, "{} goes with .exr and .tif, not with {}", field("compression"),
+       paths.front());
 }
 
 bool keeps_other_channels(const std::string& path, const ImageFile& file) {

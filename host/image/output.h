@@ -12,8 +12,9 @@ namespace defray {
 /// Throws Error(usage) unless the extension of `path` is one that defray writes.
 void check_output_format(const std::string& path);
 
-/// Throws Error(usage) unless a file of this name can be compressed so. Empty: as the input is.
-void check_compression(const std::string& path, const std::string& compression);
+/// Throws Error(usage) unless those of the files that are EXR or TIFF, one at least, can be
+/// compressed so. Empty: as the input is.
+void check_compression(const std::vector<std::string>& paths, const std::string& compression);
 
 /// What the display window shows: planes cropped to it, black where there is no data.
 std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Window& data,

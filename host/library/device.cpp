@@ -58,7 +58,7 @@ Device::State& Device::state_on_device(const char* setting) {
 }
 
 void Device::set_memory(std::size_t bytes) {
-  if (bytes == 0) fail(ErrorKind::usage, "{} is 0: it must be above", field("memory"));
+  if (bytes == 0) fail(ErrorKind::usage, "{} is 0: it must be above 0", field("memory"));
   state_on_device("memory").session->set_memory(bytes);
 }
 

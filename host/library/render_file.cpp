@@ -32,11 +32,14 @@ struct Source {
   const PartInfo& part() const { return file.parts()[static_cast<std::size_t>(choice.part)]; }
 };
 
-void check_paths(const FramePaths& paths) {
+/// `also_read`: further files that must stay as they are.
+void check_paths(const FramePaths& paths, const std::vector<std::string>& also_read) {
   std::error_code ignored;
   for (const std::string& output : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
     if (output.empty()) continue;
-    for (const std::string& input : {paths.input, paths.depth}) {
+    std::vector<std::string> inputs = also_read;
+    inputs.insert(inputs.end(), {paths.input, paths.depth});
+    for (const std::string& input : inputs) {
       if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
         fail(ErrorKind::usage, "{}: is input and output at once; write to another file", output);
       }
@@ -141,16 +144,15 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
 /// The outputs must be writable before the work.
 void check_outputs(const FramePaths& paths, const std::string& compression) {
   check_output_format(paths.output);
-  check_compression(paths.output, compression);
   check_can_write(paths.output);
   const std::pair<const char*, const std::string&> data_files[] = {
       {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
   for (const auto& [name, path] : data_files) {
     if (path.empty()) continue;
     check_plane_format(path, name);
-    check_compression(path, compression);
     check_can_write(path);
   }
+  check_compression({paths.output, paths.coc, paths.confidence, paths.tiles}, compression);
 }
 
 RenderJob job_of(const Source& source, const RenderSettings& settings, const FrameReport& report) {
@@ -191,7 +193,8 @@ FileRender::~FileRender() = default;
 
 void FileRender::read() {
   State& s = *state_;
-  check_paths(s.paths);
+  const std::optional<ChainSettings>& chain = s.settings.method.chain;
+  check_paths(s.paths, {s.settings.camera.source, chain ? chain->aperture.image : ""});
   check_outputs(s.paths, s.settings.compression);
   Stopwatch watch;
   s.source.emplace(read_source(s.paths, s.settings, s.report));

@@ -91,8 +91,10 @@ DeviceInfo select_device(const std::string& wanted, const std::string& otherwise
   }
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-  if (error == std::errc() && end == wanted.data() + wanted.size() && index < devices.size()) {
-    return devices[index];
+  if (end == wanted.data() + wanted.size()) {
+    if (error == std::errc() && index < devices.size()) return devices[index];
+    fail(ErrorKind::device, "there is no OpenCL device {}; found: {}{}", wanted, listing(devices),
+         otherwise);
   }
   std::vector<DeviceInfo> matches;
   for (const DeviceInfo& info : devices) {

@@ -2,7 +2,8 @@
 
 #include <cstdio>
 
-int main(int, char** names) try {
+int main(int count, char** names) try {
+  if (count != 3) return std::puts("usage: example IN.exr OUT.exr"), 2;
   auto file = defray::PictureFile::read(names[1]);
   const auto& in = file.picture();
   defray::Picture picture{.data = in.data};  // and spans of floats: any renderer's planes will do
@@ -13,7 +14,7 @@ int main(int, char** names) try {
   options.chain->aperture.blades = 6;
   auto device = defray::Device::open();
   const auto result = defray::render(device, picture, lens, options);
-  std::printf("CoC up to %.1f px on %s\n", result.report.farthest_coc_px, device.name().c_str());
+  std::printf("CoC from %.1f px on\n", result.report.nearest_coc_px);
   file.write(names[2], result.colour);
 } catch (const defray::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -3,11 +3,11 @@
 // runs on every core, and gives the same bits on any number of them.
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 #include "base/plane.h"
+#include "defray/report.h"
 #include "measure/metrics.h"
 #include "scenes/scene.h"
 
@@ -42,9 +42,6 @@ struct Truth {
   /// mean's own error. 0 for 1 sample.
   double alpha_noise_rms = 0, alpha_noise_worst = 0;
 };
-
-/// Gets the share done, 0 to 1.
-using Progress = std::function<void(double)>;
 
 /// What a renderer's pinhole camera gives. At a straight edge, colour and alpha are right to
 /// 1.5/samples where it is level or upright, to samples^-3/4 where it slants. Throws Error(usage)

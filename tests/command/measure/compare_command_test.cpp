@@ -92,6 +92,12 @@ TEST_F(Compare, BoundsDecideTheExitCode) {
   EXPECT_EQ(code("a.exr b.exr --max-error 0.51"), 0);
   EXPECT_EQ(code("a.exr b.exr --max-error 0.49"), 1);
   EXPECT_EQ(code("a.exr a.exr --max-error 0 --min-ssim 1"), 0);
+  const Result missed =
+      defray(folder_, "compare a.exr b.exr --min-psnr 99 --min-ssim 1 --max-error 0.25");
+  for (const char* said : {"--min-psnr 99 is missed: ", "--min-ssim 1 is missed: 0.",
+                           "--max-error 0.25 is missed: 0.5"}) {
+    EXPECT_NE(missed.err.find(said), std::string::npos) << said << " is not in " << missed.err;
+  }
   const Plane bad(1536, NAN);
   ImageFile::from_planes({"R", "G", "B"}, {bad, bad, bad}, 48, 32).write(folder_ / "nan.exr");
   EXPECT_EQ(code("a.exr nan.exr --max-error 9"), 1);

@@ -128,6 +128,8 @@ TEST_F(BadInput, OptionValues) {
   expect_render_refused(base + "--work-group 0x4", 2, {"'0x4'", "64x1"});
   expect_render_refused(base + "--work-group 99999x99", 2, {"at most"});
   expect_render_refused(base + "--device nonesuch", 5, {"'nonesuch'", "reference"});
+  // A number is no part of a name, such as avx512.
+  expect_render_refused(base + "--device 512", 5, {"no OpenCL device 512", "found: 0: "});
   expect_render_refused(base + "--invert", 2, {"--invert", "normalized"});
   expect_render_refused(base + "--depth-kind normalized", 2, {"--near < --far"});
   expect_render_refused(base + "--frames 1-3", 2, {"--frames needs a pattern"});
@@ -152,6 +154,13 @@ TEST_F(BadInput, Outputs) {
   expect_render_refused("in.exr -o none/out.exr" + lens, 4, {"none", "cannot write in folder"});
   expect_render_refused("in.exr -o in.exr" + lens, 2, {"input and output at once"});
   expect_render_refused("in.exr -o ./in.exr" + lens, 2, {"input and output at once"});
+  shell(folder_, "cp small.exr bokeh.exr");
+  expect_render_refused("in.exr -o bokeh.exr --aperture-image bokeh.exr" + lens, 2,
+                        {"bokeh.exr: is input and output at once"});
+  std::ofstream(folder_ / "camera.exr")
+      << R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2})";
+  expect_render_refused("in.exr -o camera.exr --camera camera.exr", 2,
+                        {"camera.exr: is input and output at once"});
   expect_render_refused("in.exr -o small.exr --depth small.exr" + lens, 2, {"at once"});
   expect_render_refused("in.exr -o out.exr --coc-out out.exr" + lens, 2, {"the same file"});
   expect_render_refused("in.exr -o out.xyz" + lens, 2, {"'.xyz'", ".exr"});

@@ -33,6 +33,8 @@ TEST_F(OutputCommand, IsCompressedAsAsked) {
   EXPECT_EQ(ImageFile::read(folder_ / "rle.exr").plane(0, 0), red);
   expect_ok(defray(folder_, "render zip.exr -o lzw.tif --compression lzw" + lens));
   EXPECT_EQ(compression_of("lzw.tif"), "lzw");
+  expect_ok(defray(folder_, "render in.exr -o o.png --coc-out c.exr --compression none" + lens));
+  EXPECT_EQ(compression_of("c.exr"), "none");
   const Result lossy = defray(folder_, "render zip.exr -o p.exr --compression pxr24" + lens);
   expect_ok(lossy);
   EXPECT_NE(lossy.out.find("compression is lossy"), std::string::npos) << lossy.out;
