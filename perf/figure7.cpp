@@ -50,11 +50,9 @@ Section figure7(const Bench& bench) {
   const auto from = small.points[small.points.size() / 2].x, to = small.points.back().x;
   section.findings.push_back(fmt::format(
       "From {:.0f} to {:.0f} cells a side ({:.1f} times as many) the RDB takes {:.1f} times as "
-      "long "
-      "with the small CoC and {:.1f} times with the large one, the accumulation buffer {:.1f} "
-      "times. "
-      "Our scatter visits source pixel and cell, not the pixels of the CoC: its cost follows the "
-      "cells whatever the CoC, and is {} than the paper's flat curve where the CoC is large.",
+      "long with the small CoC and {:.1f} times with the large one, the accumulation buffer {:.1f} "
+      "times. Ours looks at each cell of each pixel, whatever the CoC: its cost grows with the "
+      "cells, and is {} than the paper's flat curve where the CoC is large.",
       from, to, (to * to) / (from * from), growth(small), growth(large), growth(views),
       growth(large) > 1.5 ? "steeper" : "no steeper"));
   return section;

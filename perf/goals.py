@@ -35,7 +35,7 @@ class Bench:
     def __init__(self, defray, folder, width, height):
         self.defray, self.folder, self.size = defray, folder, (width, height)
         self.run("scene", "spheres", "-o", folder, "--width", width, "--height", height,
-                 "--truth-samples", 1, "--setting", "f2")
+                 "--truth-samples", 1, "--focus-setting", "f2")
         for i in range(1, FRAMES + 1):
             shutil.copy(folder / "pinhole.exr", folder / f"in.{i:04}.exr")
         report = json.loads(self.run(

@@ -4,8 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
-#include <system_error>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -47,8 +45,7 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
 
 int run(const Options& o) {
   const std::vector<std::string> names = chosen_names(o.names);
-  std::error_code error;
-  std::filesystem::create_directories(o.folder, error);
+  create_folder(o.folder);
   check_can_write(o.folder + "/index.html");
   Session session(select_device(o.device));
   DeviceStages stages(session);

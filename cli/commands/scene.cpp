@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 
 #include "base/error.h"
@@ -142,8 +141,7 @@ void check(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
 int run(const SceneOptions& o) {
   const std::vector<FrameNumber> frames = frames_of(o);
   check(o, frames);
-  std::error_code error;
-  std::filesystem::create_directories(o.folder, error);
+  create_folder(o.folder);
   check_can_write(path_of(o, "pinhole", frames.front()));
   Noise noise;
   for (const FrameNumber frame : frames) write_frame(o, frame, noise);
@@ -174,7 +172,7 @@ Run add_scene(CLI::App& app) {
   command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");
-  command->add_option("--setting", o->setting, "The truth of this focus setting only");
+  command->add_option("--focus-setting", o->setting, "The truth of this focus setting only");
   command->add_option("--truth-samples", o->truth_samples, "Lens rays a pixel for the truth");
   command->add_option("--frames", o->frames,
                       "Frames of a scene that moves, as files like pinhole.0001.exr: 1-24, 1,5,9 "

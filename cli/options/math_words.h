@@ -5,6 +5,6 @@
 
 namespace defray::cli {
 
-inline const Words<Math> math_words{{"strict", Math::strict}, {"fast", Math::fast}};
+inline const WordTable<Math> math_words{{"strict", Math::strict}, {"fast", Math::fast}};
 
 }  // namespace defray::cli

@@ -63,7 +63,7 @@ inline OptionValue flag(bool& target, bool to = true) {
 
 /// One of some words.
 template <typename T>
-OptionValue word(std::function<void(const T&)> use, Words<T> words, std::string default_text) {
+OptionValue word(std::function<void(const T&)> use, WordTable<T> words, std::string default_text) {
   const auto read = std::make_shared<std::string>();
   return {[read, words](CLI::App& c, const std::string& name) {
             std::vector<std::string> names;
@@ -75,14 +75,15 @@ OptionValue word(std::function<void(const T&)> use, Words<T> words, std::string 
 }
 
 template <typename T>
-OptionValue word(T& target, Words<T> words) {
+OptionValue word(T& target, WordTable<T> words) {
   const std::string before = word_of(target, words);
   return word<T>([&target](const T& read) { target = read; }, std::move(words), before);
 }
 
 /// The same, where the option may stand without a word: `--eye`, `--eye=display`.
 template <typename T>
-OptionValue optional_word(std::optional<T>& target, Words<T> words, const std::string& implied) {
+OptionValue optional_word(std::optional<T>& target, WordTable<T> words,
+                          const std::string& implied) {
   const auto read = std::make_shared<std::string>();
   return {
       [read, implied](CLI::App& c, const std::string& name) {

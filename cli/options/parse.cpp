@@ -11,8 +11,8 @@
 namespace defray::cli {
 namespace {
 
-const Words<double> metres_in{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
-                              {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
+const WordTable<double> metres_in{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                                  {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
 
 }  // namespace
 

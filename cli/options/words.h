@@ -11,11 +11,11 @@ namespace defray::cli {
 
 /// Words and what each stands for, in the order they are shown in.
 template <typename T>
-using Words = std::vector<std::pair<std::string, T>>;
+using WordTable = std::vector<std::pair<std::string, T>>;
 
 /// The value that `word` names; an Error(usage) with the allowed words otherwise.
 template <typename T>
-T choice(const std::string& option, const std::string& word, const Words<T>& of) {
+T choice(const std::string& option, const std::string& word, const WordTable<T>& of) {
   std::vector<std::string> words;
   for (const auto& [name, value] : of) {
     if (name == word) return value;
@@ -27,7 +27,7 @@ T choice(const std::string& option, const std::string& word, const Words<T>& of)
 
 /// The word for a value; empty where there is none.
 template <typename T>
-std::string word_of(const T& value, const Words<T>& of) {
+std::string word_of(const T& value, const WordTable<T>& of) {
   for (const auto& [name, meaning] : of) {
     if (meaning == value) return name;
   }

@@ -1,15 +1,15 @@
 // The files, channels and depth of defray render.
 #include "image/further_channels.h"
-#include "render/render_job.h"
+#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
 
-const Words<DepthKind> depth_words{{"z", DepthKind::z},
-                                   {"distance", DepthKind::distance},
-                                   {"inverse", DepthKind::inverse},
-                                   {"normalized", DepthKind::normalized}};
-const Words<Nonfinite> nonfinite_words{
+const WordTable<DepthKind> depth_words{{"z", DepthKind::z},
+                                       {"distance", DepthKind::distance},
+                                       {"inverse", DepthKind::inverse},
+                                       {"normalized", DepthKind::normalized}};
+const WordTable<Nonfinite> nonfinite_words{
     {"error", Nonfinite::error}, {"zero", Nonfinite::zero}, {"keep", Nonfinite::keep}};
 const Scope of_depth{.methods = lens_methods};
 
@@ -49,7 +49,7 @@ std::vector<OptionRow> depth_rows(RenderSettings& s) {
 
 }  // namespace
 
-OptionGroup main_options(RenderJob& job) {
+OptionGroup main_options(RenderCommand& job) {
   return {"",
           {{"input",
             value(job.paths.input),
@@ -61,7 +61,7 @@ OptionGroup main_options(RenderJob& job) {
             {.field = "output", .is_required = true}}}};
 }
 
-OptionGroup file_options(RenderJob& job) {
+OptionGroup file_options(RenderCommand& job) {
   return {
       "Files",
       {{"--depth", value(job.paths.depth), "Take depth from this file", {.scope = of_depth}},
@@ -92,7 +92,7 @@ OptionGroup file_options(RenderJob& job) {
         "Read, render and write one frame after the other: less memory"}}};
 }
 
-OptionGroup channel_options(RenderJob& job) {
+OptionGroup channel_options(RenderCommand& job) {
   RenderSettings& s = job.settings;
   OptionGroup group{
       "Channels and depth",
@@ -114,7 +114,7 @@ OptionGroup channel_options(RenderJob& job) {
   return group;
 }
 
-OptionGroup terminal_options(RenderJob& job) {
+OptionGroup terminal_options(RenderCommand& job) {
   return {"Output to the terminal",
           {{"--json", flag(job.json), "One JSON line a frame instead of text"},
            {"--stats",

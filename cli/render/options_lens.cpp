@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "options/lens_rows.h"
-#include "render/render_job.h"
+#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
 
-const Words<Eye> eye_words{{"retina", Eye::retina}, {"display", Eye::display}};
-const Words<LensModel> model_words{{"cg", LensModel::cg}, {"breathing", LensModel::breathing}};
+const WordTable<Eye> eye_words{{"retina", Eye::retina}, {"display", Eye::display}};
+const WordTable<LensModel> model_words{{"cg", LensModel::cg}, {"breathing", LensModel::breathing}};
 
 /// An eye says aperture, focal length and pixel scale.
 bool is_eye_heard(const Given& given) {
@@ -51,7 +51,7 @@ CameraValues eye_of(const EyeOptions& e) {
 
 }  // namespace
 
-OptionGroup lens_options(RenderJob& job) {
+OptionGroup lens_options(RenderCommand& job) {
   RenderSettings& s = job.settings;
   OptionGroup group{"Lens", lens_rows(s.camera, "scene units"), {.methods = lens_methods}};
   const auto add = [&](std::vector<OptionRow> rows) {
@@ -85,7 +85,7 @@ OptionGroup lens_options(RenderJob& job) {
   return group;
 }
 
-void finish_lens(RenderJob& job) {
+void finish_lens(RenderCommand& job) {
   RenderSettings& s = job.settings;
   s.camera_from_metadata = job.camera == from_metadata;
   const CameraValues typed = s.camera;

@@ -1,21 +1,21 @@
 // The method of defray render, what each of them has, and the device.
-#include "render/render_job.h"
+#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
 
-const Words<GatherKind> gather_words{{"aware", GatherKind::aware},
-                                     {"literal", GatherKind::literal}};
-const Words<RaysBy> rays_words{{"gather", RaysBy::gather}, {"scatter", RaysBy::scatter}};
+const WordTable<GatherKind> gather_words{{"aware", GatherKind::aware},
+                                         {"literal", GatherKind::literal}};
+const WordTable<RaysBy> rays_words{{"gather", RaysBy::gather}, {"scatter", RaysBy::scatter}};
 const Scope of_rdb{{Method::rdb}}, of_gather{{Method::gather}};
 
-Words<Method> method_words() {
-  Words<Method> words;
+WordTable<Method> method_words() {
+  WordTable<Method> words;
   for (const Method method : all_methods) words.emplace_back(to_string(method), method);
   return words;
 }
 
-std::vector<OptionRow> rdb_rows(RenderJob& job) {
+std::vector<OptionRow> rdb_rows(RenderCommand& job) {
   RdbSettings& rdb = job.settings.method.rdb;
   return {
       {"--rdb",
@@ -73,7 +73,7 @@ OptionRow seed_row(MethodSettings& s) {
 
 }  // namespace
 
-OptionGroup method_options(RenderJob& job) {
+OptionGroup method_options(RenderCommand& job) {
   MethodSettings& s = job.settings.method;
   OptionGroup group{
       "Method",
@@ -99,7 +99,7 @@ OptionGroup tiltshift_options(TiltshiftSettings& s) {
           {{Method::tiltshift}}};
 }
 
-OptionGroup device_options(RenderJob& job) {
+OptionGroup device_options(RenderCommand& job) {
   const Scope on_devices{.reference = false};
   return {
       "Device",

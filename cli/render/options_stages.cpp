@@ -1,17 +1,17 @@
 // The options of defray render that bring the ray distribution buffer closer to the truth.
-#include "render/render_job.h"
+#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
 
-const Words<Quality> quality_words{{"preview", Quality::preview},
-                                   {"draft", Quality::draft},
-                                   {"normal", Quality::normal},
-                                   {"high", Quality::high}};
-const Words<bool> pixel_words{{"all", false}, {"half", true}};
-const Words<Hidden> hidden_words{
+const WordTable<Quality> quality_words{{"preview", Quality::preview},
+                                       {"draft", Quality::draft},
+                                       {"normal", Quality::normal},
+                                       {"high", Quality::high}};
+const WordTable<bool> pixel_words{{"all", false}, {"half", true}};
+const WordTable<Hidden> hidden_words{
     {"off", Hidden::off}, {"smooth", Hidden::smooth}, {"on", Hidden::on}};
-const Words<Border> border_words{
+const WordTable<Border> border_words{
     {"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}};
 
 /// "preview: --rdb 6 --hidden smooth --pixels half".
@@ -51,12 +51,12 @@ OptionGroup stage_options(ChainSettings& s) {
        {"--pixels", word(s.half_size, pixel_words),
         "Which go through the lens: all; half: means of 2x2, the detail of what is sharp put back"},
        {"--edges",
-        word(s.split_edges, Words<bool>{{"split", true}, {"keep", false}}),
+        word(s.split_edges, WordTable<bool>{{"split", true}, {"keep", false}}),
         "Anti-aliased pixels: split into what is in front and behind, or keep",
         {.needs = {[&s](const Given&) { return s.hidden != Hidden::off; },
                    "means nothing to --hidden off: without what lies behind no pixel is split"}}},
        {"--keep-depth", flag(s.repair_depth, false), "Do not repair depth that looks anti-aliased"},
-       {"--highlights", word(s.highlights, Words<bool>{{"discs", true}, {"rays", false}}),
+       {"--highlights", word(s.highlights, WordTable<bool>{{"discs", true}, {"rays", false}}),
         "Small bright sources: discs of the aperture's shape, or rays like others"},
        {"--border", word(s.border, border_words),
         "Outside the data window: clamp: its edge goes on; black; renormalise: only known rays "

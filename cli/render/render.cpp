@@ -3,7 +3,7 @@
 #include "defray/defray.h"
 #include "exit_code.h"
 #include "image/sequence.h"
-#include "render/render_job.h"
+#include "render/render_command.h"
 #include "render/sequence_run.h"
 
 namespace defray::cli {
@@ -21,7 +21,7 @@ Examples:
       --focus 3 --fstop 4 --focal-length 50)";
 
 /// The frames to render; a single empty one for a picture without a pattern.
-std::vector<std::optional<int>> frames_of(const RenderJob& job) {
+std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   const FramePaths& p = job.paths;
   const bool is_sequence = has_frame_pattern(p.input);
   if (!is_sequence) {
@@ -46,7 +46,7 @@ std::vector<std::optional<int>> frames_of(const RenderJob& job) {
   return {numbers.begin(), numbers.end()};
 }
 
-int run(const OptionTable& options, RenderJob& job) {
+int run(const OptionTable& options, RenderCommand& job) {
   options.set();
   const auto frames = frames_of(job);
   options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
@@ -67,7 +67,7 @@ Run add_render(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("render", "Render depth of field into a picture or a sequence");
   command->footer(footer);
-  const auto job = std::make_shared<RenderJob>();
+  const auto job = std::make_shared<RenderCommand>();
   const OptionTable options(*command, render_options(*job));
   return [options, job] { return run(options, *job); };
 }

@@ -18,7 +18,7 @@ FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   return paths;
 }
 
-Device open_device(const RenderJob& job) {
+Device open_device(const RenderCommand& job) {
   check_output_format(job.paths.output);
   Device device = Device::open(job.device, {job.math});
   if (job.is_on_reference()) return device;
@@ -35,7 +35,7 @@ Device open_device(const RenderJob& job) {
 
 }  // namespace
 
-SequenceRun::SequenceRun(const RenderJob& job, std::vector<std::optional<int>> frames)
+SequenceRun::SequenceRun(const RenderCommand& job, std::vector<std::optional<int>> frames)
     : job_(job),
       frames_(std::move(frames)),
       bar_(frames_.size(), frames_.size() == 1 ? "frame" : "frames", !job.quiet) {}

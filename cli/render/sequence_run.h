@@ -8,7 +8,7 @@
 
 #include "defray/defray.h"
 #include "progress.h"
-#include "render/render_job.h"
+#include "render/render_command.h"
 #include "render/render_report.h"
 
 namespace defray::cli {
@@ -16,7 +16,7 @@ namespace defray::cli {
 class SequenceRun {
  public:
   /// Opens the device. A single frame without a number is a picture. Throws Error.
-  SequenceRun(const RenderJob& job, std::vector<std::optional<int>> frames);
+  SequenceRun(const RenderCommand& job, std::vector<std::optional<int>> frames);
 
   /// Renders all, and tells about each in its order. How many have failed, where --skip-bad-frames
   /// lets the run go on; else throws the first one's Error.
@@ -41,7 +41,7 @@ class SequenceRun {
   void finish(Work work);
   void report(const FrameOutcome& outcome);
 
-  const RenderJob& job_;
+  const RenderCommand& job_;
   std::vector<std::optional<int>> frames_;
   ProgressBar bar_;
   std::optional<Device> device_;  ///< Opened while the first frame is read.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <set>
 
 #include "base/error.h"
@@ -114,8 +113,7 @@ std::string intro_of(const ValidateOptions& o) {
 
 int run(const ValidateOptions& o) {
   const Settings settings = settings_of(o);
-  std::error_code ignored;
-  std::filesystem::create_directories(o.folder, ignored);
+  create_folder(o.folder);
   check_can_write(o.folder + "/report.html");
   if (o.arithmetic) return run_arithmetic(o);
   std::vector<std::string> notes;

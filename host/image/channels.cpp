@@ -70,12 +70,15 @@ void prefer(std::vector<T>& items, const Keep& keep) {
   if (!kept.empty()) items = std::move(kept);
 }
 
+std::string place_of(const std::string& layer, const std::string& view) {
+  if (layer.empty() && view.empty()) return "no layer";
+  return (layer.empty() ? "" : fmt::format("layer '{}'{}", layer, view.empty() ? "" : " ")) +
+         (view.empty() ? "" : fmt::format("view '{}'", view));
+}
+
 std::string colour_listing(const std::vector<ColourChoice>& choices) {
   std::vector<std::string> lines;
-  for (const ColourChoice& c : choices) {
-    lines.push_back(fmt::format("layer '{}'{}", c.layer,
-                                c.view.empty() ? "" : fmt::format(" view '{}'", c.view)));
-  }
+  for (const ColourChoice& c : choices) lines.push_back(place_of(c.layer, c.view));
   return join(lines, ", ");
 }
 
@@ -157,8 +160,8 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
     }
   }
   if (left.empty()) {
-    fail(ErrorKind::input, "{}: no colour in layer '{}' view '{}'; there is {}", path,
-         request.layer, request.view, colour_listing(all));
+    fail(ErrorKind::input, "{}: no colour in {}; there is some in {}", path,
+         place_of(request.layer, request.view), colour_listing(all));
   }
   static const std::set<std::string> beauty{"rgba", "rgb",    "beauty", "combined",
                                             "c",    "colour", "color",  "main"};

@@ -85,7 +85,11 @@ ImageFile::~ImageFile() = default;
 
 ImageFile ImageFile::read(const std::string& path, Content content) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail(ErrorKind::input, "{}: no such file", path);
+  if (!std::filesystem::exists(path, error)) {
+    const bool is_glob = path.find_first_of("*?") != std::string::npos;
+    fail(ErrorKind::input, "{}: no such file{}", path,
+         is_glob ? "; #### stands for the numbers of a sequence" : "");
+  }
   if (std::filesystem::is_directory(path, error)) {
     fail(ErrorKind::input, "{}: is a folder, not an image", path);
   }

@@ -69,6 +69,14 @@ void sync_path(const std::string& what, const std::string& path) {
 
 }  // namespace
 
+void create_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    fail(ErrorKind::output, "{}: cannot create this folder: {}", path, error.message());
+  }
+}
+
 void check_can_write(const std::string& path) {
   std::error_code names_nothing;  // what is wrong with it then, opening tells
   if (fs::is_directory(path, names_nothing)) {

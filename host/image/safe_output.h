@@ -5,6 +5,9 @@
 
 namespace defray {
 
+/// A folder for outputs, with those that it lies in. Throws Error(output) where it cannot be.
+void create_folder(const std::string& path);
+
 /// Throws Error(output) unless a file could be created where `path` is to go, without touching
 /// what is there. For finding out before the work rather than after.
 void check_can_write(const std::string& path);

@@ -52,18 +52,18 @@ TEST(SceneCommand, OneSettingIsPlainTruth) {
 
 TEST(SceneCommand, SettingChoosesOne) {
   const Folder folder;
-  expect_ok(defray(folder, "scene plate2 --setting f5" + small));
+  expect_ok(defray(folder, "scene plate2 --focus-setting f5" + small));
   EXPECT_TRUE(exists(folder, "truth_f5.exr"));
   EXPECT_FALSE(exists(folder, "truth_f3.exr"));
   EXPECT_EQ(camera(folder)["focus_settings"].size(), 4u);
-  const Result wrong = defray(folder, "scene blocks-lake --setting minature" + small);
+  const Result wrong = defray(folder, "scene blocks-lake --focus-setting minature" + small);
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.err.find("Did you mean 'miniature'?"), std::string::npos) << wrong.err;
 }
 
 TEST(SceneCommand, HiddenWritesTheSecondLayer) {
   const Folder folder;
-  expect_ok(defray(folder, "scene spheres --hidden --setting f2" + small));
+  expect_ok(defray(folder, "scene spheres --hidden --focus-setting f2" + small));
   const ImageFile hidden = ImageFile::read(folder / "hidden.exr");
   ASSERT_EQ(hidden.parts()[0].channels, (std::vector<std::string>{"R", "G", "B", "Z"}));
   const Plane front = ImageFile::read(folder / "pinhole.exr").plane(0, 3);
@@ -86,16 +86,16 @@ TEST(SceneCommand, HelpListsEveryScene) {
 
 TEST(SceneCommand, OneCoreGivesTheSameBits) {
   const Folder folder;
-  expect_ok(defray(folder, "scene spheres --setting f2" + small));
+  expect_ok(defray(folder, "scene spheres --focus-setting f2" + small));
   const std::uint64_t all = file_hash(folder / "truth_f2.exr");
   std::filesystem::remove(folder / "truth_f2.exr");
-  expect_ok(defray(folder, "scene spheres --setting f2" + small, "taskset -c 0"));
+  expect_ok(defray(folder, "scene spheres --focus-setting f2" + small, "taskset -c 0"));
   EXPECT_EQ(file_hash(folder / "truth_f2.exr"), all);
 }
 
 TEST(SceneCommand, PinholeSamplesSmoothColourAndAntialiasedDepthTheDepth) {
   const Folder folder;
-  const std::string command = "scene cutout --setting near" + small;
+  const std::string command = "scene cutout --focus-setting near" + small;
   const auto plane = [&](int channel) {
     return ImageFile::read(folder / "pinhole.exr").plane(0, channel);
   };
@@ -110,9 +110,9 @@ TEST(SceneCommand, PinholeSamplesSmoothColourAndAntialiasedDepthTheDepth) {
 
 TEST(SceneCommand, AlphaIsAChannelAndLeavesTheBackgroundOut) {
   const Folder folder;
-  expect_ok(defray(folder, "scene spheres --setting f2" + small));
+  expect_ok(defray(folder, "scene spheres --focus-setting f2" + small));
   const Plane sky = ImageFile::read(folder / "pinhole.exr").plane(0, 2);
-  const Result result = defray(folder, "scene spheres --setting f2 --hidden --alpha" + small);
+  const Result result = defray(folder, "scene spheres --focus-setting f2 --hidden --alpha" + small);
   expect_ok(result);
   EXPECT_NE(result.out.find("its alpha is about"), std::string::npos) << result.out;
   EXPECT_EQ(ImageFile::read(folder / "hidden.exr").parts()[0].channels,
@@ -130,7 +130,7 @@ TEST(SceneCommand, AlphaIsAChannelAndLeavesTheBackgroundOut) {
 
 TEST(SceneCommand, FramesWriteASequence) {
   const Folder folder;
-  expect_ok(defray(folder, "scene drift --setting face --hidden --frames 1,24" + small));
+  expect_ok(defray(folder, "scene drift --focus-setting face --hidden --frames 1,24" + small));
   for (const char* name : {"pinhole", "hidden", "truth_face"}) {
     const std::string first = name + std::string(".0001.exr"),
                       last = name + std::string(".0024.exr");
@@ -139,7 +139,7 @@ TEST(SceneCommand, FramesWriteASequence) {
   EXPECT_FALSE(exists(folder, "pinhole.0002.exr"));
   EXPECT_FALSE(exists(folder, "pinhole.exr"));
   EXPECT_TRUE(camera(folder)["focus_settings"]["face"].contains("truth_noise_psnr_srgb_db"));
-  expect_ok(defray(folder, "scene drift --setting face" + small));
+  expect_ok(defray(folder, "scene drift --focus-setting face" + small));
   EXPECT_EQ(file_hash(folder / "pinhole.exr"), file_hash(folder / "pinhole.0001.exr"));
 }
 
@@ -154,12 +154,17 @@ TEST(SceneCommand, RefusesBeforeItWritesAnything) {
       {"drift --frames 20-25", {"scene 'drift' has no frame 25: allowed are 1 to 24"}},
       {"drift --frames 0", {"scene 'drift' has no frame 0"}},
       {"drift --frames a-b", {"--frames 'a-b'"}},
-      {"drift --setting fase", {"no focus setting 'fase'", "Did you mean 'face'?"}}};
+      {"drift --focus-setting fase", {"no focus setting 'fase'", "Did you mean 'face'?"}}};
   for (const auto& [arguments, words] : cases) {
     expect_refusal(defray(folder, "scene -o out " + arguments), 2, words, arguments);
     EXPECT_FALSE(std::filesystem::exists(folder / "out")) << arguments;
   }
   expect_refusal(defray(folder, "scene plate1 -o ''"), 2, {"--output", "is empty"}, "empty");
+  std::ofstream(folder / "file") << "a file";
+  for (const std::string command : {"scene plate1", "validate --quick"}) {
+    expect_refusal(defray(folder, command + " -o file/in"), 4,
+                   {"file/in: cannot create this folder: Not a directory"}, command);
+  }
 }
 
 }  // namespace

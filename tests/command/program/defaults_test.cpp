@@ -44,9 +44,9 @@ TEST(Defaults, OfRenderAreThoseThatHelpStates) {
 TEST(Defaults, OfScenesAreThoseThatHelpStates) {
   const Folder folder;
   const std::string size = " --width 24 --height 18";
-  expect_ok(defray(folder, "scene fence --setting bg -o brief" + size));
+  expect_ok(defray(folder, "scene fence --focus-setting bg -o brief" + size));
   expect_ok(defray(folder,
-                   "scene fence --setting bg -o whole --truth-samples 256 "
+                   "scene fence --focus-setting bg -o whole --truth-samples 256 "
                    "--pinhole-samples 16 --seed 1" +
                        size));
   for (const std::string file : {"/pinhole.exr", "/truth_bg.exr"}) {

@@ -31,6 +31,7 @@ class BadInput : public testing::Test {
 TEST_F(BadInput, Files) {
   expect_render_refused("none.exr -o out.exr" + lens, 3, {"none.exr", "no such file"});
   expect_render_refused(". -o out.exr" + lens, 3, {"is a folder"});
+  expect_render_refused("'in.*.exr' -o out.exr" + lens, 3, {"in.*.exr: no such file; #### stands"});
   std::ofstream(folder_ / "text.exr") << "not an image";
   expect_render_refused("text.exr -o out.exr" + lens, 3, {"text.exr", "not a readable image"});
   std::ofstream(folder_ / "text.png") << "not an image";
@@ -45,8 +46,9 @@ TEST_F(BadInput, Channels) {
   expect_render_refused("normals.exr -o out.exr" + lens, 3, {"no depth", "N.Z"});
   expect_render_refused("depth.exr -o out.exr" + lens, 3, {"no colour"});
   expect_render_refused("two.exr -o out.exr" + lens, 3, {"depth.Z, zdepth.Z", "--depth-channel"});
-  expect_render_refused("in.exr -o out.exr --layer beauty" + lens, 3, {"'beauty'"});
-  expect_render_refused("in.exr -o out.exr --view left" + lens, 3, {"'left'"});
+  expect_render_refused("in.exr -o out.exr --layer beauty" + lens, 3,
+                        {"no colour in layer 'beauty'; there is some in no layer"});
+  expect_render_refused("in.exr -o out.exr --view left" + lens, 3, {"no colour in view 'left'; "});
   expect_render_refused("in.exr -o out.exr --depth-channel z" + lens, 3, {"'z'", "'Z'"});
   expect_render_refused("in.exr --depth small.exr -o out.exr" + lens, 3,
                         {"20x10+0+0", "48x32+0+0"});

@@ -21,7 +21,7 @@ struct EyeOptions {
 };
 
 /// Rows set members of this; finish() makes the settings complete.
-struct RenderJob {
+struct RenderCommand {
   FramePaths paths;  ///< With the frame number's pattern, where there is one.
   std::string frames;
   RenderSettings settings;
@@ -48,27 +48,27 @@ inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Metho
 /// What only the stages around the RDB have.
 inline const Scope of_stages{{Method::rdb}, false, true};
 
-OptionGroup main_options(RenderJob& job);
-OptionGroup file_options(RenderJob& job);
-OptionGroup channel_options(RenderJob& job);
-OptionGroup lens_options(RenderJob& job);
-OptionGroup method_options(RenderJob& job);
+OptionGroup main_options(RenderCommand& job);
+OptionGroup file_options(RenderCommand& job);
+OptionGroup channel_options(RenderCommand& job);
+OptionGroup lens_options(RenderCommand& job);
+OptionGroup method_options(RenderCommand& job);
 OptionGroup tiltshift_options(TiltshiftSettings& tiltshift);
 OptionRow quality_row(ChainSettings& stages);  ///< Before what it sets: --rdb, --hidden.
 OptionGroup stage_options(ChainSettings& stages);
 OptionGroup aperture_options(Aperture& aperture);
-OptionGroup device_options(RenderJob& job);
-OptionGroup terminal_options(RenderJob& job);
+OptionGroup device_options(RenderCommand& job);
+OptionGroup terminal_options(RenderCommand& job);
 
 /// All of them, in the order of --help and of their setting.
-std::vector<OptionGroup> render_options(RenderJob& job);
+std::vector<OptionGroup> render_options(RenderCommand& job);
 
 /// What follows from the options together: memory, stages, lens. Throws Error(usage) on values and
 /// combinations that are not allowed, Error(input) for a camera file.
-void finish(RenderJob& job);
+void finish(RenderCommand& job);
 
 /// Its part of the lens: typed values win over the eye's, those over the camera file's or the
 /// metadata's.
-void finish_lens(RenderJob& job);
+void finish_lens(RenderCommand& job);
 
 }  // namespace defray::cli

@@ -1,10 +1,10 @@
-#include "render/render_job.h"
+#include "render/render_command.h"
 
 #include "lens/depth.h"
 #include "methods/tiltshift.h"
 
 namespace defray::cli {
-std::size_t RenderJob::memory_bytes() const {
+std::size_t RenderCommand::memory_bytes() const {
   if (!(memory_mib > 0) || memory_mib > 1048576) {
     fail(ErrorKind::usage, "--memory is {} MiB: allowed are numbers above 0, up to 1048576",
          memory_mib);
@@ -12,7 +12,7 @@ std::size_t RenderJob::memory_bytes() const {
   return static_cast<std::size_t>(memory_mib * 1048576);
 }
 
-std::vector<OptionGroup> render_options(RenderJob& job) {
+std::vector<OptionGroup> render_options(RenderCommand& job) {
   return {main_options(job),
           file_options(job),
           channel_options(job),
@@ -25,7 +25,7 @@ std::vector<OptionGroup> render_options(RenderJob& job) {
           terminal_options(job)};
 }
 
-void finish(RenderJob& job) {
+void finish(RenderCommand& job) {
   RenderSettings& s = job.settings;
   MethodSettings& m = s.method;
   job.memory_bytes();  // before anything is read
