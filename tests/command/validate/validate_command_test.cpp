@@ -132,7 +132,7 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
 
 TEST_F(ValidateCommand, AFolderThatCannotBeWrittenIsSaidAtOnce) {
   std::ofstream(folder / "file") << "no folder";
-  expect_refused("-o file --kernel coc", 4, {"file/report.html"});
+  expect_refused("-o file --kernel coc", 4, {"file: cannot create this folder"});
   expect_refused("-o file/report --kernel coc", 4, {"file/report"});
   expect_refused("-o /proc/none --kernel coc", 4, {"/proc/none"});
 }
