@@ -1,4 +1,6 @@
 // The diffraction PSF against closed forms, the geometric one against the CoC.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "host/measure/psf_support.h"
@@ -115,7 +117,9 @@ TEST(Psf, RefusesWhatHasNoPsf) {
   expect_error(ErrorKind::usage, {"width is 0"}, [] { image_of_point(lens_of(3, 2.8), 4, 0); });
   expect_error(ErrorKind::usage, {"does not converge with 32768 nodes", "Fresnel zones"},
                [] { DiffractionPsf(image_of(0.1, 3, 0.5), green, 1e-3); });
-  expect_error(ErrorKind::usage, {"does not converge"},
+  const std::string radii =
+      fmt::format("radii up to {:.4g} Airy", 1 / airy_radius_m(image_of(3), green));
+  expect_error(ErrorKind::usage, {"does not converge", radii},
                [] { DiffractionPsf(image_of(3), green, 1); });
 }
 
