@@ -1,58 +1,18 @@
 #include "image/image_file.h"
 
-#include <OpenImageIO/imageio.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "image/image_file_part.h"
 
 namespace defray {
 namespace {
 
-using OIIO::ImageInput;
 using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-constexpr std::int64_t max_pixels = std::int64_t{1} << 28;  // 16384 x 16384
-constexpr int max_side = 1 << 16;
-constexpr int max_channels = 4096;
-
-/// First line of an OpenImageIO message, which may repeat itself over several.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-std::uint64_t physical_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-}
-
-/// Sizes come from the header, before anything is allocated: OpenImageIO does not limit EXR.
-void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t bytes_before) {
-  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
-  if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
-      pixels > max_pixels || spec.depth > 1) {
-    fail(ErrorKind::input,
-         "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all", path,
-         spec.width, spec.height, spec.depth, max_side, max_pixels);
-  }
-  if (spec.nchannels < 1 || spec.nchannels > max_channels) {
-    fail(ErrorKind::input, "{}: header says {} channels; allowed are 1 to {}", path, spec.nchannels,
-         max_channels);
-  }
-  if (spec.full_width < 1 || spec.full_height < 1) {
-    fail(ErrorKind::input, "{}: display window {}x{} is empty", path, spec.full_width,
-         spec.full_height);
-  }
-  const std::uint64_t bytes = bytes_before + spec.image_bytes(true);
-  if (bytes > physical_memory()) {
-    fail(ErrorKind::input, "{}: its pixels take {} MiB; this machine has {} MiB of memory", path,
-         bytes >> 20, physical_memory() >> 20);
-  }
-}
 
 std::vector<std::string> string_list(const ImageSpec& spec, const std::string& name) {
   const OIIO::ParamValue* value = spec.find_attribute(name);
@@ -73,70 +33,10 @@ std::size_t channel_offset(const ImageSpec& spec, int channel) {
 
 }  // namespace
 
-struct ImageFile::Part {
-  ImageSpec spec;
-  std::vector<std::byte> pixels;
-};
-
 ImageFile::ImageFile() = default;
 ImageFile::ImageFile(ImageFile&&) noexcept = default;
 ImageFile& ImageFile::operator=(ImageFile&&) noexcept = default;
 ImageFile::~ImageFile() = default;
-
-ImageFile ImageFile::read(const std::string& path, Content content) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    const bool is_glob = path.find_first_of("*?") != std::string::npos;
-    fail(ErrorKind::input, "{}: no such file{}", path,
-         is_glob ? "; #### stands for the numbers of a sequence" : "");
-  }
-  if (std::filesystem::is_directory(path, error)) {
-    fail(ErrorKind::input, "{}: is a folder, not an image", path);
-  }
-  if (!is_ldr_path(path)) return read_linear_file(path);
-  const LdrPicture picture = read_ldr(path, content);
-  const Sample sample = content == Content::data ? Sample::single_float : Sample::half_float;
-  ImageFile file =
-      from_planes(picture.channels, picture.planes, picture.width, picture.height, sample);
-  file.path_ = path;
-  return file;
-}
-
-ImageFile ImageFile::read_linear_file(const std::string& path) {
-  ImageFile file;
-  file.path_ = path;
-  // Damaged headers make the library throw now and then; all of it is one kind of bad input.
-  try {
-    const auto input = ImageInput::open(path);
-    if (!input) {
-      fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(OIIO::geterror()));
-    }
-    std::uint64_t bytes = 0;
-    for (int s = 0; input->seek_subimage(s, 0); ++s) {
-      const ImageSpec spec = input->spec();
-      check_size(path, spec, bytes);
-      bytes += spec.image_bytes(true);
-      if (spec.deep) {
-        fail(ErrorKind::input, "{}: is a deep image; flatten it first (oiiotool --flatten)", path);
-      }
-      Part part{spec, std::vector<std::byte>(spec.image_bytes(true))};
-      if (!input->read_image(s, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, part.pixels.data())) {
-        fail(ErrorKind::input, "{}: cannot read its pixels: {}", path,
-             first_line(input->geterror()));
-      }
-      file.parts_.push_back(std::move(part));
-    }
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    fail(ErrorKind::input, "{}: not enough memory to read it", path);
-  } catch (const std::exception& error) {
-    fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(error.what()));
-  }
-  if (file.parts_.empty()) fail(ErrorKind::input, "{}: holds no image", path);
-  file.refresh_info();
-  return file;
-}
 
 ImageFile ImageFile::from_planes(const std::vector<std::string>& channels,
                                  const std::vector<Plane>& planes, int width, int height,
