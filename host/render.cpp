@@ -20,12 +20,12 @@ Frame frame_of(RenderJob& job) {
   return f;
 }
 
-Quanta coc_of(const RenderJob& job, const Frame& f, Stages& stages) {
+Quanta coc_of(const RenderJob& job, const Frame& f, Backend& backend) {
   if (job.method.method == Method::tiltshift) {
-    return stages.tiltshift(
+    return backend.tiltshift(
         tiltshift_params(job.tiltshift, f.width, f.height, f.origin_y, f.display_height));
   }
-  return stages.coc(job.lens, f.display_width, f.depth);
+  return backend.coc(job.lens, f.display_width, f.depth);
 }
 
 void describe_coc(const RenderJob& job, Rendered& out) {
@@ -49,12 +49,12 @@ void describe(const Rendered& rendered, const MethodSettings& method, RenderRepo
   if (method.method == Method::rdb && method.chain) report.chain = rendered.result.report;
 }
 
-Rendered render(RenderJob job, Stages& stages, const Progress& progress) {
+Rendered render(RenderJob job, Backend& backend, const Progress& progress) {
   Rendered out;
   out.frame = frame_of(job);
-  out.frame.coc_quanta = coc_of(job, out.frame, stages);
+  out.frame.coc_quanta = coc_of(job, out.frame, backend);
   describe_coc(job, out);
-  out.result = apply_method(out.frame, job.method, stages, job.wants_nearest, progress);
+  out.result = apply_method(out.frame, job.method, backend, job.wants_nearest, progress);
   return out;
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/window.h"
 #include "defray/report.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "lens/lens.h"
 #include "methods/method.h"
 #include "methods/tiltshift.h"
@@ -32,6 +32,6 @@ struct Rendered {
 void describe(const Rendered& rendered, const MethodSettings& method, RenderReport& report);
 
 /// Throws Error.
-Rendered render(RenderJob job, Stages& stages, const Progress& progress = {});
+Rendered render(RenderJob job, Backend& backend, const Progress& progress = {});
 
 }  // namespace defray

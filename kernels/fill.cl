@@ -10,7 +10,7 @@
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
-// mixed        [height][width]    from `edges`: their colour is two surfaces'
+// mixed        [height][width]    from kernel `mixed`: their colour is two surfaces'
 // farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;
 //                                 DEFRAY_NOTHING_BEHIND: none behind them
 // channel0..3  [height][width]

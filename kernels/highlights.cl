@@ -1,7 +1,7 @@
 // highlights: finds small bright sources.
 //
-// A lens cell either sees a source at a pixel or not: far brighter than what is around, it shows as
-// dots. This finds such fragments: brighter than DEFRAY_HIGHLIGHT times the median of 32 pixels
+// A lens point either sees a source at a pixel or not: far brighter than what is around, it shows
+// as dots. This finds such fragments: brighter than DEFRAY_HIGHLIGHT times the median of 32 pixels
 // around the disc they will fill, those that were seen. What they have above that median goes to
 // `highlights_add`, the median stays with the rays.
 //

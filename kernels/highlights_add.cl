@@ -12,7 +12,7 @@
 // where        [highlights]       (x, y in the frame, coc in quanta, 0)
 // excess       [highlights]       their light
 // table        [side][side]       summed light of the aperture (host/lens/aperture_table.h)
-// cell_at      [side][side]       nearest lens cell, over the square around the lens
+// cell_at      [side][side]       nearest lens point, over the square around the lens
 // winner, coc_quanta, coverage (window)     as in rdb_merge; all cells in one pass
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
 // sum0..3      [band_rows][width] in and out
@@ -87,14 +87,14 @@ ulong light_through(__global const uint* restrict table, const long4 box, const 
   return light;
 }
 
-// Row or column of the map of lens cells.
+// Row or column of the map of lens points.
 int map_entry(const int eighths, const int coc) {
   const long lens = (long)eighths * (1L << 21) / (long)coc + LENS_RADIUS;
   const long at = lens >> (DEFRAY_LENS_FRACTION_BITS + 1 - DEFRAY_CELL_MAP_BITS);
   return (int)(at < 0 ? 0 : at > DEFRAY_CELL_MAP - 1 ? DEFRAY_CELL_MAP - 1 : at);
 }
 
-// The lens cell nearest to the way from a source to a point of a pixel, in eighths of a pixel.
+// The lens point nearest to the way from a source to a point of a pixel, in eighths of a pixel.
 uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
   return cell_at[map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)];
 }

@@ -25,7 +25,7 @@
 #define DEFRAY_COC_LIMIT_QUANTA (1 << 30)
 /// A cell that no ray has reached: both halves of its (depth, source) key. As depth: no fragment.
 #define DEFRAY_EMPTY 0xffffffffu
-/// Pixels of a row that a work-item takes at once, as one vector, in `edges`, `fill`, `repair` and
+/// Pixels of a row that a work-item takes at once, as one vector, in `mixed`, `fill`, `repair` and
 /// `soften`.
 #define DEFRAY_RUN 16
 /// A fragment that covers its whole pixel.
@@ -52,7 +52,7 @@
 #define DEFRAY_HIGHLIGHT 10.0f
 /// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
 #define DEFRAY_HIGHLIGHT_TILE 16
-/// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens cell.
+/// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens point.
 #define DEFRAY_WIDE_QUANTA 1024
 /// Below this CoC (half a pixel) a fragment's rays stay in its pixel.
 #define DEFRAY_SHARP_QUANTA 128
@@ -60,7 +60,7 @@
 #define DEFRAY_LIGHT_TILE 32
 /// Entries a side of the aperture's summed-area table: one more than texels.
 #define DEFRAY_APERTURE_TABLE 513
-/// Side of the map of lens cells, 2^6.
+/// Side of the map of lens points, 2^6.
 #define DEFRAY_CELL_MAP_BITS 6
 #define DEFRAY_CELL_MAP (1 << DEFRAY_CELL_MAP_BITS)
 
@@ -119,8 +119,8 @@ typedef struct {
   DEFRAY_UINT window_rows;
   DEFRAY_UINT band_y;  ///< First target row, in frame coordinates.
   DEFRAY_UINT band_rows;
-  DEFRAY_UINT first_cell;     ///< First lens cell of this pass.
-  DEFRAY_UINT cell_count;     ///< Lens cells in this pass.
+  DEFRAY_UINT first_cell;     ///< First lens point of this pass.
+  DEFRAY_UINT cell_count;     ///< Lens points in this pass.
   DEFRAY_UINT is_first_pass;  ///< 1: sums start at zero.
   DEFRAY_UINT is_last_pass;   ///< 1: sums become means.
   DEFRAY_UINT is_index_pass;  ///< 1: second of two scatters, without 64-bit atomics.
@@ -131,7 +131,7 @@ typedef struct {
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
   DEFRAY_UINT has_rim;      ///< 1: the lens's rim cuts off cells, see rim.clh.
-  DEFRAY_UINT all_cells;    ///< Lens cells of all passes.
+  DEFRAY_UINT all_cells;    ///< Lens points of all passes.
   DEFRAY_UINT has_data_of;  ///< 0: every fragment has data of its own (`rdb_nearest`).
 } DefrayRdbParams;
 
@@ -148,8 +148,8 @@ typedef struct {
   DEFRAY_UINT band_end;  ///< One past the last target column.
   DEFRAY_UINT band_y;    ///< First target row, in frame coordinates.
   DEFRAY_UINT band_rows;
-  DEFRAY_UINT first_cell;     ///< First lens cell of this pass.
-  DEFRAY_UINT cell_count;     ///< Lens cells in this pass.
+  DEFRAY_UINT first_cell;     ///< First lens point of this pass.
+  DEFRAY_UINT cell_count;     ///< Lens points in this pass.
   DEFRAY_UINT is_first_pass;  ///< 1: sums start at zero.
   DEFRAY_UINT is_last_pass;   ///< 1: sums become means.
   DEFRAY_UINT tiles_x;
@@ -167,7 +167,7 @@ typedef struct {
   DEFRAY_UINT light_tiles_x;
 } DefrayRaysParams;
 
-/// A whole frame: `repair`, `edges`, `split`.
+/// A whole frame: `repair`, `mixed`, `split`.
 typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
@@ -190,12 +190,12 @@ typedef struct {
   DEFRAY_UINT directions;  ///< 8, or DEFRAY_FILL_DIRECTIONS.
 } DefrayFillParams;
 
-/// Colours averaged over what one lens cell sees: `soften`.
+/// Colours averaged over what one lens point sees: `soften`.
 typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
   DEFRAY_UINT layers;
-  float cells_a_side;  ///< Of a square grid around the lens as dense as its samples.
+  float cells_per_side;  ///< Of a square grid around the lens as dense as its points.
 } DefraySoftenParams;
 
 /// Which fragments are highlights.
@@ -274,7 +274,7 @@ typedef struct {
   DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
   DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
   DEFRAY_UINT is_first;          ///< 1: sums start at zero.
-} DefrayPatternParams;
+} DefrayPatternsParams;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayHighlightParams) == 20);
@@ -283,7 +283,7 @@ static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayAssembleParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
-static_assert(sizeof(DefrayPatternParams) == 56);
+static_assert(sizeof(DefrayPatternsParams) == 56);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

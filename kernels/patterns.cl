@@ -12,7 +12,7 @@
 // patterns_columns      its sums over columns with weights n - |dy|: a box of n rows, twice
 //
 // Differences and their sums are integers: exact, whatever the order, so that sums may run along.
-// All planes are windows of [window rows][stride] (DefrayPatternParams).
+// All planes are windows of [window rows][stride] (DefrayPatternsParams).
 //
 // units        (x, y) of the first pixel, in the window
 // pixels       8-bit colour, known and behind flags (params.h)
@@ -22,7 +22,7 @@
 // columns      number of pairs << 40 | squared differences, weighted
 // Global size: (units), of DEFRAY_PATTERN_RUN pixels of a row; COLUMNS x STRIP.
 #include "params.h"
-#include "pattern_shift.clh"
+#include "patterns_shift.clh"
 
 // Of one surface: rays of two such pixels land close together through all of the lens.
 uint16 is_close(const int16 a, const int16 b, const uint tolerance) {
@@ -35,7 +35,7 @@ uint16 squared(const uint16 a, const uint16 b, const uint shift) {
 }
 
 // The same as the vectors below, for one pixel.
-uint difference_at(const DefrayPatternParams p, __global const uint* restrict pixels,
+uint difference_at(const DefrayPatternsParams p, __global const uint* restrict pixels,
                    __global const int* restrict coc_quanta, const size_t at, const int2 shift) {
   if (shift.x == 0 && shift.y == 0) return 0u;
   const size_t there = (size_t)((long)at + (long)shift.y * p.stride + shift.x);
@@ -47,7 +47,8 @@ uint difference_at(const DefrayPatternParams p, __global const uint* restrict pi
   return DEFRAY_PATTERN_KNOWN | (uint)(d.x * d.x + d.y * d.y + d.z * d.z);
 }
 
-__kernel void patterns_difference(const DefrayPatternParams p, __global const uint2* restrict units,
+__kernel void patterns_difference(const DefrayPatternsParams p,
+                                  __global const uint2* restrict units,
                                   __global const uint* restrict pixels,
                                   __global const int* restrict coc_quanta,
                                   __global const float* restrict inverse,
@@ -77,7 +78,7 @@ ulong8 pairs_at(__global const uint* restrict difference, const size_t at, const
 
 // With weights n - |j|, and the n values before and after that move it on by one:
 // sum(x + 1) = sum(x) + values x + 1 ... x + n - values x - n + 1 ... x.
-__kernel void patterns_columns(const DefrayPatternParams p, __global const uint2* restrict units,
+__kernel void patterns_columns(const DefrayPatternsParams p, __global const uint2* restrict units,
                                __global const uint* restrict difference,
                                __global ulong* restrict columns) {
   if (get_global_id(0) >= p.unit_count) return;

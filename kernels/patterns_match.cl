@@ -15,7 +15,7 @@
 // Global size: (units), of DEFRAY_PATTERN_CHUNK pixels of a row.
 #include "colour.clh"
 #include "params.h"
-#include "pattern_shift.clh"
+#include "patterns_shift.clh"
 
 // A window's weight, and its mean squared difference times that; eight windows.
 typedef struct {
@@ -54,7 +54,7 @@ typedef struct {
 } Matches;
 
 // Of `count` pixels, from `at` in the window and `target` in the band on.
-Matches matches_of(const DefrayPatternParams p, __global const uint* restrict pixels,
+Matches matches_of(const DefrayPatternsParams p, __global const uint* restrict pixels,
                    __global const int* restrict coc_quanta, __global const int* restrict behind_coc,
                    __global const float* restrict behind_inverse, const size_t at,
                    const size_t target, const int count) {
@@ -99,7 +99,7 @@ void add_to(__global float* sum, const int count, const int8 is_match, const flo
 }
 
 // What a shift gives to `count` pixels of a row, (x, y) in the band and on, in these windows.
-void add_matches(const DefrayPatternParams p, CHANNEL_PARAMETERS(channel_behind),
+void add_matches(const DefrayPatternsParams p, CHANNEL_PARAMETERS(channel_behind),
                  CHANNEL_PARAMETERS(channel), __global float* restrict sums, const Matches m,
                  const ulong8 windows, const int x, const int y, const int count) {
   const uint8 pairs = convert_uint8(windows >> DEFRAY_PATTERN_COUNT_BIT);
@@ -129,7 +129,7 @@ void add_matches(const DefrayPatternParams p, CHANNEL_PARAMETERS(channel_behind)
   add_to(sums + 5 * plane + target, count, is_match, weights.square_w);
 }
 
-__kernel void patterns_match(const DefrayPatternParams p, __global const uint2* restrict units,
+__kernel void patterns_match(const DefrayPatternsParams p, __global const uint2* restrict units,
                              __global const uint* restrict pixels,
                              __global const int* restrict coc_quanta,
                              __global const ulong* restrict columns,

@@ -39,7 +39,7 @@
 // The one d with d - offset in [-1/2, 1/2): where a ray with this offset lands, in whole pixels.
 int landing(const long offset) { return (int)((offset + HALF_PIXEL - 1) >> RAY_FRACTION_BITS); }
 
-// Jitter of a target pixel's lens samples, in [-largest, largest)^2: a hash of absolute frame
+// Jitter of a target pixel's lens points, in [-largest, largest)^2: a hash of absolute frame
 // coordinates, so that no tile or band shows.
 int2 jitter_offset(const uint x, const uint y, const uint seed, const int largest) {
   const uint3 v = pcg3d((uint3)(x, y, seed));

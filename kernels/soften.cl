@@ -1,4 +1,4 @@
-// soften: each fragment's colour averaged over what one lens cell sees of its surface, so that few
+// soften: each fragment's colour averaged over what one lens point sees of its surface, so that few
 // cells still count every pixel: a cell is 2 r / n pixels wide on the picture.
 //
 // Only fragments of nearly the same CoC count: their rays then land within half a cell of each
@@ -22,7 +22,7 @@ typedef struct {
 } Squares;
 
 Squares squares_of(const DefraySoftenParams p, const int16 own_coc, const int16 own_share) {
-  const float16 side = fabs(convert_float16(own_coc)) * (2.0f / 256.0f) / p.cells_a_side;
+  const float16 side = fabs(convert_float16(own_coc)) * (2.0f / 256.0f) / p.cells_per_side;
   Squares s;
   s.half_side = 0.5f * side;
   const int16 reach = convert_int16(s.half_side + 0.5f);

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "image/display.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::perf {
 namespace {
@@ -25,14 +25,14 @@ std::vector<Plane> crop(const std::vector<Plane>& planes, int width, int x0, int
 
 }  // namespace
 
-void check_against_twin(Stages& stages, const Subject& s, const MethodSettings& settings) {
+void check_against_twin(Backend& backend, const Subject& s, const MethodSettings& settings) {
   const int w = std::min(96, s.scene.width), h = std::min(64, s.scene.height);
   const int x0 = (s.scene.width - w) / 2, y0 = (s.scene.height - h) / 2;
   const auto colour = crop(s.pinhole.colour, s.scene.width, x0, y0, w, h);
   const Plane depth = crop({s.pinhole.depth}, s.scene.width, x0, y0, w, h)[0];
-  reference::TwinStages twin;
+  reference::TwinBackend twin;
   const Frame frame{w, h, twin.coc(s.lens, s.scene.width, depth), depth, colour};
-  if (apply_method(frame, settings, stages).colour != apply_method(frame, settings, twin).colour) {
+  if (apply_method(frame, settings, backend).colour != apply_method(frame, settings, twin).colour) {
     fail(ErrorKind::internal, "a timed picture differs from its twin");
   }
 }
@@ -61,11 +61,11 @@ std::string to_text(const Timing& t) {
 std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
 Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings) {
-  check_against_twin(bench.stages, subject, settings);
+  check_against_twin(bench.backend, subject, settings);
   std::vector<Plane> first;
   bool repeats = true;
   const Timing timing = time_of(bench.repetitions(), [&] {
-    std::vector<Plane> picture = render(bench.stages, subject, settings);
+    std::vector<Plane> picture = render(bench.backend, subject, settings);
     if (first.empty())
       first = std::move(picture);
     else
@@ -105,7 +105,7 @@ Figure sheet(const Bench& bench, const std::string& name, const std::string& cap
   return {name + ".png", caption};
 }
 
-std::vector<std::array<double, 2>> lens_grid(int n) {
+std::vector<std::array<double, 2>> accumulation_points(int n) {
   std::vector<std::array<double, 2>> points;
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "measure/html_report.h"
 #include "methods/method.h"
 #include "scenes/subject.h"
@@ -15,9 +15,9 @@ namespace defray::perf {
 
 /// How an experiment runs.
 struct Bench {
-  std::string folder;     ///< Pictures and plots go here.
-  DeviceStages& stages;   ///< Of the device that is measured.
-  bool is_quick = false;  ///< Small pictures and few repetitions: to see that it works.
+  std::string folder;      ///< Pictures and plots go here.
+  DeviceBackend& backend;  ///< Of the device that is measured.
+  bool is_quick = false;   ///< Small pictures and few repetitions: to see that it works.
   std::function<void(const std::string& step)> step;  ///< Told before each long step.
 
   int repetitions() const { return is_quick ? 2 : 5; }
@@ -44,7 +44,7 @@ std::string fixed(double value, int digits = 2);
 
 /// Kernel against twin on the picture's middle (96 x 64 pixels). Throws Error(internal) where they
 /// differ by a bit.
-void check_against_twin(Stages& stages, const Subject& subject, const MethodSettings& settings);
+void check_against_twin(Backend& backend, const Subject& subject, const MethodSettings& settings);
 
 /// Times `render` after check_against_twin, and a check that every run gives the same picture.
 /// Throws Error(internal) where it does not.
@@ -61,6 +61,6 @@ Figure sheet(const Bench& bench, const std::string& name, const std::string& cap
 
 /// Lens points of an n x n accumulation buffer: the cells' centres squeezed into the disc, so that
 /// all n^2 views count (Shirley & Chiu's concentric map).
-std::vector<std::array<double, 2>> lens_grid(int n);
+std::vector<std::array<double, 2>> accumulation_points(int n);
 
 }  // namespace defray::perf

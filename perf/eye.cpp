@@ -43,20 +43,20 @@ TiltshiftSettings estimate_gradient(const Subject& s) {
   return {centre, static_cast<double>(last - first + 1) / height, mean_radius_px(s, edge)};
 }
 
-std::vector<Plane> render_tiltshift(Stages& stages, const Subject& s) {
+std::vector<Plane> render_tiltshift(Backend& backend, const Subject& s) {
   const auto p =
       tiltshift_params(estimate_gradient(s), s.scene.width, s.scene.height, 0, s.scene.height);
   Frame frame = s.frame();
-  frame.coc_quanta = stages.tiltshift(p);
+  frame.coc_quanta = backend.tiltshift(p);
   MethodSettings tiltshift_method;
   tiltshift_method.method = Method::tiltshift;
-  return apply_method(frame, tiltshift_method, stages).colour;
+  return apply_method(frame, tiltshift_method, backend).colour;
 }
 
 View render_view(const Bench& bench, const std::string& name) {
   bench.step(name + ": truth");
   View v{
-      make_subject(bench.stages, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
+      make_subject(bench.backend, make_scene(name, bench.size(960), bench.size(600)), "miniature"),
       {},
       {},
       {},
@@ -64,10 +64,10 @@ View render_view(const Bench& bench, const std::string& name) {
       {}};
   v.truth = render_truth(v.subject.scene, v.subject.lens, bench.is_quick ? 16 : 128, 1).colour;
   bench.step(name + ": filters");
-  v.literal = render(bench.stages, v.subject, gather_of(GatherKind::literal, 32, 2));
-  v.aware = render(bench.stages, v.subject, gather_of(GatherKind::aware, 32, 2));
-  v.rdb = render(bench.stages, v.subject, rdb_of(17));
-  v.tiltshift = render_tiltshift(bench.stages, v.subject);
+  v.literal = render(bench.backend, v.subject, gather_of(GatherKind::literal, 32, 2));
+  v.aware = render(bench.backend, v.subject, gather_of(GatherKind::aware, 32, 2));
+  v.rdb = render(bench.backend, v.subject, rdb_of(17));
+  v.tiltshift = render_tiltshift(bench.backend, v.subject);
   return v;
 }
 
@@ -161,7 +161,7 @@ Timing time_copy(const Bench& bench, const std::vector<Plane>& planes) {
 Table cost(const Bench& bench, Section& section) {
   bench.step("cost at 1920 x 1200");
   const Subject s = make_subject(
-      bench.stages, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
+      bench.backend, make_scene("blocks-lake", bench.size(1920), bench.size(1200)), "miniature");
   const Timing copy = time_copy(bench, s.pinhole.colour);
   Table table{
       "eye-cost",

@@ -24,16 +24,17 @@ Section figure7(const Bench& bench) {
   Series large{"RDB, focus 1 m (large CoC)", {}, true, true};
   Series views{"accumulation buffer", {}, true, true};
   const Subject near =
-      make_subject(bench.stages, make_plate2(bench.size(256), bench.size(256), 1), "f1");
+      make_subject(bench.backend, make_plate2(bench.size(256), bench.size(256), 1), "f1");
   const Subject far =
-      make_subject(bench.stages, make_plate2(bench.size(256), bench.size(256), 1), "f3");
+      make_subject(bench.backend, make_plate2(bench.size(256), bench.size(256), 1), "f3");
   const std::vector<int> sides = bench.is_quick
                                      ? std::vector<int>{1, 4}
                                      : std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16};
   for (const int n : sides) {
     bench.step(fmt::format("{} cells a side", n));
     const Timing a = time_method(bench, far, rdb_of(n)), b = time_method(bench, near, rdb_of(n));
-    const Timing c = time_of(1, [&] { render_accumulation(far.scene, far.lens, lens_grid(n)); });
+    const Timing c =
+        time_of(1, [&] { render_accumulation(far.scene, far.lens, accumulation_points(n)); });
     table.rows.push_back({std::to_string(n), to_text(a), to_text(b), to_text(c)});
     const auto x = static_cast<double>(n);
     small.points.push_back({x, a.median_s});

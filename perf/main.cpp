@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "exit_code.h"
 #include "experiments.h"
 #include "image/safe_output.h"
@@ -48,14 +48,14 @@ int run(const Options& o) {
   create_folder(o.folder);
   check_can_write(o.folder + "/index.html");
   Session session(select_device(o.device));
-  DeviceStages stages(session);
+  DeviceBackend backend(session);
   const bool is_terminal = isatty(STDERR_FILENO) == 1;
   std::vector<Section> sections;
   for (const std::string& name : names) {
     const auto step = [&](const std::string& what) {
       if (is_terminal) fmt::print(stderr, "\r\033[K{}: {}", name, what);
     };
-    sections.push_back(experiments().at(name).run({o.folder, stages, o.is_quick, step}));
+    sections.push_back(experiments().at(name).run({o.folder, backend, o.is_quick, step}));
     if (is_terminal) fmt::print(stderr, "\r\033[K");
     // Small pictures have small circles of confusion: what they show is not what the papers saw.
     if (o.is_quick) sections.back().findings = {"a rehearsal (--quick): its figures mean nothing"};

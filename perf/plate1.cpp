@@ -51,15 +51,15 @@ std::vector<std::uint8_t> background_mask(const Subject& s) {
 
 Section plate1(const Bench& bench) {
   bench.step("scene");
-  const Subject s =
-      make_subject(bench.stages, make_scene("plate1", bench.size(640), bench.size(480)), "default");
+  const Subject s = make_subject(bench.backend,
+                                 make_scene("plate1", bench.size(640), bench.size(480)), "default");
   bench.step("truth");
   const auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 64 : 1024, 1).colour;
   bench.step("accumulation buffer");
-  const auto accumulation = render_accumulation(s.scene, s.lens, lens_grid(9));
+  const auto accumulation = render_accumulation(s.scene, s.lens, accumulation_points(9));
   bench.step("filters");
-  const auto linear = render(bench.stages, s, linear_of());
-  const auto rdb = render(bench.stages, s, rdb_of(9));
+  const auto linear = render(bench.backend, s, linear_of());
+  const auto rdb = render(bench.backend, s, rdb_of(9));
 
   const auto bars = bar_mask(s, truth);
   const double opaque = mean_where(truth, bars);

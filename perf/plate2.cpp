@@ -20,14 +20,14 @@ Measured measure(const Bench& bench, const Subject& s) {
   Measured m;
   m.rdb = time_method(bench, s, rdb_of(cells));
   m.accumulation = time_of(bench.is_quick ? 1 : 3, [&] {
-    m.accumulation_picture = render_accumulation(s.scene, s.lens, lens_grid(cells));
+    m.accumulation_picture = render_accumulation(s.scene, s.lens, accumulation_points(cells));
   });
-  m.rdb_picture = render(bench.stages, s, rdb_of(cells));
+  m.rdb_picture = render(bench.backend, s, rdb_of(cells));
   return m;
 }
 
 Subject subject(const Bench& bench, int complexity, const std::string& setting) {
-  return make_subject(bench.stages, make_plate2(bench.size(640), bench.size(480), complexity),
+  return make_subject(bench.backend, make_plate2(bench.size(640), bench.size(480), complexity),
                       setting);
 }
 

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "base/stopwatch.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "device/rdb_run.h"
 #include "lens/lens.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace {
 
@@ -42,8 +42,8 @@ Session& session() {
   return shared;
 }
 
-DeviceStages& device() {
-  static DeviceStages& shared = *new DeviceStages(session());
+DeviceBackend& device() {
+  static DeviceBackend& shared = *new DeviceBackend(session());
   return shared;
 }
 
@@ -55,7 +55,7 @@ RayPlan plan(RaysBy by = RaysBy::gather) {
 }
 
 double rays(const Frame& frame) {
-  return double(frame.pixels()) * double(plan().cells.centres.size());
+  return double(frame.pixels()) * double(plan().lens.points.size());
 }
 
 Values<float> in_host_memory(const Values<float>& v) {
@@ -70,16 +70,16 @@ Frame in_host_memory(const Frame& f) {
   return view;
 }
 
-std::vector<Plane> render(Stages& stages, const Frame& f, RaysBy by) {
-  return stages.rays(in_host_memory(f), plan(by)).means;
+std::vector<Plane> render(Backend& backend, const Frame& f, RaysBy by) {
+  return backend.rays(in_host_memory(f), plan(by)).means;
 }
 
 /// Whether the picture is the twin's, bit for bit, on 160 x 120, and by gather the scatter's at its
 /// own size.
 bool is_correct(const Frame& frame, int radius, RaysBy by) {
   const Frame f = make_frame(160, 120, radius);
-  reference::TwinStages stages;
-  if (render(device(), f, by) != render(stages, f, by)) return false;
+  reference::TwinBackend backend;
+  if (render(device(), f, by) != render(backend, f, by)) return false;
   return by == RaysBy::scatter ||
          render(device(), frame, by) == render(device(), frame, RaysBy::scatter);
 }
@@ -138,8 +138,8 @@ void rdb_merge(benchmark::State& state) {
 /// The scalar twin, one thread: the baseline of the same run.
 void scalar_twin(benchmark::State& state) {
   const Frame f = frame_of(state);
-  reference::TwinStages stages;
-  for (auto _ : state) benchmark::DoNotOptimize(render(stages, f, RaysBy::scatter));
+  reference::TwinBackend backend;
+  for (auto _ : state) benchmark::DoNotOptimize(render(backend, f, RaysBy::scatter));
   set_rate(state, rays(f), "rays/s");
 }
 

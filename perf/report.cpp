@@ -81,8 +81,8 @@ int run(const ReportOptions& o) {
   const auto step = [&](const std::string& what) {
     if (is_terminal) fmt::print(stderr, "\r\033[K{}", what);
   };
-  DeviceStages stages(session);
-  TableBench bench({pictures.path(), stages, o.is_quick, step}, o.scenes);
+  DeviceBackend backend(session);
+  TableBench bench({pictures.path(), backend, o.is_quick, step}, o.scenes);
   for (const std::string& name : names) {
     Figures figures = readme_tables().at(name).measure(bench);
     figures.notes.push_back(fmt::format("Measured on {}, {} compute units.", session.info().name,

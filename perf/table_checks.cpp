@@ -73,7 +73,7 @@ std::size_t count_equal(const DeviceResult& d, const DeviceResult& first) {
 Figures measure_arithmetic(TableBench& b) {
   const Bench& bench = b.bench();
   const auto results = validation::measure_arithmetic(
-      bench.stages.session().info(), bench.size(640), bench.size(480), bench.is_quick ? 1 : 9,
+      bench.backend.session().info(), bench.size(640), bench.size(480), bench.is_quick ? 1 : 9,
       level_of(bench),
       [&](double share) { bench.step(fmt::format("arithmetic: {:.0f} %", 100 * share)); });
   Figures figures{{"", "", {"build"}, {}}, {}};

@@ -49,10 +49,10 @@ Table table_of(const Bench& bench, const std::vector<MeasuredPlace>& places, int
     table.rows[0].push_back(fixed(psnr(place.subject.pinhole.colour)));
     for (std::size_t i = 0; i < all.size(); ++i) {
       bench.step(place.name + ": " + all[i].name);
-      check_against_twin(bench.stages, place.subject, all[i].settings);
+      check_against_twin(bench.backend, place.subject, all[i].settings);
       std::vector<Plane> picture;
       const Timing time = time_of(
-          repetitions, [&] { picture = render(bench.stages, place.subject, all[i].settings); });
+          repetitions, [&] { picture = render(bench.backend, place.subject, all[i].settings); });
       table.rows[i + 1].push_back(fmt::format("{:.2f} ({:.2f} s)", psnr(picture), time.median_s));
     }
   }
@@ -62,8 +62,8 @@ Table table_of(const Bench& bench, const std::vector<MeasuredPlace>& places, int
 /// As 'defray scene plate1 --truth-samples 1024' writes it.
 MeasuredPlace plate1_place(const Bench& bench) {
   bench.step("plate1: truth");
-  Subject s =
-      make_subject(bench.stages, make_scene("plate1", bench.size(640), bench.size(480)), "default");
+  Subject s = make_subject(bench.backend, make_scene("plate1", bench.size(640), bench.size(480)),
+                           "default");
   s.pinhole.colour = render_pinhole(s.scene, {16}).colour;
   auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 1024, 1).colour;
   return {"plate1", std::move(s), std::move(truth)};
@@ -92,7 +92,7 @@ MeasuredPlace read_place(const Bench& bench, const std::filesystem::path& folder
   s.pinhole.depth = file.plane(depth.part, depth.channel);
   convert_depth(s.pinhole.depth, {}, part.data, part.display,
                 pixel_focal_length(s.lens, part.display.width), path);
-  s.coc = bench.stages.coc(s.lens, s.scene.width, s.pinhole.depth);
+  s.coc = bench.backend.coc(s.lens, s.scene.width, s.pinhole.depth);
   const std::string name = s.scene.name + " " + setting;
   return {name, std::move(s), read_colour(ImageFile::read(folder / ("truth_" + setting + ".exr")))};
 }
@@ -133,7 +133,7 @@ Figures measure_methods(TableBench& b) {
   for (const auto& [scene, setting] :
        {std::pair{"fence", "bg"}, {"spheres", "f5"}, {"blocks-forest", "miniature"}}) {
     bench.step(fmt::format("{}: truth", scene));
-    Subject s = make_antialiased(bench.stages, make_scene(scene, bench.size(640), bench.size(400)),
+    Subject s = make_antialiased(bench.backend, make_scene(scene, bench.size(640), bench.size(400)),
                                  setting);
     auto truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 256, 1).colour;
     places.push_back({fmt::format("{} {}", scene, setting), std::move(s), std::move(truth)});

@@ -48,7 +48,7 @@ void add_scene(const Bench& bench, const TradePlace& place, Section& section) {
   const int width = bench.size(640), height = bench.size(400), samples = bench.is_quick ? 16 : 256;
   bench.step(place.scene + ": truth");
   const Subject s =
-      make_antialiased(bench.stages, make_scene(place.scene, width, height), place.setting);
+      make_antialiased(bench.backend, make_scene(place.scene, width, height), place.setting);
   const Truth truth = render_truth(s.scene, s.lens, samples, 1);
   Table table{
       "tradeoff-" + place.scene,
@@ -63,7 +63,7 @@ void add_scene(const Bench& bench, const TradePlace& place, Section& section) {
     bench.step(place.scene + ": " + candidate.options);
     const Timing timing = time_method(bench, s, candidate.settings);
     const Comparison c =
-        compare(render(bench.stages, s, candidate.settings), truth.colour, s.scene.width);
+        compare(render(bench.backend, s, candidate.settings), truth.colour, s.scene.width);
     table.rows.push_back(
         {candidate.series, candidate.label, to_text(timing), fixed(c.psnr_srgb_db),
          fixed(c.psnr_linear_db), fixed(c.ssim, 4),

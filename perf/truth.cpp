@@ -13,16 +13,16 @@ double Setup::psnr_db(const std::vector<Plane>& picture) const {
   return compare(picture, truth.colour, subject.scene.width).psnr_srgb_db;
 }
 
-Subject make_antialiased(Stages& stages, Scene scene, const std::string& setting,
+Subject make_antialiased(Backend& backend, Scene scene, const std::string& setting,
                          bool averages_depth) {
-  Subject s = make_subject(stages, std::move(scene), setting);
+  Subject s = make_subject(backend, std::move(scene), setting);
   s.pinhole.colour = render_pinhole(s.scene, {pinhole_samples}).colour;
   if (!averages_depth) return s;
   s.pinhole.depth = render_pinhole(s.scene, {pinhole_samples, true}).depth;
   for (float& z : s.pinhole.depth) {
     if (z >= static_cast<float>(nothing_there)) z = HUGE_VALF;
   }
-  s.coc = stages.coc(s.lens, s.scene.width, s.pinhole.depth);
+  s.coc = backend.coc(s.lens, s.scene.width, s.pinhole.depth);
   return s;
 }
 
@@ -43,7 +43,7 @@ std::vector<Setup> make_setups(const Bench& bench) {
   for (const Place& place : places) {
     bench.step(place.scene + ": truth");
     Subject s = make_antialiased(
-        bench.stages, make_scene(place.scene, bench.size(320), bench.size(208)), place.setting);
+        bench.backend, make_scene(place.scene, bench.size(320), bench.size(208)), place.setting);
     Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 144, 1);
     setups.push_back({place.scene, place.setting, std::move(s), std::move(truth)});
   }
@@ -59,8 +59,8 @@ MethodSettings default_chain(Quality quality) {
 void add_pictures(const Bench& bench, const std::vector<Setup>& setups, Section& section) {
   for (const Setup& setup : setups) {
     bench.step(setup.name() + ": pictures");
-    const auto literal = render(bench.stages, setup.subject, rdb_of(9));
-    const auto whole = render(bench.stages, setup.subject, default_chain());
+    const auto literal = render(bench.backend, setup.subject, rdb_of(9));
+    const auto whole = render(bench.backend, setup.subject, default_chain());
     const auto difference = difference_picture(whole, setup.truth.colour, 4);
     section.figures.push_back(
         sheet(bench, "truth-" + setup.scene + "-" + setup.setting,

@@ -22,7 +22,7 @@ struct Setup {
 };
 
 /// Colour anti-aliased; depth too if asked, as far as it can be: the mean of what is hit.
-Subject make_antialiased(Stages& stages, Scene scene, const std::string& setting,
+Subject make_antialiased(Backend& backend, Scene scene, const std::string& setting,
                          bool averages_depth = false);
 
 std::vector<Setup> make_setups(const Bench& bench);

@@ -26,7 +26,7 @@ Frame surfaces_of(const Bench& bench, const Subject& s, const ScenePicture& pict
   }
   Frame f{s.scene.width,
           s.scene.height,
-          bench.stages.coc(s.lens, s.scene.width, depth),
+          bench.backend.coc(s.lens, s.scene.width, depth),
           {},
           picture.colour};
   std::vector<std::uint32_t> coverage(depth.size(), DEFRAY_WHOLE);
@@ -92,7 +92,7 @@ std::vector<T> interleaved(const Values<T>& front, const Values<T>& behind, int 
   return rows;
 }
 
-/// As Stages::assemble, but depths keep their last bit: they need not go through 1/depth.
+/// As Backend::assemble, but depths keep their last bit: they need not go through 1/depth.
 Frame layered(const Frame& front, const Frame& behind) {
   Frame f = front.without_planes();
   f.layers = 2;
@@ -111,12 +111,12 @@ Frame layered(const Frame& front, const Frame& behind) {
 Wide make_wide(const Bench& bench, const Setup& setup) {
   const Scene& scene = setup.subject.scene;
   const int margin = std::min(rdb_reach(largest_coc(setup.subject.coc.host())), scene.height);
-  Wide w{setup, margin, make_antialiased(bench.stages, widened(scene, margin), setup.setting),
+  Wide w{setup, margin, make_antialiased(bench.backend, widened(scene, margin), setup.setting),
          {},    {},     {}};
   w.exact = render_coverage(w.subject.scene, pinhole_samples);
   const Frame pinhole = with_inverse(w.subject);
-  w.mixed = bench.stages.edges(pinhole);
-  const Frame behind = bench.stages.fill(pinhole, w.mixed, DEFRAY_FILL_DIRECTIONS);
+  w.mixed = bench.backend.mixed(pinhole);
+  const Frame behind = bench.backend.fill(pinhole, w.mixed, DEFRAY_FILL_DIRECTIONS);
   for (const float i : behind.inverse) w.is_uncovered.push_back(i >= 0);
   return w;
 }
@@ -144,7 +144,7 @@ Frame split_surfaces(const Bench& bench, const Wide& w) {
     for (std::size_t c = 0; c < 3; ++c) behind.channels[c].edit()[i] = own.channels[c][i];
   }
   behind.inverse = inverse_of(behind.depth.host());
-  return bench.stages.assemble(bench.stages.split(with_inverse(s), w.mixed, std::move(behind)));
+  return bench.backend.assemble(bench.backend.split(with_inverse(s), w.mixed, std::move(behind)));
 }
 
 }  // namespace defray::perf

@@ -27,17 +27,17 @@ std::vector<Variant> variants() {
   return {{"literal RDB 9x9", rdb_of(9)},
           {"default", default_chain()},
           with("--hidden off", [](auto& d) { d.hidden = Hidden::off; }),
-          with("--hidden smooth", [](auto& d) { d.hidden = Hidden::smooth; }),
-          with("--edges keep", [](auto& d) { d.split_edges = false; }),
+          with("--hidden fill", [](auto& d) { d.hidden = Hidden::fill; }),
+          with("--split off", [](auto& d) { d.split = false; }),
           with("--highlights rays", [](auto& d) { d.highlights = false; }),
           with("colours not softened", [](auto& d) { d.soften = false; }),
           with("--border renormalise", [](auto& d) { d.border = Border::renormalise; }),
           with("--border black", [](auto& d) { d.border = Border::black; }),
-          with("--keep-depth", [](auto& d) { d.repair_depth = false; }),
+          with("--repair off", [](auto& d) { d.repair = false; }),
           with(
               "anti-aliased depth", [](auto&) {}, true),
           with(
-              "anti-aliased depth, --keep-depth", [](auto& d) { d.repair_depth = false; }, true),
+              "anti-aliased depth, --repair off", [](auto& d) { d.repair = false; }, true),
           {"--quality preview", default_chain(Quality::preview)},
           {"--quality draft", default_chain(Quality::draft)},
           {"--quality high", default_chain(Quality::high)}};
@@ -67,7 +67,7 @@ Timing ratio(const Paired& p, std::size_t variant) {
 Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& all) {
   const Subject& s = setup.subject;
   const Subject filtered = make_antialiased(
-      bench.stages, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
+      bench.backend, make_scene(setup.scene, s.scene.width, s.scene.height), setup.setting, true);
   Paired p;
   p.seconds.resize(all.size());
   for (int round = -1; round < (bench.is_quick ? 1 : 3); ++round) {  // -1: the picture
@@ -75,7 +75,7 @@ Paired run(const Bench& bench, const Setup& setup, const std::vector<Variant>& a
       bench.step(fmt::format("{}: {}, round {}", setup.name(), all[v].name, round + 1));
       std::vector<Plane> picture;
       const double seconds = seconds_of([&] {
-        picture = render(bench.stages, all[v].averages_depth ? filtered : s, all[v].settings);
+        picture = render(bench.backend, all[v].averages_depth ? filtered : s, all[v].settings);
       });
       if (round < 0) {
         p.pictures.push_back(std::move(picture));
@@ -115,7 +115,7 @@ void add_mechanisms(const Bench& bench, const std::vector<Setup>& setups, Sectio
   }
   double least_spread = 1e9, largest_spread = 0;
   for (const Setup& setup : setups) {
-    check_against_twin(bench.stages, setup.subject, default_chain());
+    check_against_twin(bench.backend, setup.subject, default_chain());
     const Paired p = run(bench, setup, all);
     quality.columns.push_back(setup.name());
     cost.columns.push_back(setup.name());

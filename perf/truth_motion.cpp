@@ -17,7 +17,7 @@ struct Film {
   int samples;
 
   Subject subject(int frame) const {
-    return make_antialiased(bench.stages,
+    return make_antialiased(bench.backend,
                             make_scene("drift", bench.size(160), bench.size(120), frame), setting);
   }
   /// `seed`: another one gives other noise.
@@ -27,8 +27,8 @@ struct Film {
   Moment moment(int frame) const {
     bench.step(fmt::format("drift {}: frame {}", setting, frame));
     const Subject s = subject(frame);
-    return {s.pinhole.colour, truth(s, frame), render(bench.stages, s, rdb_of(9)),
-            render(bench.stages, s, default_chain())};
+    return {s.pinhole.colour, truth(s, frame), render(bench.backend, s, rdb_of(9)),
+            render(bench.backend, s, default_chain())};
   }
 };
 

@@ -1,7 +1,8 @@
 // What is left of the error: the default chain with more and more of what it must guess given to
 // it, from the scene.
 #include "chain/highlights.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_grid.h"
+#include "lens/lens_points.h"
 #include "truth_exact.h"
 
 namespace defray::perf {
@@ -22,13 +23,13 @@ std::vector<Plane> cropped(const Wide& w, const std::vector<Plane>& planes) {
 
 /// The rest of the chain.
 std::vector<Plane> distributed(const Bench& bench, Frame f, int cells_per_side) {
-  const int points = static_cast<int>(make_lens_cells(cells_per_side, false).centres.size());
+  const int points = static_cast<int>(make_lens_grid(cells_per_side, false).points.size());
   RayPlan plan;
-  plan.cells = make_lens_samples({}, points);
-  const LightSources lights = take_light(f, bench.stages.highlights(f, 3), 3,
-                                         make_aperture_table(rasterise({})), plan.cells);
-  f.channels = bench.stages.soften(f, points);
-  return bench.stages.rays(f, plan, &lights).means;
+  plan.lens = make_lens_points({}, points);
+  const LightSources lights = take_light(f, bench.backend.highlights(f, 3), 3,
+                                         make_aperture_table(rasterise({})), plan.lens);
+  f.channels = bench.backend.soften(f, points);
+  return bench.backend.rays(f, plan, &lights).means;
 }
 
 }  // namespace
@@ -55,8 +56,8 @@ void add_split(const Bench& bench, const std::vector<Setup>& setups, Section& se
     const auto add_wide = [&](const std::vector<Plane>& picture) {
       add(setup.psnr_db(cropped(w, picture)));
     };
-    add(setup.psnr_db(render(bench.stages, setup.subject, default_chain())));
-    add_wide(render(bench.stages, w.subject, default_chain()));
+    add(setup.psnr_db(render(bench.backend, setup.subject, default_chain())));
+    add_wide(render(bench.backend, w.subject, default_chain()));
     add_wide(distributed(bench, split_surfaces(bench, w), 13));
     const Frame exact = exact_surfaces(bench, w);
     add_wide(distributed(bench, exact, 13));

@@ -8,7 +8,7 @@
 #include <memory>
 #include <random>
 
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 #include "validation/oclgrind_log.h"
 
 namespace defray::test {
@@ -53,17 +53,17 @@ Session& session_without_int64() {
   return *shared;
 }
 
-DeviceStages& device() {
-  static DeviceStages stages(session());
-  return stages;
+DeviceBackend& device() {
+  static DeviceBackend backend(session());
+  return backend;
 }
 
-Stages& twins() {
-  static reference::TwinStages stages;
-  return stages;
+Backend& twins() {
+  static reference::TwinBackend backend;
+  return backend;
 }
 
-std::vector<Stages*> device_and_twins() { return {&device(), &twins()}; }
+std::vector<Backend*> device_and_twins() { return {&device(), &twins()}; }
 
 bool is_slow_device() { return validation::is_simulator(device_under_test()); }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 
 namespace defray::test {
 
@@ -22,9 +22,9 @@ Session& session();
 Session& session_without_int64();
 
 /// The stages on that session, and by the twins; both, one after the other.
-DeviceStages& device();
-Stages& twins();
-std::vector<Stages*> device_and_twins();
+DeviceBackend& device();
+Backend& twins();
+std::vector<Backend*> device_and_twins();
 
 /// A session that works on copies, in bands that fit so many bytes, until this ends.
 class InBands {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "commands/picture.h"
+#include "commands/colour_file.h"
 #include "exit_code.h"
 #include "image/channels.h"
 #include "image/display.h"
@@ -15,7 +15,7 @@
 #include "lens/depth.h"
 #include "measure/edge_band.h"
 #include "measure/metrics.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::cli {
 namespace {
@@ -57,7 +57,7 @@ void validate(const CompareOptions& o) {
 }
 
 /// The edge band of the pinhole frame that `picture` was rendered from.
-std::vector<std::uint8_t> read_band(const CompareOptions& o, const Picture& picture) {
+std::vector<std::uint8_t> read_band(const CompareOptions& o, const ColourFile& picture) {
   const ImageFile file = ImageFile::read(o.depth, Content::data);
   const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> read_band(const CompareOptions& o, const Picture& pict
   Plane depth = file.plane(name.part, name.channel);
   const int width = part.display.width;
   convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);
-  return edge_band(depth, part.data.width, reference::TwinStages().coc(lens, width, depth).host(),
+  return edge_band(depth, part.data.width, reference::TwinBackend().coc(lens, width, depth).host(),
                    o.edge_step);
 }
 
@@ -136,7 +136,7 @@ bool misses_a_bound(const CompareOptions& o, const Comparison& c) {
 
 int run(const CompareOptions& o) {
   validate(o);
-  Picture a = read_picture(o.a), b = read_picture(o.b);
+  ColourFile a = read_colour_file(o.a), b = read_colour_file(o.b);
   require_same_size(a, b);
   std::optional<BandErrors> band;
   if (!o.depth.empty()) {

@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "commands.h"
-#include "commands/picture.h"
+#include "commands/colour_file.h"
 #include "image/display.h"
 
 namespace defray::cli {
@@ -21,9 +21,9 @@ int run(const SheetOptions& o) {
   }
   check_sheet(o.output, o.pictures);
   std::vector<SheetPanel> panels;
-  Picture first;
+  ColourFile first;
   for (std::size_t i = 0; i < o.pictures.size(); ++i) {
-    Picture picture = read_picture(o.pictures[i]);
+    ColourFile picture = read_colour_file(o.pictures[i]);
     if (i == 0) first = {picture.path, {}, picture.data};
     require_same_size(first, picture);
     panels.push_back(

@@ -72,12 +72,12 @@ OptionGroup file_options(RenderCommand& job) {
        {"--confidence-out",
         value(job.paths.confidence),
         "Write the share of each pixel's lens rays that the input determines (.exr, .tif)",
-        {.field = "confidence", .scope = of_stages}},
+        {.field = "confidence", .scope = of_chain}},
        {"--tiles-out",
         value(job.paths.tiles),
-        "Write what each tile of 16 px holds: 0 in focus, 1 smooth, 2 edges, 3 hidden surfaces, "
+        "Write what each tile of 16 px holds: 0 in focus, 1 smooth, 2 mixed, 3 hidden surfaces, "
         "4 lights (.exr, .tif)",
-        {.field = "tiles", .scope = of_stages}},
+        {.field = "tiles", .scope = of_chain}},
        {"--compression",
         with_default(value(job.settings.compression), "the input's"),
         "Of what is written: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (EXR), none, "
@@ -120,7 +120,7 @@ OptionGroup terminal_options(RenderCommand& job) {
            {"--stats",
             flag(job.stats),
             "Also each stage's time and memory, and what the tiles hold",
-            {.scope = of_stages,
+            {.scope = of_chain,
              .needs = {[&job](const Given&) { return !job.json && !job.quiet; },
                        "goes without --json, which has it all, and without --quiet"}}},
            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},

@@ -22,23 +22,23 @@ std::vector<OptionRow> rdb_rows(RenderCommand& job) {
        parsed<int>(
            [&job, &rdb](int n) {
              rdb.cells_per_side = n;
-             job.stages.cells_per_side = n;
+             job.chain.cells_per_side = n;
            },
            fmt::format("{} with --literal, else by --quality", rdb.cells_per_side)),
-       "Lens cells a side, 1 to 64: as many lens points as round cells",
+       "Cells a side, 1 to 64, of a grid over the lens: as many lens points as round cells",
        {.field = "cells_per_side", .scope = of_rdb}},
       {"--literal",
        flag(job.is_literal),
-       "The paper alone: a grid of lens cells, visible pixels only, none of the stages",
+       "The paper alone: a grid of lens points, visible pixels only, none of the stages",
        {.scope = of_rdb}},
       {"--jitter",
        flag(rdb.jitter),
-       "With --literal: shift each pixel's lens samples, noise for patterns",
+       "With --literal: shift each pixel's lens points, noise for patterns",
        {.scope = of_rdb,
         .needs = {[&job](const Given&) { return job.is_literal; },
                   "goes with --literal: other lens points leave no pattern"}}},
       {"--rays",
-       word<RaysBy>([&job, &rdb](RaysBy by) { rdb.rays = job.stages.rays = by; }, rays_words,
+       word<RaysBy>([&job, &rdb](RaysBy by) { rdb.rays = job.chain.rays = by; }, rays_words,
                     "gather"),
        "Follow rays from where they end (gather) or begin (scatter, as the paper; always with "
        "--jitter): the same picture, bit for bit",
@@ -81,7 +81,7 @@ OptionGroup method_options(RenderCommand& job) {
         "rdb: ray distribution buffer (Shinya); linear: each pixel spread over its CoC, nothing "
         "occluded (Potmesil); gather: Poisson-disk samples (Glatzel & Wilhelm); tiltshift: a "
         "vertical gradient, no depth, no lens"},
-       quality_row(job.stages)}};
+       quality_row(job.chain)}};
   for (OptionRow& row : rdb_rows(job)) group.rows.push_back(std::move(row));
   for (OptionRow& row : gather_rows(s.gather)) group.rows.push_back(std::move(row));
   group.rows.push_back(seed_row(s));

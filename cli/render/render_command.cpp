@@ -1,6 +1,7 @@
 #include "render/render_command.h"
 
 #include "lens/depth.h"
+#include "lens/lens_grid.h"
 #include "methods/tiltshift.h"
 
 namespace defray::cli {
@@ -18,8 +19,8 @@ std::vector<OptionGroup> render_options(RenderCommand& job) {
           channel_options(job),
           lens_options(job),
           method_options(job),
-          stage_options(job.stages),
-          aperture_options(job.stages.aperture),
+          chain_options(job.chain),
+          aperture_options(job.chain.aperture),
           tiltshift_options(job.settings.tiltshift),
           device_options(job),
           terminal_options(job)};
@@ -30,9 +31,9 @@ void finish(RenderCommand& job) {
   MethodSettings& m = s.method;
   job.memory_bytes();  // before anything is read
   m.chain.reset();
-  if (m.method == Method::rdb && !job.is_literal) m.chain = job.stages;
-  make_lens_cells(m.rdb.cells_per_side, m.rdb.jitter);
-  validate(job.stages.aperture);
+  if (m.method == Method::rdb && !job.is_literal) m.chain = job.chain;
+  make_lens_grid(m.rdb.cells_per_side, m.rdb.jitter);
+  validate(job.chain.aperture);
   validate(m.gather);
   validate(s.tiltshift);
   validate(s.depth);

@@ -26,7 +26,7 @@ struct RenderCommand {
   std::string frames;
   RenderSettings settings;
   bool is_literal = false;
-  ChainSettings stages;  ///< Of rdb, unless it is literal.
+  ChainSettings chain;  ///< Of rdb, unless it is literal.
   EyeOptions eye;
   std::string camera, focus_setting;  ///< Of a camera file, or "from-metadata".
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
@@ -45,8 +45,8 @@ struct RenderCommand {
 /// The methods that have a lens, and so a circle of confusion by depth.
 inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
 
-/// What only the stages around the RDB have.
-inline const Scope of_stages{{Method::rdb}, false, true};
+/// What only the chain around the RDB has.
+inline const Scope of_chain{{Method::rdb}, false, true};
 
 OptionGroup main_options(RenderCommand& job);
 OptionGroup file_options(RenderCommand& job);
@@ -54,8 +54,8 @@ OptionGroup channel_options(RenderCommand& job);
 OptionGroup lens_options(RenderCommand& job);
 OptionGroup method_options(RenderCommand& job);
 OptionGroup tiltshift_options(TiltshiftSettings& tiltshift);
-OptionRow quality_row(ChainSettings& stages);  ///< Before what it sets: --rdb, --hidden.
-OptionGroup stage_options(ChainSettings& stages);
+OptionRow quality_row(ChainSettings& chain);  ///< Before what it sets: --rdb, --hidden.
+OptionGroup chain_options(ChainSettings& chain);
 OptionGroup aperture_options(Aperture& aperture);
 OptionGroup device_options(RenderCommand& job);
 OptionGroup terminal_options(RenderCommand& job);

@@ -57,7 +57,7 @@ nlohmann::ordered_json chain_json(const ChainReport& d) {
   }
   const TileShares& t = d.tiles;
   const nlohmann::ordered_json tiles = {{"count", t.tiles},   {"in_focus", t.in_focus},
-                                        {"smooth", t.smooth}, {"edges", t.edges},
+                                        {"smooth", t.smooth}, {"mixed", t.mixed},
                                         {"hidden", t.hidden}, {"lights", t.lights}};
   return {{"lens_points", d.lens_points}, {"confidence", d.confidence},
           {"repaired_px", d.repaired},    {"behind_px", d.behind},
@@ -81,7 +81,7 @@ std::vector<std::string> notes_of(const FrameReport& r) {
   }
   if (r.chain && r.chain->repaired > 0) {
     notes.push_back(fmt::format(
-        "depth looks anti-aliased: {} px repaired (--keep-depth leaves them)", r.chain->repaired));
+        "depth looks anti-aliased: {} px repaired (--repair off leaves them)", r.chain->repaired));
   }
   if (r.chain && r.chain->border_is_cut) {
     notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",
@@ -166,9 +166,9 @@ void print_stats(const FrameReport& r) {
   }
   const TileShares& t = r.chain->tiles;
   fmt::print(
-      "  tiles: {:.1f} % in focus, {:.1f} % smooth, {:.1f} % with edges, {:.1f} % with "
+      "  tiles: {:.1f} % in focus, {:.1f} % smooth, {:.1f} % mixed, {:.1f} % with "
       "hidden surfaces, {:.1f} % with lights\n",
-      100 * t.in_focus, 100 * t.smooth, 100 * t.edges, 100 * t.hidden, 100 * t.lights);
+      100 * t.in_focus, 100 * t.smooth, 100 * t.mixed, 100 * t.hidden, 100 * t.lights);
 }
 
 void print_json_line(const FrameOutcome& o, const std::string& device) {

@@ -18,7 +18,7 @@ struct FrameOutcome {
 };
 
 void print_text(const FrameOutcome& outcome, const std::string& device);
-/// Stages and tiles of a frame that went through the chain.
+/// Backend and tiles of a frame that went through the chain.
 void print_stats(const FrameReport& report);
 void print_json_line(const FrameOutcome& outcome, const std::string& device);
 

@@ -18,11 +18,11 @@ namespace {
 /// What each stage of the chain does, and what it leaves for those after it and for the report.
 class Chain {
  public:
-  Chain(const ChainSettings& settings, Stages& stages) : settings_(settings), stages_(stages) {}
+  Chain(const ChainSettings& settings, Backend& backend) : settings_(settings), backend_(backend) {}
 
   void plan_lens(bool wants_nearest) {
     plan_ = ray_plan(settings_, wants_nearest);
-    report_.lens_points = static_cast<int>(plan_.cells.centres.size());
+    report_.lens_points = static_cast<int>(plan_.lens.points.size());
     done("lens");
   }
 
@@ -35,11 +35,11 @@ class Chain {
   /// Depth that was anti-aliased has many pixels between two surfaces: of the built-in scenes' edge
   /// pixels one in 3 to 15, at 320 x 240 and larger (`cutout`, before nothing, one in 40).
   /// Otherwise it is one in 28 or less: wires. Returns where pixels are mixed.
-  Words repair_depth(Frame& f) {
-    Words mixed = stages_.edges(f);
-    done("edges");
-    if (!settings_.repair_depth) return mixed;
-    const Words repaired = stages_.repair(f);
+  Words repair(Frame& f) {
+    Words mixed = backend_.mixed(f);
+    done("mixed");
+    if (!settings_.repair) return mixed;
+    const Words repaired = backend_.repair(f);
     const auto source = repaired.host();
     std::size_t between = 0;
     for (std::size_t i = 0; i < source.size(); ++i) between += source[i] != i;
@@ -53,14 +53,14 @@ class Chain {
       }
     }
     done("repair");
-    if (is_antialiased) mixed = stages_.edges(f);
-    done("edges");
+    if (is_antialiased) mixed = backend_.mixed(f);
+    done("mixed");
     return mixed;
   }
 
   void classify(const Frame& f, const Words& mixed) {
     tiles_ = TileClasses(f);
-    tiles_.add_edges(mixed);
+    tiles_.add_mixed(mixed);
     done("tiles");
   }
 
@@ -69,16 +69,16 @@ class Chain {
     if (settings_.hidden == Hidden::off || !has_edges) return whole_pixels(std::move(f));
     // Where patterns add their detail twice as many directions are worth their time; without them
     // the mean of fewer is as close to the truth (perf/README.md).
-    const int directions = settings_.hidden == Hidden::on ? DEFRAY_FILL_DIRECTIONS : 8;
-    Frame behind = stages_.fill(f, mixed, directions);
+    const int directions = settings_.hidden == Hidden::patterns ? DEFRAY_FILL_DIRECTIONS : 8;
+    Frame behind = backend_.fill(f, mixed, directions);
     done("fill");
     tiles_.add_hidden(behind.inverse);
     done("tiles");
-    if (settings_.hidden == Hidden::on) add_patterns(f, mixed, behind);
+    if (settings_.hidden == Hidden::patterns) add_patterns(f, mixed, behind);
     // Without `split` no pixel counts as mixed: all keep their colour and surface.
-    const Words to_split = settings_.split_edges ? mixed : Words(mixed.size());
-    const Surfaces surfaces = stages_.split(f, to_split, std::move(behind));
-    f = two_layers(stages_, f, surfaces, report_);
+    const Words to_split = settings_.split ? mixed : Words(mixed.size());
+    const Surfaces surfaces = backend_.split(f, to_split, std::move(behind));
+    f = two_layers(backend_, f, surfaces, report_);
     done("split");
     return f;
   }
@@ -87,11 +87,11 @@ class Chain {
     LightSources lights;
     if (settings_.highlights) {
       const int light_channels = static_cast<int>(f.channels.size()) - (f.has_alpha ? 1 : 0);
-      const Values<float> kept = stages_.highlights(f, light_channels);
+      const Values<float> kept = backend_.highlights(f, light_channels);
       const auto is_light = [](float share) { return share != 1.0f; };
       if (std::any_of(kept.begin(), kept.end(), is_light)) {
         const ApertureTable table = make_aperture_table(rasterise(settings_.aperture));
-        lights = take_light(f, kept, light_channels, table, plan_.cells);
+        lights = take_light(f, kept, light_channels, table, plan_.lens);
       }
       report_.highlights = lights.where.size();
       tiles_.add(lights);
@@ -103,14 +103,14 @@ class Chain {
   void prepare_colours(Frame& f) {
     if (settings_.border == Border::clamp) continue_colours(f);
     done("border");
-    if (settings_.soften) f.channels = stages_.soften(f, report_.lens_points);
+    if (settings_.soften) f.channels = backend_.soften(f, report_.lens_points);
     done("soften");
   }
 
   RayResult send_rays(const Frame& f, const LightSources& lights, const Progress& progress) {
     place_rays(f, settings_.aperture.cats_eye, plan_);
     done("lens");
-    RayResult result = stages_.rays(f, plan_, &lights, progress);
+    RayResult result = backend_.rays(f, plan_, &lights, progress);
     done("rays");
     return result;
   }
@@ -132,7 +132,7 @@ class Chain {
     const double seconds = watch_.lap();
     const auto found = std::find_if(report_.stages.begin(), report_.stages.end(),
                                     [&](const StageTime& s) { return s.stage == stage; });
-    const std::size_t made = stages_.bytes_made(), bytes = made - bytes_;
+    const std::size_t made = backend_.bytes_made(), bytes = made - bytes_;
     bytes_ = made;
     if (found == report_.stages.end()) {
       report_.stages.push_back({stage, seconds, bytes});
@@ -160,10 +160,10 @@ class Chain {
     std::vector<bool> is_behind(f.pixels());
     const auto inverse = behind.inverse.host();
     for (std::size_t i = 0; i < inverse.size(); ++i) is_behind[i] = inverse[i] >= 0;
-    const Words pixels = pattern_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
+    const Words pixels = patterns_pixels(encoded_colours(f, behind, mixed), f.channels, is_behind);
     PatternSettings patterns;
     patterns.shifts = settings_.pattern_shifts;
-    improve_by_patterns(stages_, f, pixels, patterns, behind);
+    improve_by_patterns(backend_, f, pixels, patterns, behind);
     done("patterns");
   }
 
@@ -202,11 +202,11 @@ class Chain {
   }
 
   const ChainSettings& settings_;
-  Stages& stages_;
+  Backend& backend_;
   RayPlan plan_;
   ChainReport report_;
   TileClasses tiles_;
-  std::size_t bytes_ = stages_.bytes_made();
+  std::size_t bytes_ = backend_.bytes_made();
   Stopwatch watch_;
 };
 
@@ -215,13 +215,13 @@ constexpr std::size_t bytes_a_pixel = 200;
 
 }  // namespace
 
-MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Stages& stages,
+MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Backend& backend,
                        bool wants_nearest, const Progress& progress) {
-  stages.require_memory(frame, frame.pixels() * bytes_a_pixel);
-  Chain chain(settings, stages);
+  backend.require_memory(frame, frame.pixels() * bytes_a_pixel);
+  Chain chain(settings, backend);
   chain.plan_lens(wants_nearest);
   Frame f = chain.extend(frame);
-  const Words mixed = chain.repair_depth(f);
+  const Words mixed = chain.repair(f);
   chain.classify(f, mixed);
   f = chain.find_surfaces(std::move(f), mixed);
   const LightSources lights = chain.take_highlights(f);

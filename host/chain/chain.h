@@ -8,7 +8,7 @@
 #include "chain/tile_classes.h"
 #include "defray/options.h"
 #include "defray/report.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "lens/aperture.h"
 
 namespace defray {
@@ -28,7 +28,7 @@ struct MethodResult {
 
 /// `frame` has coc_quanta, depth and channels; `seed` is for what is random. Throws Error(usage)
 /// for settings out of range.
-MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Stages& stages,
+MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Backend& backend,
                        bool wants_nearest = false, const Progress& progress = {});
 
 }  // namespace defray

@@ -22,7 +22,7 @@ struct HalfResult {
 /// `visible` goes through the lens as a channel: in the place of an alpha that is 1 everywhere,
 /// beside three others, or else alone.
 HalfResult through_lens(HalfFrame& half, bool is_opaque, const ChainSettings& settings,
-                        Stages& stages, bool wants_nearest, const Progress& progress) {
+                        Backend& backend, bool wants_nearest, const Progress& progress) {
   Frame& f = half.frame;
   Planes own = f.channels;
   if (is_opaque) f.channels.pop_back();
@@ -30,7 +30,7 @@ HalfResult through_lens(HalfFrame& half, bool is_opaque, const ChainSettings& se
   const bool has_room = f.channels.size() < 4 && !has_alpha;
   f.has_alpha = has_alpha;
   if (has_room) f.channels.emplace_back(half.detail);
-  HalfResult out{run_chain(f, settings, stages, wants_nearest, progress), {}};
+  HalfResult out{run_chain(f, settings, backend, wants_nearest, progress), {}};
   std::vector<Plane>& colour = out.result.colour;
   if (has_room) {
     out.visible = std::move(colour.back());
@@ -40,7 +40,7 @@ HalfResult through_lens(HalfFrame& half, bool is_opaque, const ChainSettings& se
     f.has_alpha = false;
     ChainSettings plain = settings;
     plain.highlights = false;
-    out.visible = run_chain(f, plain, stages).colour[0];
+    out.visible = run_chain(f, plain, backend).colour[0];
   }
   if (is_opaque) colour.emplace_back(f.pixels(), 1.0f);
   f.channels = std::move(own);
@@ -62,13 +62,13 @@ std::vector<std::uint32_t> nearest_at_full_size(const Frame& f, const HalfFrame&
 
 }  // namespace
 
-MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Stages& stages,
+MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Backend& backend,
                            bool wants_nearest, const Progress& progress) {
   Stopwatch watch;
   HalfFrame half = at_half_size(f);
   const bool opaque = is_opaque(f);
   const double halving = watch.lap();
-  HalfResult made = through_lens(half, opaque, settings, stages, wants_nearest, progress);
+  HalfResult made = through_lens(half, opaque, settings, backend, wants_nearest, progress);
   watch.lap();
   MethodResult& out = made.result;
   for (std::size_t c = 0; c < out.colour.size(); ++c) {

@@ -8,7 +8,7 @@
 namespace defray {
 
 /// As run_chain; pixels of `nearest` are the frame's.
-MethodResult run_half_size(const Frame& frame, const ChainSettings& settings, Stages& stages,
+MethodResult run_half_size(const Frame& frame, const ChainSettings& settings, Backend& backend,
                            bool wants_nearest = false, const Progress& progress = {});
 
 }  // namespace defray

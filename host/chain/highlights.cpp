@@ -66,7 +66,7 @@ float alpha_around(const Frame& f, const Plane& alpha, std::size_t own, std::int
 
 }  // namespace
 
-std::vector<std::uint32_t> map_cells(const LensCells& cells) {
+std::vector<std::uint32_t> map_cells(const LensPoints& lens) {
   constexpr int side = DEFRAY_CELL_MAP;
   constexpr std::int64_t step = (2 << DEFRAY_LENS_FRACTION_BITS) / side;
   std::vector<std::uint32_t> map;
@@ -78,16 +78,16 @@ std::vector<std::uint32_t> map_cells(const LensCells& cells) {
         return u * u + v * v;
       };
       const auto nearest =
-          std::min_element(cells.centres.begin(), cells.centres.end(),
+          std::min_element(lens.points.begin(), lens.points.end(),
                            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-      map.push_back(static_cast<std::uint32_t>(nearest - cells.centres.begin()));
+      map.push_back(static_cast<std::uint32_t>(nearest - lens.points.begin()));
     }
   }
   return map;
 }
 
 LightSources take_light(Frame& f, const Values<float>& kept_share, int light_channels,
-                        const ApertureTable& aperture, const LensCells& cells) {
+                        const ApertureTable& aperture, const LensPoints& lens) {
   LightSources lights;
   const auto kept = kept_share.host();
   if (std::all_of(kept.begin(), kept.end(), [](float k) { return k == 1.0f; })) return lights;
@@ -122,7 +122,7 @@ LightSources take_light(Frame& f, const Values<float>& kept_share, int light_cha
   sort_into_tiles(lights, f.width, f.height);
   lights.table = aperture.sums;
   lights.share_of_light = 1.0f / static_cast<float>(aperture.total());
-  lights.cell_map = map_cells(cells);
+  lights.cell_map = map_cells(lens);
   return lights;
 }
 

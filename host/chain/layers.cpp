@@ -59,9 +59,9 @@ Frame whole_pixels(Frame f) {
   return f;
 }
 
-Frame two_layers(Stages& stages, const Frame& frame, const Surfaces& s, ChainReport& report) {
+Frame two_layers(Backend& backend, const Frame& frame, const Surfaces& s, ChainReport& report) {
   count(s, report);
-  Frame f = stages.assemble(s);
+  Frame f = backend.assemble(s);
   if (frame.data_of.empty()) return f;
   std::vector<std::uint32_t> data(f.surfaces());
   for (std::size_t i = 0; i < frame.pixels(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 // What the stages have found out about a frame, as the one or two layers that rays come from.
 #include "chain/chain.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 
 namespace defray {
 
@@ -10,6 +10,7 @@ Frame whole_pixels(Frame frame);
 
 /// Two layers, with data_of where `frame` has it. `report` gets how many pixels of the picture were
 /// split and have something made up behind them.
-Frame two_layers(Stages& stages, const Frame& frame, const Surfaces& surfaces, ChainReport& report);
+Frame two_layers(Backend& backend, const Frame& frame, const Surfaces& surfaces,
+                 ChainReport& report);
 
 }  // namespace defray

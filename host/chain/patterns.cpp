@@ -33,8 +33,8 @@ std::vector<std::uint32_t> encoded_colours(const Frame& f, const Frame& behind,
   return encoded;
 }
 
-Words pattern_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
-                     const std::vector<bool>& is_behind) {
+Words patterns_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
+                      const std::vector<bool>& is_behind) {
   std::vector<std::span<const float>> colour;
   for (const Values<float>& channel : channels) colour.push_back(channel.host());
   parallel_for_each(pixels.size(), [&](std::size_t i) {
@@ -71,7 +71,7 @@ void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& v
   });
 }
 
-void improve_by_patterns(Stages& stages, const Frame& frame, const Words& pixels,
+void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixels,
                          const PatternSettings& settings, Frame& behind) {
   const auto is_behind = [](std::uint32_t pixel) { return (pixel & DEFRAY_PATTERN_BEHIND) != 0; };
   if (std::none_of(pixels.begin(), pixels.end(), is_behind)) return;
@@ -79,8 +79,8 @@ void improve_by_patterns(Stages& stages, const Frame& frame, const Words& pixels
   const std::vector<PatternShift> parallel = find_parallel_shifts(frame, pixels, settings);
   shifts.insert(shifts.end(), parallel.begin(), parallel.end());
   if (shifts.empty()) return;
-  const PatternSums sums = stages.patterns(frame, behind, pixels, shifts, settings);
-  blend_patterns(pixels, sums, pattern_variance(frame, pixels, settings), behind.channels);
+  const PatternSums sums = backend.patterns(frame, behind, pixels, shifts, settings);
+  blend_patterns(pixels, sums, patterns_variance(frame, pixels, settings), behind.channels);
 }
 
 }  // namespace defray

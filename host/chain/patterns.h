@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "kernels/params.h"
 
 namespace defray {
@@ -41,8 +41,8 @@ std::vector<std::uint32_t> encoded_colours(const Frame& frame, const Frame& behi
 /// DEFRAY_PATTERN_KNOWN taken from pixels with a channel beyond -1...1 or not a number (a highlight
 /// belongs to its place: copies of it would be new ones, and clipped it matches anything as
 /// bright), and DEFRAY_PATTERN_BEHIND added where something lies behind.
-Words pattern_pixels(std::vector<std::uint32_t> encoded, const Planes& channels,
-                     const std::vector<bool>& is_behind);
+Words patterns_pixels(std::vector<std::uint32_t> encoded, const Planes& channels,
+                      const std::vector<bool>& is_behind);
 
 /// The shifts at which known pixels of one surface agree best in the mean over the frame: local
 /// minima on a grid of 4 px, refined to 1 px, each followed by its opposite. Empty where less than
@@ -81,16 +81,16 @@ struct PatternSums {
 
 /// Variance V of the known colours around each fragment, all three together, (1/255)^2. A shift's
 /// D is 2 (V - covariance).
-Plane pattern_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings);
+Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings);
 
 /// Moves `behind` towards the matches' mean by the gain of linear regression, covariance / variance
 /// = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
 void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& variance,
                     Planes& behind);
 
-/// All of it. `pixels` are pattern_pixels; the smooth colours of `behind` are improved in place.
+/// All of it. `pixels` are patterns_pixels; the smooth colours of `behind` are improved in place.
 /// Other pixels keep theirs.
-void improve_by_patterns(Stages& stages, const Frame& frame, const Words& pixels,
+void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixels,
                          const PatternSettings& settings, Frame& behind);
 
 /// Weight of the pairs that a match needs: a tenth of a whole window's.

@@ -1,15 +1,17 @@
 #include "chain/ray_plan.h"
 
+#include "lens/aperture.h"
 #include "lens/cats_eye.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_grid.h"
+#include "lens/lens_points.h"
 
 namespace defray {
 
 RayPlan ray_plan(const ChainSettings& settings, bool wants_nearest) {
   validate(settings.aperture);
-  const std::size_t points = make_lens_cells(settings.cells_per_side, false).centres.size();
+  const std::size_t points = make_lens_grid(settings.cells_per_side, false).points.size();
   RayPlan plan;
-  plan.cells = make_lens_samples(settings.aperture, static_cast<int>(points));
+  plan.lens = make_lens_points(settings.aperture, static_cast<int>(points));
   plan.wants_nearest = wants_nearest;
   plan.by = settings.rays;
   return plan;

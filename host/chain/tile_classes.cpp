@@ -32,9 +32,9 @@ TileClasses::TileClasses(const Frame& f)
   add(TileClass::smooth, [&](std::size_t i) { return std::abs(coc[i]) >= DEFRAY_SHARP_QUANTA; });
 }
 
-void TileClasses::add_edges(const Words& flags) {
+void TileClasses::add_mixed(const Words& flags) {
   const auto mixed = flags.host();
-  add(TileClass::edges, [&](std::size_t i) { return mixed[i] != 0; });
+  add(TileClass::mixed, [&](std::size_t i) { return mixed[i] != 0; });
 }
 
 void TileClasses::add_hidden(const Values<float>& inverse) {
@@ -55,7 +55,7 @@ TileShares TileClasses::shares() const {
     return static_cast<double>(count) / static_cast<double>(tiles_.size());
   };
   return {tiles_.size(),           share(TileClass::in_focus), share(TileClass::smooth),
-          share(TileClass::edges), share(TileClass::hidden),   share(TileClass::lights)};
+          share(TileClass::mixed), share(TileClass::hidden),   share(TileClass::lights)};
 }
 
 void TileClasses::double_size(int width, int height) {

@@ -10,7 +10,7 @@ namespace defray {
 enum class TileClass : std::uint8_t {
   in_focus,  ///< Every CoC below half a pixel.
   smooth,    ///< One surface, or several that the lens does not part.
-  edges,     ///< Mixed pixels.
+  mixed,     ///< Mixed pixels.
   hidden,    ///< A made-up surface behind.
   lights,    ///< Highlights that became discs.
 };
@@ -22,7 +22,7 @@ class TileClasses {
   explicit TileClasses(const Frame& frame);
 
   /// Where `flags` are 1, with the margin.
-  void add_edges(const Words& flags);
+  void add_mixed(const Words& flags);
   /// Where 1/depth is not negative, with the margin.
   void add_hidden(const Values<float>& inverse);
   void add(const LightSources& lights);

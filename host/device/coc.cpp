@@ -1,11 +1,11 @@
 // Kernels `coc` and `tiltshift`.
 #include "base/error.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/lens.h"
 
 namespace defray {
 
-void DeviceStages::require_memory(const Frame& f, std::size_t bytes) {
+void DeviceBackend::require_memory(const Frame& f, std::size_t bytes) {
   // Of host memory only a device that shares it tells how much there is.
   const DeviceInfo& device = session_.info();
   if (!device.shares_host_memory || bytes <= device.global_memory_bytes) return;
@@ -17,7 +17,7 @@ void DeviceStages::require_memory(const Frame& f, std::size_t bytes) {
       field("literal"));
 }
 
-Quanta DeviceStages::coc(const Lens& lens, int display_width_px, const Values<float>& depth) {
+Quanta DeviceBackend::coc(const Lens& lens, int display_width_px, const Values<float>& depth) {
   if (depth.empty()) return {};
   const DefrayCocParams p =
       coc_params(lens, display_width_px, static_cast<std::uint32_t>(depth.size()));
@@ -27,7 +27,7 @@ Quanta DeviceStages::coc(const Lens& lens, int display_width_px, const Values<fl
   return coc;
 }
 
-Quanta DeviceStages::tiltshift(const DefrayTiltshiftParams& p) {
+Quanta DeviceBackend::tiltshift(const DefrayTiltshiftParams& p) {
   Quanta coc;
   const cl::Buffer out = session_.out(coc, std::size_t{p.width} * p.rows);
   session_.launch("tiltshift", {p.width, p.rows}, p, out);

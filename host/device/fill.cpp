@@ -2,13 +2,13 @@
 #include <algorithm>
 
 #include "chain/fill_tiles.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
 
 namespace defray {
 
-Frame DeviceStages::fill(const Frame& f, const Words& mixed, int directions) {
+Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions) {
   const Quanta farthest_met = farthest_to_fill(f, mixed);
   const auto coc = f.coc_quanta.host();
   const auto [least, most] = std::minmax_element(coc.begin(), coc.end());

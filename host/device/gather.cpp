@@ -5,7 +5,7 @@
 #include <array>
 
 #include "base/parallel.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/coc.h"
 
 namespace defray {
@@ -60,7 +60,7 @@ void gather_once(Session& session, DefrayGatherParams p, GatherKind kind,
 
 }  // namespace
 
-std::vector<std::int32_t> DeviceStages::gather_tiles(const Frame& f) {
+std::vector<std::int32_t> DeviceBackend::gather_tiles(const Frame& f) {
   const DefrayTileParams p = tile_params(f.width, f.height, largest_coc(f.coc_quanta.host()));
   Quanta largest;
   const cl::Buffer out = session_.out(largest, std::size_t{p.tiles_x} * p.tiles_y);
@@ -68,7 +68,7 @@ std::vector<std::int32_t> DeviceStages::gather_tiles(const Frame& f) {
   return std::move(largest).take();
 }
 
-std::vector<std::int32_t> DeviceStages::gather_reach(const Frame& f) {
+std::vector<std::int32_t> DeviceBackend::gather_reach(const Frame& f) {
   DefrayTileParams p = tile_params(f.width, f.height, largest_coc(f.coc_quanta.host()));
   const std::vector<std::int32_t> largest = gather_tiles(f);
   const cl::Buffer along_x = session_.buffer(largest.size() * sizeof(std::int32_t));
@@ -80,8 +80,8 @@ std::vector<std::int32_t> DeviceStages::gather_reach(const Frame& f) {
   return std::move(reach).take();
 }
 
-std::vector<Plane> DeviceStages::gather(const Frame& f, const GatherSettings& settings,
-                                        const Progress& progress) {
+std::vector<Plane> DeviceBackend::gather(const Frame& f, const GatherSettings& settings,
+                                         const Progress& progress) {
   validate(settings);
   const GatherSamples samples = make_gather_samples(settings);
   std::vector<std::int32_t> reach{0};  // literal looks no farther than its own CoC

@@ -1,12 +1,12 @@
 // Kernel `highlights`.
 #include "chain/highlight_tiles.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
 
 namespace defray {
 
-Values<float> DeviceStages::highlights(const Frame& f, int light_channels) {
+Values<float> DeviceBackend::highlights(const Frame& f, int light_channels) {
   const Values<float> darkest = darkest_around(f, light_channels);
   const int tiles_x = (f.width + DEFRAY_HIGHLIGHT_TILE - 1) / DEFRAY_HIGHLIGHT_TILE;
   Values<float> kept;

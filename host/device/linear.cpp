@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "methods/linear_band.h"
 
 namespace defray {
@@ -41,7 +41,7 @@ void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, i
 
 }  // namespace
 
-std::vector<Plane> DeviceStages::linear(const Frame& f, const Progress& progress) {
+std::vector<Plane> DeviceBackend::linear(const Frame& f, const Progress& progress) {
   const int width = f.width, height = f.height;
   const auto coc_quanta = f.coc_quanta.host();
   const int reach = linear_reach(coc_quanta);

@@ -4,8 +4,8 @@
 #include <list>
 
 #include "base/parallel.h"
-#include "chain/pattern_window.h"
-#include "device/device_stages.h"
+#include "chain/patterns_window.h"
+#include "device/device_backend.h"
 #include "frame/band_rows.h"
 
 namespace defray {
@@ -34,12 +34,12 @@ class PatternBand {
               const PatternMargins& margins, const PatternSettings& settings, int band_y,
               int band_rows)
       : session_(session),
-        p_(pattern_band(frame, margins, settings, band_y, band_rows)),
-        pixels_(pattern_window(frame, p_, band_y, pixels, 0u)),
-        coc_(pattern_window(frame, p_, band_y, frame.coc_quanta, 0)),
-        inverse_(pattern_window(frame, p_, band_y, frame.inverse, 0.0f)) {
+        p_(patterns_band(frame, margins, settings, band_y, band_rows)),
+        pixels_(patterns_window(frame, p_, band_y, pixels, 0u)),
+        coc_(patterns_window(frame, p_, band_y, frame.coc_quanta, 0)),
+        inverse_(patterns_window(frame, p_, band_y, frame.inverse, 0.0f)) {
     for (int y = 0; y < band_rows; y += group_rows) {
-      PatternUnits units = pattern_units(p_, pixels_, y, std::min(y + group_rows, band_rows));
+      PatternUnits units = patterns_units(p_, pixels_, y, std::min(y + group_rows, band_rows));
       if (!units.match.empty()) groups_.emplace_back(session, std::move(units));
     }
     if (groups_.empty()) return;
@@ -54,7 +54,7 @@ class PatternBand {
   }
 
   const std::list<PatternGroup>& groups() const { return groups_; }
-  const DefrayPatternParams& params() const { return p_; }
+  const DefrayPatternsParams& params() const { return p_; }
 
   void difference(const PatternGroup& group, PatternShift shift) {
     p_.shift_x = shift.x;
@@ -99,7 +99,7 @@ class PatternBand {
   }
 
   Session& session_;
-  DefrayPatternParams p_;
+  DefrayPatternsParams p_;
   std::vector<std::uint32_t> pixels_;
   std::vector<std::int32_t> coc_;
   Plane inverse_;
@@ -122,7 +122,7 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
                 PatternBand& band, int band_y, const std::vector<PatternShift>& shifts,
                 PatternSums& out) {
   if (band.groups().empty()) return;
-  const DefrayPatternParams& p = band.params();
+  const DefrayPatternsParams& p = band.params();
   const std::size_t first = size(band_y) * p.width, count = std::size_t{p.rows} * p.width;
   const int source_y = band_y - static_cast<int>(p.source_row);
   const int source_end = std::min(band_y + static_cast<int>(p.rows + p.margin_y), frame.height);
@@ -158,8 +158,8 @@ void match_band(Session& session, const Frame& frame, const Frame& behind, const
 /// Bands whose planes fit the memory.
 std::vector<BandRows> bands_of(const Frame& frame, const PatternMargins& margins,
                                std::size_t memory_bytes) {
-  const std::size_t none = pattern_band_bytes(frame.width, margins, 0);
-  const std::size_t row = pattern_band_bytes(frame.width, margins, 1) - none;
+  const std::size_t none = patterns_band_bytes(frame.width, margins, 0);
+  const std::size_t row = patterns_band_bytes(frame.width, margins, 1) - none;
   return cut_into_bands(frame.height, rows_that_fit(frame.height, memory_bytes, none, row), 0);
 }
 
@@ -171,18 +171,19 @@ PatternBand whole_frame(Session& session, const Frame& frame, const Words& pixel
 
 }  // namespace
 
-std::vector<std::uint32_t> DeviceStages::pattern_difference(const Frame& frame, const Words& pixels,
-                                                            PatternShift shift,
-                                                            const PatternSettings& settings) {
+std::vector<std::uint32_t> DeviceBackend::patterns_difference(const Frame& frame,
+                                                              const Words& pixels,
+                                                              PatternShift shift,
+                                                              const PatternSettings& settings) {
   PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
   if (band.groups().empty()) return std::vector<std::uint32_t>(pixels.size());
   for (const PatternGroup& group : band.groups()) band.difference(group, shift);
   return band.read_difference();
 }
 
-std::vector<std::uint64_t> DeviceStages::pattern_columns(const Frame& frame, const Words& pixels,
-                                                         PatternShift shift,
-                                                         const PatternSettings& settings) {
+std::vector<std::uint64_t> DeviceBackend::patterns_columns(const Frame& frame, const Words& pixels,
+                                                           PatternShift shift,
+                                                           const PatternSettings& settings) {
   PatternBand band = whole_frame(session_, frame, pixels, shift, settings);
   if (band.groups().empty()) return std::vector<std::uint64_t>(pixels.size());
   for (const PatternGroup& group : band.groups()) {
@@ -192,9 +193,9 @@ std::vector<std::uint64_t> DeviceStages::pattern_columns(const Frame& frame, con
   return band.read_columns();
 }
 
-PatternSums DeviceStages::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                                   const std::vector<PatternShift>& shifts,
-                                   const PatternSettings& settings) {
+PatternSums DeviceBackend::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
+                                    const std::vector<PatternShift>& shifts,
+                                    const PatternSettings& settings) {
   PatternSums out(frame.channels.size(), pixels.size());
   if (shifts.empty()) return out;
   const PatternMargins margins(shifts, settings.window_px);

@@ -8,7 +8,7 @@ namespace defray {
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
                        const LightSources* lights, std::size_t pixels, std::size_t winner_cells)
-    : lens(session.view(plan.cells.centres)),
+    : lens(session.view(plan.lens.points)),
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
       winner(session.buffer(pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
@@ -32,14 +32,14 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
 DefrayRdbParams RayBuffers::params() const {
   DefrayRdbParams p{};
   p.width = word(frame_.width);
-  p.jitter_lens = plan_.cells.jitter;
+  p.jitter_lens = plan_.lens.jitter;
   p.seed = plan_.seed;
   p.layers = word(frame_.layers);
   p.has_coverage = !frame_.coverage.empty();
   p.origin_x = plan_.origin_x;
   p.origin_y = plan_.origin_y;
   p.has_rim = !plan_.rim_x.empty();
-  p.all_cells = static_cast<std::uint32_t>(plan_.cells.centres.size());
+  p.all_cells = static_cast<std::uint32_t>(plan_.lens.points.size());
   p.has_data_of = !frame_.data_of.empty();
   return p;
 }

@@ -3,7 +3,7 @@
 // the means: light sources and nearest hits.
 #include <array>
 
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "opencl/session.h"
 #include "rdb/light_sources.h"
 #include "rdb/rdb.h"

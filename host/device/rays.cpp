@@ -1,7 +1,7 @@
 // The ray distribution buffers: by `rdb_gather` where nothing is random, else by `rdb_scatter`.
 #include <algorithm>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "device/rays_gather.h"
 #include "device/rdb_run.h"
 
@@ -24,12 +24,12 @@ void scatter(Session& session, const Frame& frame, const RayPlan& plan, const Li
 
 }  // namespace
 
-RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const LightSources* lights,
-                             const Progress& progress) {
+RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const LightSources* lights,
+                              const Progress& progress) {
   RayResult out{std::vector<Plane>(frame.channels.size(), Plane(frame.pixels())),
                 std::vector<std::uint32_t>(frame.pixels())};
   if (plan.wants_nearest) out.nearest.resize(frame.pixels());
-  if (plan.by == RaysBy::gather && plan.cells.jitter == 0) {
+  if (plan.by == RaysBy::gather && plan.lens.jitter == 0) {
     RaysGather(session_, frame, plan, lights).run(out, progress);
   } else {
     scatter(session_, frame, plan, lights, progress, out);
@@ -37,7 +37,7 @@ RayResult DeviceStages::rays(const Frame& frame, const RayPlan& plan, const Ligh
   return out;
 }
 
-RayTiles DeviceStages::ray_tiles(const Frame& frame, const RayPlan& plan) {
+RayTiles DeviceBackend::ray_tiles(const Frame& frame, const RayPlan& plan) {
   RayTileWindow window(session_, frame, plan, bins_of(frame));
   window.prepare({0, frame.height, 0, frame.height});
   return window.read();

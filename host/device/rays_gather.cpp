@@ -11,7 +11,7 @@ constexpr int rows_at_once = 64;  ///< Of a launch, for the progress bar.
 
 /// Cells whose winners somebody asks for: the light sources, or the nearest hits.
 std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
-  return plan.wants_nearest || (lights && !lights->empty()) ? plan.cells.centres.size() : 0;
+  return plan.wants_nearest || (lights && !lights->empty()) ? plan.lens.points.size() : 0;
 }
 
 /// Rows of a band; winners of all its cells take half the memory at most.
@@ -29,7 +29,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
                        const LightSources* lights)
     : session_(session),
       frame_(frame),
-      cells_(plan.cells),
+      lens_(plan.lens),
       bins_(bins_of(frame)),
       winner_cells_(winner_cells_of(plan, lights)),
       rows_(rows_of_band(session, frame, winner_cells_)),
@@ -51,7 +51,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
 void RaysGather::find_segments(int first_cell) {
   if (first_cell == table_cell_) return;
   session_.finish();  // kernels may look at the one before
-  table_.emplace(cells_, first_cell, bins_, frame_.width, frame_.height,
+  table_.emplace(lens_, first_cell, bins_, frame_.width, frame_.height,
                  session_.info().most_segments);
   table_cell_ = first_cell;
   first_ = session_.view(table_->first);
@@ -64,7 +64,7 @@ void RaysGather::gather_pass(int first_cell) {
   p.first_cell = word(first_cell);
   p.cell_count = word(table_->cell_count());
   p.is_first_pass = first_cell == 0;
-  p.is_last_pass = p.first_cell + p.cell_count == cells_.centres.size();
+  p.is_last_pass = p.first_cell + p.cell_count == lens_.points.size();
   const std::size_t across = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
   const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
   const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
@@ -78,7 +78,7 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   DefrayRaysParams& p = window_.params;
   p.band_y = word(y);
   p.band_rows = word(rows);
-  const int cells = static_cast<int>(cells_.centres.size());
+  const int cells = static_cast<int>(lens_.points.size());
   for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
   DefrayRdbParams r = buffers_.params();
   r.window_y = p.window_y;

@@ -22,7 +22,7 @@ class RaysGather {
 
   Session& session_;
   const Frame& frame_;
-  const LensCells& cells_;
+  const LensPoints& lens_;
   RadiusBins bins_;
   std::size_t winner_cells_;  ///< 0: nobody wants winners.
   int rows_;                  ///< Most of a band.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"
@@ -13,7 +13,7 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
                const LightSources* lights)
     : session_(session),
       frame_(frame),
-      cells_(plan.cells.centres.size()),
+      cells_(plan.lens.points.size()),
       holds_frame_(holds_planes(session, "rdb_merge", frame)),
       passes_(plan_rdb_passes(frame.width, frame.height, static_cast<int>(cells_),
                               rdb_reach(largest_coc(frame.coc_quanta.host())),

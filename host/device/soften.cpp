@@ -1,15 +1,15 @@
 // Kernel `soften`.
-#include "chain/lens_grid.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "lens/coc.h"
+#include "lens/lens_grid.h"
 #include "opencl/bands.h"
 
 namespace defray {
 
-Planes DeviceStages::soften(const Frame& f, int lens_points) {
+Planes DeviceBackend::soften(const Frame& f, int lens_points) {
   const Words whole(f.coverage.empty() ? f.surfaces() : 0, DEFRAY_WHOLE);
   const Words& coverage = f.coverage.empty() ? whole : f.coverage;
-  const float cells = cells_a_side(lens_points);
+  const float cells = cells_per_side(lens_points);
   const auto reach = static_cast<std::int64_t>(
       static_cast<float>(largest_coc(f.coc_quanta.host())) * px_per_quantum / cells);
   Planes out;

@@ -1,10 +1,10 @@
 // Kernels `split` and `assemble`.
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "opencl/bands.h"
 
 namespace defray {
 
-Surfaces DeviceStages::split(const Frame& f, const Words& mixed, Frame behind) {
+Surfaces DeviceBackend::split(const Frame& f, const Words& mixed, Frame behind) {
   Frame front = f.without_planes();
   for_each_band(session_, "split", f, 0, [&](Band& band) {
     const DefrayFrameParams p{word(f.width), word(band.rows().window_rows)};
@@ -22,7 +22,7 @@ Surfaces DeviceStages::split(const Frame& f, const Words& mixed, Frame behind) {
   return {std::move(front), std::move(behind)};
 }
 
-Frame DeviceStages::assemble(const Surfaces& s) {
+Frame DeviceBackend::assemble(const Surfaces& s) {
   Frame f = s.front.without_planes();
   f.layers = 2;
   const std::size_t channels = s.front.channels.size();

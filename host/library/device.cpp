@@ -5,17 +5,17 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "device/device_stages.h"
-#include "library/stages_of.h"
+#include "device/device_backend.h"
+#include "library/backend_of.h"
 #include "opencl/session.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray {
 
 struct Device::State {
   std::string name;
   std::optional<Session> session;  ///< None: the reference.
-  std::unique_ptr<Stages> stages;
+  std::unique_ptr<Backend> backend;
 };
 
 Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -37,14 +37,14 @@ Device Device::open(const std::string& name, const DeviceOptions& options) {
   auto state = std::make_unique<State>();
   state->name = info.name + (options.math == Math::fast ? " (fast arithmetic)" : "");
   state->session.emplace(info, session);
-  state->stages = std::make_unique<DeviceStages>(*state->session);
+  state->backend = std::make_unique<DeviceBackend>(*state->session);
   return Device(std::move(state));
 }
 
 Device Device::reference() {
   auto state = std::make_unique<State>();
   state->name = "the scalar reference";
-  state->stages = std::make_unique<reference::TwinStages>();
+  state->backend = std::make_unique<reference::TwinBackend>();
   return Device(std::move(state));
 }
 
@@ -76,6 +76,6 @@ void Device::set_work_group(const std::string& kernel, std::size_t x, std::size_
   session.set_work_group(kernel, x, y);
 }
 
-Stages& stages_of(Device& device) { return *device.state_->stages; }
+Backend& backend_of(Device& device) { return *device.state_->backend; }
 
 }  // namespace defray

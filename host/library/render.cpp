@@ -8,7 +8,7 @@
 #include "image/nonfinite.h"
 #include "lens/coc.h"
 #include "lens/depth.h"
-#include "library/stages_of.h"
+#include "library/backend_of.h"
 
 namespace defray {
 namespace {
@@ -87,7 +87,7 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   validate(lens, options);
   RenderResult out;
   Rendered rendered =
-      render(job_of(picture, lens, options, out.report), stages_of(device), progress);
+      render(job_of(picture, lens, options, out.report), backend_of(device), progress);
   describe(rendered, options, out.report);
   out.colour = std::move(rendered.result.colour);
   out.coc_px = radii_px(rendered.frame.coc_quanta.host());

@@ -16,7 +16,7 @@
 #include "lens/camera.h"
 #include "lens/coc.h"
 #include "lens/depth.h"
-#include "library/stages_of.h"
+#include "library/backend_of.h"
 #include "render.h"
 
 namespace defray {
@@ -86,12 +86,13 @@ void choose_further_channels(const FramePaths& paths, const RenderSettings& sett
 /// The lens once more for each group of light channels: with the colour's depth and CoC, but what
 /// lies behind and mixed pixels are estimated from the group's own values. Puts the planes into
 /// `choice` and `planes`, to be written with the colour.
-void render_light(const Source& source, Frame frame, const RenderSettings& settings, Stages& stages,
-                  FrameReport& report, ColourChoice& choice, std::vector<Plane>& planes) {
+void render_light(const Source& source, Frame frame, const RenderSettings& settings,
+                  Backend& backend, FrameReport& report, ColourChoice& choice,
+                  std::vector<Plane>& planes) {
   for (const LightGroup& group : source.further.light) {
     frame.channels = read_planes(source, group.channels, settings, report.light_channels, report);
     frame.has_alpha = group.has_alpha;
-    const std::vector<Plane> out = apply_method(frame, settings.method, stages).colour;
+    const std::vector<Plane> out = apply_method(frame, settings.method, backend).colour;
     choice.channels.insert(choice.channels.end(), group.channels.begin(), group.channels.end());
     planes.insert(planes.end(), out.begin(), out.end());
   }
@@ -204,13 +205,13 @@ void FileRender::read() {
 void FileRender::render(Device& device, const Progress& progress) {
   State& s = *state_;
   if (!s.source) fail(ErrorKind::usage, "{}: read() comes before render()", s.paths.input);
-  Stages& stages = stages_of(device);
+  Backend& backend = backend_of(device);
   Stopwatch watch;
-  Rendered rendered = defray::render(job_of(*s.source, s.settings, s.report), stages, progress);
+  Rendered rendered = defray::render(job_of(*s.source, s.settings, s.report), backend, progress);
   describe(rendered, s.settings.method, s.report);
   s.choice = s.source->choice;
   s.planes = std::move(rendered.result.colour);
-  render_light(*s.source, rendered.frame, s.settings, stages, s.report, s.choice, s.planes);
+  render_light(*s.source, rendered.frame, s.settings, backend, s.report, s.choice, s.planes);
   move_data(*s.source, rendered.result.nearest, s.report);
   if (!s.paths.coc.empty()) s.coc_px = radii_px(rendered.frame.coc_quanta.host());
   if (!s.paths.tiles.empty()) s.tiles = rendered.result.tiles.picture();

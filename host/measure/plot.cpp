@@ -39,10 +39,10 @@ void put_text(cv::Mat& image, const std::string& text, cv::Point left_bottom,
   cv::putText(image, text, left_bottom, font, scale, black, 1, cv::LINE_AA);
 }
 
-std::vector<double> values(const Plot& plot, double Point::*coordinate) {
+std::vector<double> values(const Plot& plot, double PlotPoint::*coordinate) {
   std::vector<double> all;
   for (const Series& series : plot.series) {
-    for (const Point& point : series.points) all.push_back(point.*coordinate);
+    for (const PlotPoint& point : series.points) all.push_back(point.*coordinate);
   }
   return all;
 }
@@ -67,12 +67,12 @@ class Chart {
  public:
   explicit Chart(const Plot& plot)
       : plot_(plot),
-        x_(plot.x_label, values(plot, &Point::x), plot.x_log),
-        y_(plot.y_label, values(plot, &Point::y), plot.y_log),
+        x_(plot.x_label, values(plot, &PlotPoint::x), plot.x_log),
+        y_(plot.y_label, values(plot, &PlotPoint::y), plot.y_log),
         area_(cv::Point(left_margin(y_), 56),
               cv::Point(plot_width_px - 30 - legend_width(plot), plot_height_px - 70)) {}
 
-  cv::Point2d position(const Point& point) const {
+  cv::Point2d position(const PlotPoint& point) const {
     return {area_.x + x_.share(point.x) * area_.width,
             area_.y + (1 - y_.share(point.y)) * area_.height};
   }
@@ -82,7 +82,7 @@ class Chart {
     draw_texts();
     for (std::size_t i = 0; i < plot_.series.size(); ++i) draw_series(i);
     for (const Series& series : plot_.series) {
-      for (const Point& point : series.points) draw_label(point);
+      for (const PlotPoint& point : series.points) draw_label(point);
     }
     draw_legend();
     return image_;
@@ -94,7 +94,7 @@ class Chart {
   void draw_legend();
   void draw_series(std::size_t index);
   int ink(const cv::Rect& place) const;
-  void draw_label(const Point& point);
+  void draw_label(const PlotPoint& point);
   void draw_line(cv::Point2d from, cv::Point2d to, const cv::Scalar& colour, int thickness);
   void draw_marker(std::size_t series, cv::Point2d at);
 
@@ -186,7 +186,7 @@ int Chart::ink(const cv::Rect& place) const {
 }
 
 /// At that corner of the point where it covers least.
-void Chart::draw_label(const Point& point) {
+void Chart::draw_label(const PlotPoint& point) {
   if (point.label.empty()) return;
   const double scale = 0.45;
   const cv::Size size = text_size(point.label, scale);
@@ -217,7 +217,7 @@ void Chart::draw_legend() {
 
 }  // namespace
 
-std::array<double, 2> plot_position(const Plot& plot, const Point& point) {
+std::array<double, 2> plot_position(const Plot& plot, const PlotPoint& point) {
   const cv::Point2d at = Chart(plot).position(point);
   return {at.x, at.y};
 }

@@ -12,41 +12,41 @@ namespace {
 struct Row {
   Method method;
   const char* name;
-  MethodResult (*run)(const Frame&, const MethodSettings&, Stages&, bool wants_nearest,
+  MethodResult (*run)(const Frame&, const MethodSettings&, Backend&, bool wants_nearest,
                       const Progress&);
 };
 
-MethodResult run_rdb(const Frame& f, const MethodSettings& s, Stages& stages, bool wants_nearest,
+MethodResult run_rdb(const Frame& f, const MethodSettings& s, Backend& backend, bool wants_nearest,
                      const Progress& progress) {
   if (s.chain) {
     const auto run = s.chain->half_size ? run_half_size : run_chain;
-    return run(f, *s.chain, stages, wants_nearest, progress);
+    return run(f, *s.chain, backend, wants_nearest, progress);
   }
   RayPlan plan = plan_rays(s.rdb);
   plan.wants_nearest = wants_nearest;
-  RayResult result = stages.rays(f, plan, nullptr, progress);
+  RayResult result = backend.rays(f, plan, nullptr, progress);
   return {std::move(result.means), {}, or_own_pixel(std::move(result.nearest))};
 }
 
-MethodResult run_linear(const Frame& f, const MethodSettings&, Stages& stages, bool,
+MethodResult run_linear(const Frame& f, const MethodSettings&, Backend& backend, bool,
                         const Progress& progress) {
-  return {stages.linear(f, progress)};
+  return {backend.linear(f, progress)};
 }
 
-MethodResult run_gather(const Frame& f, const MethodSettings& s, Stages& stages, bool,
+MethodResult run_gather(const Frame& f, const MethodSettings& s, Backend& backend, bool,
                         const Progress& progress) {
-  return {stages.gather(f, s.gather, progress)};
+  return {backend.gather(f, s.gather, progress)};
 }
 
 /// Linear filtering divided by the light that each pixel got from a white frame: a lens blur as
 /// photo editors have it. Where the radius changes, the plain sum would show as bright and dark
 /// bands.
-MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Stages& stages, bool,
+MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Backend& backend, bool,
                            const Progress& progress) {
-  MethodResult out{stages.linear(f, progress)};
+  MethodResult out{backend.linear(f, progress)};
   Frame white_frame = f;
   white_frame.channels = Planes{Values<float>(f.pixels(), 1.0f)};
-  const Plane white = stages.linear(white_frame, progress)[0];
+  const Plane white = backend.linear(white_frame, progress)[0];
   for (Plane& plane : out.colour) {
     for (std::size_t i = 0; i < plane.size(); ++i) plane[i] /= white[i];
   }
@@ -68,9 +68,9 @@ const Row& row_of(Method method) {
 
 const char* to_string(Method method) { return row_of(method).name; }
 
-MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Stages& stages,
+MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Backend& backend,
                           bool wants_nearest, const Progress& progress) {
-  return row_of(settings.method).run(frame, settings, stages, wants_nearest, progress);
+  return row_of(settings.method).run(frame, settings, backend, wants_nearest, progress);
 }
 
 }  // namespace defray

@@ -2,7 +2,7 @@
 // The methods, behind one call: a frame with its circles of confusion in, the lens picture out.
 #include "chain/chain.h"
 #include "defray/options.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "methods/gather.h"
 #include "rdb/rdb.h"
 
@@ -10,7 +10,7 @@ namespace defray {
 
 /// The lens picture, as many channels as there are, and what the method tells beside it. `frame`
 /// has coc_quanta, channels and, for the RDB, depth. Throws Error(usage) for settings out of range.
-MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Stages& stages,
+MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Backend& backend,
                           bool wants_nearest = false, const Progress& progress = {});
 
 }  // namespace defray

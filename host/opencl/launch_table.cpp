@@ -19,7 +19,6 @@ const std::vector<Launch>& launch_table() {
       // Reads and writes a surface.
       {"assemble", 64, 1, 0, 2 * (3 * plane + colour)},
       {"coc", 64, 1},
-      {"edges", 8, 1, 1, 2 * plane, DEFRAY_RUN},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
       {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_RUN},
@@ -30,6 +29,7 @@ const std::vector<Launch>& launch_table() {
       {"highlights", 64, 1, 0, 3 * plane + colour},
       {"highlights_add", 64, 1},
       {"linear_psf", 16, 1},
+      {"mixed", 8, 1, 1, 2 * plane, DEFRAY_RUN},
       {"patterns_columns", 16, 1},
       {"patterns_difference", 16, 1},
       {"patterns_match", 16, 1},

@@ -15,7 +15,7 @@ struct LightSources {
   std::vector<std::uint32_t> first, list;
   std::vector<std::uint32_t> table;     ///< The aperture's summed light.
   float share_of_light = 0;             ///< 1 / its total.
-  std::vector<std::uint32_t> cell_map;  ///< [DEFRAY_CELL_MAP]^2: lens cell nearest to a lens point.
+  std::vector<std::uint32_t> cell_map;  ///< [DEFRAY_CELL_MAP]^2: nearest lens point.
 
   bool empty() const { return where.empty(); }
 };

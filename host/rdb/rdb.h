@@ -6,13 +6,13 @@
 
 #include "base/plane.h"
 #include "defray/options.h"
-#include "lens/lens_cells.h"
+#include "lens/lens_points.h"
 
 namespace defray {
 
 /// What rays of a frame go through.
 struct RayPlan {
-  LensCells cells;
+  LensPoints lens;
   std::uint32_t seed = 0;          ///< Of the jitter.
   int origin_x = 0, origin_y = 0;  ///< Of the frame in the display window: jitter follows it.
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
@@ -22,7 +22,7 @@ struct RayPlan {
   RaysBy by = RaysBy::gather;  ///< The same bits.
 };
 
-/// Throws Error(usage) as make_lens_cells does.
+/// Throws Error(usage) as make_lens_grid does.
 RayPlan plan_rays(const RdbSettings& settings);
 
 /// What the ray distribution buffers give.
@@ -37,7 +37,7 @@ struct RayResult {
 /// Nearest hits with each pixel itself where there is none.
 std::vector<std::uint32_t> or_own_pixel(std::vector<std::uint32_t> nearest);
 
-/// Lens cells that the rim leaves open for a pixel; all of them without one.
+/// Lens points that the rim leaves open for a pixel; all of them without one.
 std::size_t open_cells(const RayPlan& plan, std::size_t x, std::size_t y);
 
 }  // namespace defray

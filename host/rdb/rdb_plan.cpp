@@ -30,7 +30,7 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
       static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
   if (memory_bytes < row_bytes) {
     fail(ErrorKind::usage,
-         "{} is {:.4g} MiB: one row of {} pixels with {} lens cells needs at least {:.3f} MiB",
+         "{} is {:.4g} MiB: one row of {} pixels with {} lens points needs at least {:.3f} MiB",
          field("memory"), mib(memory_bytes), width, fewest,
          std::ceil(mib(row_bytes) * 1000) / 1000);
   }

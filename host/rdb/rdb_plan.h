@@ -19,7 +19,7 @@ struct RdbWinner {
 inline constexpr std::size_t rdb_bytes_a_cell = sizeof(RdbWinner);
 inline constexpr std::size_t rdb_bytes_a_sum = 4 * sizeof(float) + 4 * sizeof(std::uint32_t);
 
-/// One pass: which target rows, which source rows can reach them, and which lens cells.
+/// One pass: which target rows, which source rows can reach them, and which lens points.
 struct RdbPass : BandRows {
   int first_cell, cell_count;
 };

@@ -79,10 +79,10 @@ std::int64_t RadiusBins::largest_of(int bin) const {
   return std::max(std::abs(first_radius(bin)), std::abs(last));
 }
 
-SegmentTable::SegmentTable(const LensCells& cells, int first_cell, const RadiusBins& bins,
+SegmentTable::SegmentTable(const LensPoints& lens, int first_cell, const RadiusBins& bins,
                            int width, int height, std::size_t most) {
-  for (std::size_t cell = size(first_cell); cell < cells.centres.size(); ++cell) {
-    const auto [u, v] = cells.centres[cell];
+  for (std::size_t cell = size(first_cell); cell < lens.points.size(); ++cell) {
+    const auto [u, v] = lens.points[cell];
     std::size_t at = segments.size();
     add_cell({u}, {v}, bins.least, bins.largest, width, height, segments);
     const std::size_t runs = first.size() / 2;

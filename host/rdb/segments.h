@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/params.h"
-#include "lens/lens_cells.h"
+#include "lens/lens_points.h"
 
 namespace defray {
 
@@ -37,7 +37,7 @@ struct SegmentTable {
 
   /// From `first_cell` on as many cells as have `most` segments together, one at least. The ways
   /// from one run of bins to the next count too.
-  SegmentTable(const LensCells& cells, int first_cell, const RadiusBins& bins, int width,
+  SegmentTable(const LensPoints& lens, int first_cell, const RadiusBins& bins, int width,
                int height, std::size_t most);
 
   int cell_count() const { return static_cast<int>(first.size()) / (DEFRAY_RAY_BINS + 1); }

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "reference/reference.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 
@@ -30,7 +30,7 @@ double coc_px(const Lens& lens, int display_width_px, double depth_units) {
   return 0.5 * aperture * magnification * signed_share;
 }
 
-Quanta TwinStages::coc(const Lens& lens, int display_width_px, const Values<float>& depth) {
+Quanta TwinBackend::coc(const Lens& lens, int display_width_px, const Values<float>& depth) {
   const double quantum = std::ldexp(1.0, -DEFRAY_COC_FRACTION_BITS);
   double limit = DEFRAY_COC_LIMIT_QUANTA * quantum;
   if (lens.max_coc_px > 0)

@@ -6,8 +6,8 @@
 
 namespace defray::reference {
 
-std::vector<Plane> TwinStages::gather(const Frame& f, const GatherSettings& settings,
-                                      const Progress&) {
+std::vector<Plane> TwinBackend::gather(const Frame& f, const GatherSettings& settings,
+                                       const Progress&) {
   validate(settings);
   const GatherSamples samples = make_gather_samples(settings);
   std::vector<Plane> result = planes_of(f.channels);

@@ -4,7 +4,7 @@
 
 #include "methods/linear.h"
 #include "reference/reference.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 namespace {
@@ -65,7 +65,7 @@ std::vector<std::vector<Real>> linear(const Frame& f) {
 template std::vector<std::vector<float>> linear<float>(const Frame&);
 template std::vector<std::vector<double>> linear<double>(const Frame&);
 
-std::vector<Plane> TwinStages::linear(const Frame& f, const Progress&) {
+std::vector<Plane> TwinBackend::linear(const Frame& f, const Progress&) {
   return reference::linear<float>(f);
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "reference/reference.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 namespace {
@@ -58,7 +58,7 @@ struct Weight {
 void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, PatternShift shift,
                const PatternSettings& settings, PatternSums& out) {
   const Grid f(frame);
-  const std::vector<std::uint64_t> columns = pattern_columns(frame, pixels, shift, settings);
+  const std::vector<std::uint64_t> columns = patterns_columns(frame, pixels, shift, settings);
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t here = f.at(x, y);
@@ -84,8 +84,9 @@ void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, Pat
 
 }  // namespace
 
-std::vector<std::uint32_t> pattern_difference(const Frame& frame, const Words& pixels,
-                                              PatternShift shift, const PatternSettings& settings) {
+std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
+                                               PatternShift shift,
+                                               const PatternSettings& settings) {
   const Grid f(frame);
   std::vector<std::uint32_t> out(pixels.size());
   parallel_for(frame.height, [&](int y) {
@@ -107,10 +108,10 @@ std::vector<std::uint32_t> pattern_difference(const Frame& frame, const Words& p
   return out;
 }
 
-std::vector<std::uint64_t> pattern_columns(const Frame& frame, const Words& pixels,
-                                           PatternShift shift, const PatternSettings& settings) {
+std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
+                                            PatternShift shift, const PatternSettings& settings) {
   const Grid f(frame);
-  const std::vector<std::uint32_t> difference = pattern_difference(frame, pixels, shift, settings);
+  const std::vector<std::uint32_t> difference = patterns_difference(frame, pixels, shift, settings);
   std::vector<std::uint64_t> out(pixels.size());
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
@@ -124,9 +125,9 @@ std::vector<std::uint64_t> pattern_columns(const Frame& frame, const Words& pixe
   return out;
 }
 
-PatternSums TwinStages::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                                 const std::vector<PatternShift>& shifts,
-                                 const PatternSettings& settings) {
+PatternSums TwinBackend::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
+                                  const std::vector<PatternShift>& shifts,
+                                  const PatternSettings& settings) {
   PatternSums out(frame.channels.size(), pixels.size());
   for (const PatternShift& shift : shifts) add_shift(frame, behind, pixels, shift, settings, out);
   return out;

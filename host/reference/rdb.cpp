@@ -9,7 +9,7 @@
 #include "lens/cats_eye.h"
 #include "reference/pcg3d.h"
 #include "reference/reference.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 namespace {
@@ -18,7 +18,7 @@ struct Offset {
   double u, v;
 };
 
-/// Offset of a target pixel's lens samples: uniform in [-half, half)^2 in steps of the lens unit.
+/// Offset of a target pixel's lens points: uniform in [-half, half)^2 in steps of the lens unit.
 Offset jitter_offset(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::int32_t half) {
   const auto hash = pcg3d(x, y, seed);
   const double unit = std::ldexp(1.0, -DEFRAY_LENS_FRACTION_BITS);
@@ -31,20 +31,20 @@ Offset jitter_offset(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::
 /// A ray displaced by `ray` pixels arrives at a pixel `step` away if the step is in its square.
 bool arrives(double step, double ray) { return step - ray >= -0.5 && step - ray < 0.5; }
 
-/// One lens cell's scatter over a frame.
+/// One lens point's scatter over a frame.
 class CellScatter {
  public:
   CellScatter(const Frame& f, const RayPlan& plan, std::size_t cell)
       : width_(f.width),
         height_(f.height),
-        jitter_(plan.cells.jitter),
+        jitter_(plan.lens.jitter),
         seed_(plan.seed),
         origin_x_(plan.origin_x),
         origin_y_(plan.origin_y),
         cell_(cell) {
-    u_ = std::ldexp(static_cast<double>(plan.cells.centres[cell][0]), -DEFRAY_LENS_FRACTION_BITS);
-    v_ = std::ldexp(static_cast<double>(plan.cells.centres[cell][1]), -DEFRAY_LENS_FRACTION_BITS);
-    half_ = std::ldexp(static_cast<double>(plan.cells.jitter), -DEFRAY_LENS_FRACTION_BITS);
+    u_ = std::ldexp(static_cast<double>(plan.lens.points[cell][0]), -DEFRAY_LENS_FRACTION_BITS);
+    v_ = std::ldexp(static_cast<double>(plan.lens.points[cell][1]), -DEFRAY_LENS_FRACTION_BITS);
+    half_ = std::ldexp(static_cast<double>(plan.lens.jitter), -DEFRAY_LENS_FRACTION_BITS);
   }
 
   /// Calls visit(target index) for each target pixel that source (px, py) of radius r reaches.
@@ -147,7 +147,7 @@ std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
 template <typename Begin, typename Visit>
 void for_each_winner(const Frame& f, const RayPlan& plan, const Begin& begin, const Visit& visit,
                      const Progress& progress) {
-  const std::size_t count = plan.cells.centres.size();
+  const std::size_t count = plan.lens.points.size();
   for (std::size_t cell = 0; cell < count; ++cell) {
     const auto winner = rdb_scatter(f, plan, cell);
     begin();
@@ -177,8 +177,8 @@ void keep_nearer(const Frame& f, std::int64_t source, std::int64_t& held) {
 
 }  // namespace
 
-RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSources* lights,
-                           const Progress& progress) {
+RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSources* lights,
+                            const Progress& progress) {
   const std::size_t pixels = f.pixels(), channels = f.channels.size();
   std::vector<Plane> sum(channels, Plane(pixels));
   std::vector<bool> differs(pixels);  // any colour from the pixel's own
@@ -194,7 +194,7 @@ RayResult TwinStages::rays(const Frame& f, const RayPlan& plan, const LightSourc
   };
   const auto add = [&](std::size_t target, std::size_t source, bool arrived) {
     if (has_light && arrived) winner.back()[target] = static_cast<std::int32_t>(source);
-    if (is_cut_off(plan, f.width, target, plan.cells.centres[cell - 1])) return;
+    if (is_cut_off(plan, f.width, target, plan.lens.points[cell - 1])) return;
     ++filled[target];
     if (f.coverage.empty() || f.coverage[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
     if (plan.wants_nearest && arrived && f.data_pixel(source) != DEFRAY_EMPTY) {
@@ -225,7 +225,7 @@ std::vector<std::vector<double>> exact_rays(const Frame& f, const RayPlan& plan)
   std::vector<int> filled(f.pixels());
   std::size_t cell = 0;
   const auto add = [&](std::size_t target, std::size_t source, bool) {
-    if (is_cut_off(plan, f.width, target, plan.cells.centres[cell - 1])) return;
+    if (is_cut_off(plan, f.width, target, plan.lens.points[cell - 1])) return;
     ++filled[target];
     for (std::size_t c = 0; c < mean.size(); ++c) {
       mean[c][target] += static_cast<double>(f.channels[c][source]);

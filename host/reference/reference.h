@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the scalar twins (reference/twin_stages.h) by themselves, and exact arithmetic to
+// Parts of the scalar twins (reference/twin_backend.h) by themselves, and exact arithmetic to
 // measure rounding against.
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ namespace defray::reference {
 /// to a few double roundings, before any limit.
 double coc_px(const Lens& lens, int display_width_px, double depth_units);
 
-/// Twin of kernel `rdb_scatter` for one lens cell over the whole frame: index of the nearest
+/// Twin of kernel `rdb_scatter` for one lens point over the whole frame: index of the nearest
 /// surface whose ray arrives at each target pixel, or -1.
 std::vector<std::int64_t> rdb_scatter(const Frame& frame, const RayPlan& plan, std::size_t cell);
 
@@ -52,9 +52,9 @@ std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples
                                 const std::vector<Plane>& channels, const Frame& frame);
 
 /// Twins of kernels `patterns_difference` and `patterns_columns`.
-std::vector<std::uint32_t> pattern_difference(const Frame& frame, const Words& pixels,
-                                              PatternShift shift, const PatternSettings& settings);
-std::vector<std::uint64_t> pattern_columns(const Frame& frame, const Words& pixels,
-                                           PatternShift shift, const PatternSettings& settings);
+std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
+                                               PatternShift shift, const PatternSettings& settings);
+std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
+                                            PatternShift shift, const PatternSettings& settings);
 
 }  // namespace defray::reference

@@ -1,13 +1,13 @@
 // Twin of kernels/soften.cl.
 #include <cstdlib>
 
-#include "chain/lens_grid.h"
+#include "lens/lens_grid.h"
 #include "reference/stage_frame.h"
 
 namespace defray::reference {
 namespace {
 
-/// The square of picture that one lens cell sees, as samples: `stride` apart, `taps` to each side.
+/// The square of picture that one lens point sees, as samples: `stride` apart, `taps` to each side.
 struct Square {
   float half_side;  ///< In pixels.
   int stride, taps;
@@ -56,14 +56,14 @@ Colour mean_difference(const Frame& f, int x, int y, int layer, float side) {
 
 }  // namespace
 
-Planes TwinStages::soften(const Frame& f, int samples) {
+Planes TwinBackend::soften(const Frame& f, int samples) {
   std::vector<Plane> out = planes_of(f.channels);
   for (int y = 0; y < f.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {
       for (int x = 0; x < f.width; ++x) {
         const std::size_t at = f.index(x, y, layer);
-        const float side =
-            std::fabs(static_cast<float>(f.coc_quanta[at])) * (2.0f / 256) / cells_a_side(samples);
+        const float side = std::fabs(static_cast<float>(f.coc_quanta[at])) * (2.0f / 256) /
+                           cells_per_side(samples);
         if (side <= 1 || share_of(f, at) == 0) continue;
         const Colour mean = mean_difference(f, x, y, layer, side);
         for (std::size_t c = 0; c < out.size(); ++c) {

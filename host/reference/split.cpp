@@ -141,7 +141,7 @@ struct Layer {
 
 }  // namespace
 
-Surfaces TwinStages::split(const Frame& f, const Words& mixed_pixels, Frame frame_behind) {
+Surfaces TwinBackend::split(const Frame& f, const Words& mixed_pixels, Frame frame_behind) {
   Layer front(f, DEFRAY_WHOLE), behind(frame_behind, DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
   const Splitter splitter(f, mixed_pixels);
   const auto mixed = mixed_pixels.host();
@@ -184,7 +184,7 @@ Surfaces TwinStages::split(const Frame& f, const Words& mixed_pixels, Frame fram
   return {front.in(f.without_planes()), behind.in(f.without_planes())};
 }
 
-Frame TwinStages::assemble(const Surfaces& s) {
+Frame TwinBackend::assemble(const Surfaces& s) {
   Frame f = s.front.without_planes();
   f.layers = 2;
   std::vector<std::int32_t> coc(f.surfaces());

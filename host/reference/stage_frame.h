@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lens/coc.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 

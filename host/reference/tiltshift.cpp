@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "kernels/params.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 
-Quanta TwinStages::tiltshift(const DefrayTiltshiftParams& p) {
+Quanta TwinBackend::tiltshift(const DefrayTiltshiftParams& p) {
   std::vector<std::int32_t> coc;
   coc.reserve(std::size_t{p.width} * p.rows);
   for (std::uint32_t row = 0; row < p.rows; ++row) {

@@ -20,9 +20,9 @@ struct Subject {
 };
 
 /// Throws Error(usage) where the scene has no such focus setting.
-Subject make_subject(Stages& stages, Scene scene, const std::string& setting);
+Subject make_subject(Backend& backend, Scene scene, const std::string& setting);
 
 /// The CoC kernel and the method, as `defray render` runs them.
-std::vector<Plane> render(Stages& stages, const Subject& subject, const MethodSettings& settings);
+std::vector<Plane> render(Backend& backend, const Subject& subject, const MethodSettings& settings);
 
 }  // namespace defray

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "scenes/subject.h"
 
 namespace defray::validation {
@@ -59,8 +59,8 @@ bool is_stable(Session& session, const Subject& subject, const MethodSettings& s
   bool same = true;
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{16, 1}, {7, 3}, {0, 0}}) {
     session.set_work_group(x, y);
-    DeviceStages stages(session);
-    same = same && render(stages, subject, settings) == expected;
+    DeviceBackend backend(session);
+    same = same && render(backend, subject, settings) == expected;
   }
   return same;
 }
@@ -93,9 +93,9 @@ void time_round(std::vector<Trial>& trials, const Subject& subject,
     for (Trial& trial : trials) {
       if (!trial.session) continue;
       trial.method_seconds.resize(all.size());
-      DeviceStages stages(*trial.session);
+      DeviceBackend backend(*trial.session);
       const Stopwatch watch;
-      render(stages, subject, all[m].settings);
+      render(backend, subject, all[m].settings);
       trial.method_seconds[m].push_back(watch.seconds());
     }
   }
@@ -117,8 +117,8 @@ MethodFigures figures_of(Trial& trial, const Subject& subject, const NamedMethod
                          const std::vector<Plane>& strict) {
   MethodFigures f;
   f.method = method.name;
-  DeviceStages stages(*trial.session);
-  const auto picture = render(stages, subject, method.settings);
+  DeviceBackend backend(*trial.session);
+  const auto picture = render(backend, subject, method.settings);
   const Comparison c = defray::compare(picture, strict, subject.scene.width);
   f.psnr_db = c.psnr_srgb_db;
   f.worst = c.worst;
@@ -171,11 +171,11 @@ std::vector<VariantResult> measure_arithmetic(const DeviceInfo& info, int width,
     results.push_back(open_trial(info, variants()[i], level, trials[i]));
   }
   if (!trials[0].session) fail(ErrorKind::device, "{}", results[0].error);
-  DeviceStages stages(*trials[0].session);
-  const Subject subject = make_subject(stages, make_scene("fence", width, height), "bg");
+  DeviceBackend backend(*trials[0].session);
+  const Subject subject = make_subject(backend, make_scene("fence", width, height), "bg");
   const std::vector<NamedMethod> all = methods();
   std::vector<std::vector<Plane>> strict;
-  for (const NamedMethod& m : all) strict.push_back(render(stages, subject, m.settings));
+  for (const NamedMethod& m : all) strict.push_back(render(backend, subject, m.settings));
   for (std::size_t i = 0; i < trials.size(); ++i, step()) {
     if (!trials[i].session) continue;
     for (std::size_t m = 0; m < all.size(); ++m) {

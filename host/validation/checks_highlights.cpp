@@ -3,7 +3,7 @@
 
 #include "chain/highlights.h"
 #include "rdb/rdb_plan.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 #include "validation/kernel_checks.h"
 #include "validation/stage_input.h"
 #include "validation/work.h"
@@ -13,8 +13,8 @@ namespace {
 
 int light_channels(const Case& c) { return std::max(1, c.channels - static_cast<int>(c.seed % 2)); }
 
-Outcome run_highlights(Stages& stages, const Case& c, const Input& in) {
-  const auto kept = stages.highlights(bright_fragments(in), light_channels(c));
+Outcome run_highlights(Backend& backend, const Case& c, const Input& in) {
+  const auto kept = backend.highlights(bright_fragments(in), light_channels(c));
   return {{}, {Plane(kept.begin(), kept.end())}};
 }
 
@@ -23,18 +23,18 @@ std::size_t highlights_memory(const Case& c, const Input& in) {
 }
 
 /// Fragments without their highlights, and these.
-Outcome run_add(Stages& stages, const Case& c, const Input& in) {
+Outcome run_add(Backend& backend, const Case& c, const Input& in) {
   Frame f = bright_fragments(in);
   const int light = light_channels(c);
   const RayPlan plan = ray_plan(c);
-  const auto kept = reference::TwinStages().highlights(f, light);
-  const LightSources lights = take_light(f, kept, light, lopsided_aperture(), plan.cells);
-  return {{}, stages.rays(f, plan, &lights).means};
+  const auto kept = reference::TwinBackend().highlights(f, light);
+  const LightSources lights = take_light(f, kept, light, lopsided_aperture(), plan.lens);
+  return {{}, backend.rays(f, plan, &lights).means};
 }
 
 /// All cells of so many rows in one pass.
 std::size_t add_memory(const Case& c, const Input&) {
-  const std::size_t a_pixel = ray_plan(c).cells.centres.size() * rdb_bytes_a_cell + rdb_bytes_a_sum;
+  const std::size_t a_pixel = ray_plan(c).lens.points.size() * rdb_bytes_a_cell + rdb_bytes_a_sum;
   return size(c.band_rows) * size(c.width) * a_pixel;
 }
 

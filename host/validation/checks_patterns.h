@@ -6,6 +6,6 @@
 namespace defray::validation {
 
 /// Entries of the kernels of `patterns`.
-std::vector<KernelCheck> pattern_checks();
+std::vector<KernelCheck> patterns_checks();
 
 }  // namespace defray::validation

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "validation/kernel_checks.h"
@@ -26,18 +26,18 @@ RayPlan gather_plan(const Case& c) {
   return ray_plan(still);
 }
 
-Outcome run_rdb_clear(Stages& stages, const Case& c, const Input&) {
+Outcome run_rdb_clear(Backend& backend, const Case& c, const Input&) {
   return integers(either(
-      stages,
-      [&](DeviceStages& d) { return cleared_on_device(d.session(), c.width, c.height, c.cells); },
+      backend,
+      [&](DeviceBackend& d) { return cleared_on_device(d.session(), c.width, c.height, c.cells); },
       [&] { return cleared_twin(c.width, c.height, c.cells); }));
 }
 
-Outcome run_rdb_scatter(Stages& stages, const Case& c, const Input& in) {
+Outcome run_rdb_scatter(Backend& backend, const Case& c, const Input& in) {
   const RayPlan plan = scatter_plan(c);
   return {either(
-              stages,
-              [&](DeviceStages& d) { return winners_on_device(d.session(), in.fragments, plan); },
+              backend,
+              [&](DeviceBackend& d) { return winners_on_device(d.session(), in.fragments, plan); },
               [&] { return winners_of_twin(in.fragments, plan); }),
           {}};
 }
@@ -49,8 +49,8 @@ std::size_t rdb_memory(const Case& c, const Input&) {
 
 /// Means, and how many rays saw what the picture shows.
 template <auto plan_of>
-Outcome run_rays(Stages& stages, const Case& c, const Input& in) {
-  RayResult result = stages.rays(in.fragments, plan_of(c));
+Outcome run_rays(Backend& backend, const Case& c, const Input& in) {
+  RayResult result = backend.rays(in.fragments, plan_of(c));
   Outcome out = integers(result.seen);
   out.planes = std::move(result.means);
   return out;
@@ -58,7 +58,7 @@ Outcome run_rays(Stages& stages, const Case& c, const Input& in) {
 
 /// The case's fragments; those that were made up have no data, and others that of any pixel.
 template <auto plan_of>
-Outcome run_nearest(Stages& stages, const Case& c, const Input& in) {
+Outcome run_nearest(Backend& backend, const Case& c, const Input& in) {
   Frame f = in.fragments;
   std::vector<std::uint32_t> data;
   for (std::size_t i = 0; i < f.coverage.size(); ++i) {
@@ -68,7 +68,7 @@ Outcome run_nearest(Stages& stages, const Case& c, const Input& in) {
   f.data_of = std::move(data);
   RayPlan plan = plan_of(c);
   plan.wants_nearest = true;
-  return integers(stages.rays(f, plan).nearest);
+  return integers(backend.rays(f, plan).nearest);
 }
 
 /// n additions to sums <= n L, each rounded, then a division, 5 u off at worst, u = 2^-24:
@@ -76,21 +76,21 @@ Outcome run_nearest(Stages& stages, const Case& c, const Input& in) {
 template <auto plan_of>
 Exact exact_means(const Case& c, const Input& in) {
   const RayPlan plan = plan_of(c);
-  const auto cells = static_cast<double>(plan.cells.centres.size());
+  const auto cells = static_cast<double>(plan.lens.points.size());
   return {reference::exact_rays(in.fragments, plan), cells + 5};
 }
 
 // Tiles of rdb_gather.
 
-RayTiles tiles_of(Stages& stages, const Case& c, const Input& in) {
+RayTiles tiles_of(Backend& backend, const Case& c, const Input& in) {
   const RayPlan plan = gather_plan(c);
   return either(
-      stages, [&](DeviceStages& d) { return d.ray_tiles(in.fragments, plan); },
+      backend, [&](DeviceBackend& d) { return d.ray_tiles(in.fragments, plan); },
       [&] { return reference::ray_tiles(in.fragments, plan); });
 }
 
-Outcome run_pad(Stages& stages, const Case& c, const Input& in) {
-  const PaddedPlanes padded = tiles_of(stages, c, in).padded;
+Outcome run_pad(Backend& backend, const Case& c, const Input& in) {
+  const PaddedPlanes padded = tiles_of(backend, c, in).padded;
   Outcome out = integers(padded.keys);
   out.integers.insert(out.integers.end(), padded.sending.begin(), padded.sending.end());
   out.integers.insert(out.integers.end(), padded.coverage.begin(), padded.coverage.end());
@@ -111,12 +111,12 @@ Outcome words_of(const std::vector<TileBins>& tiles) {
   return out;
 }
 
-Outcome run_ray_tiles(Stages& stages, const Case& c, const Input& in) {
-  return words_of(tiles_of(stages, c, in).held);
+Outcome run_ray_tiles(Backend& backend, const Case& c, const Input& in) {
+  return words_of(tiles_of(backend, c, in).held);
 }
 
-Outcome run_ray_reach(Stages& stages, const Case& c, const Input& in) {
-  return words_of(tiles_of(stages, c, in).reach);
+Outcome run_ray_reach(Backend& backend, const Case& c, const Input& in) {
+  return words_of(tiles_of(backend, c, in).reach);
 }
 
 constexpr const char* winners_rule = "equal winners: integer arithmetic";

@@ -2,7 +2,7 @@
 // twins, so that each kernel is tried alone.
 #include <bit>
 
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 #include "validation/kernel_checks.h"
 #include "validation/stage_input.h"
 #include "validation/work.h"
@@ -28,37 +28,37 @@ Outcome values_of(const std::vector<Frame>& surfaces) {
   return v;
 }
 
-Outcome run_repair(Stages& stages, const Case& c, const Input& in) {
-  return words(stages.repair(blurred(c, StageFrame(c, in).frame)));
+Outcome run_repair(Backend& backend, const Case& c, const Input& in) {
+  return words(backend.repair(blurred(c, StageFrame(c, in).frame)));
 }
 
-Outcome run_edges(Stages& stages, const Case& c, const Input& in) {
-  return words(stages.edges(StageFrame(c, in).frame));
+Outcome run_mixed(Backend& backend, const Case& c, const Input& in) {
+  return words(backend.mixed(StageFrame(c, in).frame));
 }
 
 /// Of `fill`: either number, by the case.
 int directions_of(const Case& c) { return c.seed % 2 ? DEFRAY_FILL_DIRECTIONS : 8; }
 
-Outcome run_fill(Stages& stages, const Case& c, const Input& in) {
+Outcome run_fill(Backend& backend, const Case& c, const Input& in) {
   const StageFrame f(c, in);
-  return values_of({stages.fill(f.frame, f.mixed, directions_of(c))});
+  return values_of({backend.fill(f.frame, f.mixed, directions_of(c))});
 }
 
-Outcome run_split(Stages& stages, const Case& c, const Input& in) {
+Outcome run_split(Backend& backend, const Case& c, const Input& in) {
   const StageFrame f(c, in);
-  const auto [front, behind] = stages.split(
-      f.frame, f.mixed, reference::TwinStages().fill(f.frame, f.mixed, directions_of(c)));
+  const auto [front, behind] = backend.split(
+      f.frame, f.mixed, reference::TwinBackend().fill(f.frame, f.mixed, directions_of(c)));
   return values_of({front, behind});
 }
 
 std::size_t assemble_memory(const Case& c, const Input&) { return band_memory("assemble", c, 2); }
 
 /// What `fill` and `split` left, with a margin.
-Outcome run_assemble(Stages& stages, const Case& c, const Input& in) {
-  reference::TwinStages twins;
+Outcome run_assemble(Backend& backend, const Case& c, const Input& in) {
+  reference::TwinBackend twins;
   StageFrame f(c, in);
   f.frame.margin = static_cast<int>(c.seed % 4);
-  const Frame both = stages.assemble(
+  const Frame both = backend.assemble(
       twins.split(f.frame, f.mixed, twins.fill(f.frame, f.mixed, directions_of(c))));
   Outcome v = values_of({both});
   for (std::size_t i = 0; i < both.depth.size(); ++i) {
@@ -85,16 +85,16 @@ std::size_t soften_memory(const Case& c, const Input& in) {
   return band_memory("soften", c, in.fragments.layers);
 }
 
-Outcome run_soften(Stages& stages, const Case& c, const Input& in) {
+Outcome run_soften(Backend& backend, const Case& c, const Input& in) {
   const Frame f = soft_fragments(c, in);
-  return layers_of(f, stages.soften(f, c.cells * c.cells));
+  return layers_of(f, backend.soften(f, c.cells * c.cells));
 }
 
 }  // namespace
 
 std::vector<KernelCheck> stage_checks() {
   return {{"assemble", bits_rule, run_assemble, split_work, nullptr, nullptr, assemble_memory},
-          {"edges", integer_rule, run_edges, edges_work},
+          {"mixed", integer_rule, run_mixed, mixed_work},
           {"fill", bits_rule, run_fill, fill_work},
           {"repair", integer_rule, run_repair, repair_work},
           {"soften", bits_rule, run_soften, soften_work, nullptr, nullptr, soften_memory},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
 #include "opencl/launch_table.h"
@@ -20,8 +20,8 @@ double square(double x) { return x * x; }
 
 // coc ---------------------------------------------------------------------------------------------
 
-Outcome run_coc(Stages& stages, const Case& c, const Input& in) {
-  return integers(stages.coc(in.lens, c.width, in.depth));
+Outcome run_coc(Backend& backend, const Case& c, const Input& in) {
+  return integers(backend.coc(in.lens, c.width, in.depth));
 }
 
 /// The radius before it is rounded to quanta: 4 ulp = 8 u (tests/coc_accuracy_test.cpp).
@@ -50,8 +50,8 @@ std::size_t linear_memory(const Case& c, const Input& in) {
   return linear_band_bytes(c.width, linear_reach(in.coc_quanta), c.band_rows);
 }
 
-Outcome run_linear(Stages& stages, const Case& c, const Input& in) {
-  return {{}, stages.linear(frame_of(c, in))};
+Outcome run_linear(Backend& backend, const Case& c, const Input& in) {
+  return {{}, backend.linear(frame_of(c, in))};
 }
 
 /// A term carries the roundings of its root, its subtraction (both of numbers up to the reach + 1
@@ -67,15 +67,15 @@ double linear_roundings(const Case& c) { return square(side_px(c)) * 12 * (reach
 
 // tiltshift ---------------------------------------------------------------------------------------
 
-Outcome run_tiltshift(Stages& stages, const Case& c, const Input&) {
-  return integers(stages.tiltshift(tiltshift_case(c)));
+Outcome run_tiltshift(Backend& backend, const Case& c, const Input&) {
+  return integers(backend.tiltshift(tiltshift_case(c)));
 }
 
 // gather ------------------------------------------------------------------------------------------
 
 template <GatherKind kind>
-Outcome run_gather(Stages& stages, const Case& c, const Input& in) {
-  return {{}, stages.gather(frame_of(c, in), gather_case(kind, c))};
+Outcome run_gather(Backend& backend, const Case& c, const Input& in) {
+  return {{}, backend.gather(frame_of(c, in), gather_case(kind, c))};
 }
 
 /// n samples of differences <= 2 L, their weights from a root 6 u off of distances up to the search
@@ -85,24 +85,24 @@ double aware_roundings(const Case& c) {
   return 4 * c.samples * (6 * search + 12) * std::max(1.0, 4 * square(search) / c.samples);
 }
 
-Outcome run_tiles(Stages& stages, const Case& c, const Input& in) {
+Outcome run_tiles(Backend& backend, const Case& c, const Input& in) {
   const Frame f = frame_of(c, in);
   return integers(either(
-      stages, [&](DeviceStages& d) { return d.gather_tiles(f); },
+      backend, [&](DeviceBackend& d) { return d.gather_tiles(f); },
       [&] { return reference::gather_tiles(f); }));
 }
 
-Outcome run_reach(Stages& stages, const Case& c, const Input& in) {
+Outcome run_reach(Backend& backend, const Case& c, const Input& in) {
   const Frame f = frame_of(c, in);
   return integers(either(
-      stages, [&](DeviceStages& d) { return d.gather_reach(f); },
+      backend, [&](DeviceBackend& d) { return d.gather_reach(f); },
       [&] { return reference::gather_reach(f); }));
 }
 
 /// The whole table, by name.
 std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
   for (const std::vector<KernelCheck>& more :
-       {stage_checks(), rdb_checks(), highlight_checks(), pattern_checks()}) {
+       {stage_checks(), rdb_checks(), highlight_checks(), patterns_checks()}) {
     checks.insert(checks.end(), more.begin(), more.end());
   }
   std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {

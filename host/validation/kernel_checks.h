@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_stages.h"
+#include "device/device_backend.h"
 #include "rdb/rdb.h"
 #include "validation/case.h"
 #include "validation/input.h"
@@ -29,7 +29,7 @@ struct KernelCheck {
   const char* name;  ///< The kernel's, or with a way of running it behind.
   const char* rule;  ///< For people: how far kernel and twin may lie apart, and why.
   /// On a device, or by the twins.
-  Outcome (*run)(Stages&, const Case&, const Input&);
+  Outcome (*run)(Backend&, const Case&, const Input&);
 
   /// Operations of the twin (work.h); infinite where it does not take such a case.
   double (*work)(const Case&);
@@ -59,8 +59,8 @@ std::size_t band_memory(const char* kernel, const Case& c, int layers);
 
 /// Kernels that no stage shows by itself: the device's own, or else the twin's.
 template <typename OnDevice, typename ByTwin>
-auto either(Stages& stages, const OnDevice& on_device, const ByTwin& by_twin) {
-  auto* const device = dynamic_cast<DeviceStages*>(&stages);
+auto either(Backend& backend, const OnDevice& on_device, const ByTwin& by_twin) {
+  auto* const device = dynamic_cast<DeviceBackend*>(&backend);
   return device ? on_device(*device) : by_twin();
 }
 

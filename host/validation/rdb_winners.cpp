@@ -30,7 +30,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
                                             const RayPlan& plan) {
   RdbRun run(session, frame, plan);
   const std::size_t pixels = frame.pixels();
-  std::vector<std::int64_t> all(plan.cells.centres.size() * pixels, -2);
+  std::vector<std::int64_t> all(plan.lens.points.size() * pixels, -2);
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
     const std::vector<RdbWinner> winners = run.winners(pass);
@@ -48,7 +48,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
 
 std::vector<std::int64_t> winners_of_twin(const Frame& frame, const RayPlan& plan) {
   std::vector<std::int64_t> all;
-  for (std::size_t cell = 0; cell < plan.cells.centres.size(); ++cell) {
+  for (std::size_t cell = 0; cell < plan.lens.points.size(); ++cell) {
     const auto winners = reference::rdb_scatter(frame, plan, cell);
     all.insert(all.end(), winners.begin(), winners.end());
   }

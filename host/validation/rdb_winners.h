@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "opencl/session.h"
 #include "rdb/rdb.h"
 

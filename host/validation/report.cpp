@@ -138,7 +138,7 @@ Section device_section(const DeviceResult& device, std::size_t index, const std:
   for (Table& table : std::vector<Table>{case_table(device), histogram_table(device)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
-  for (const Picture& picture : device.pictures) {
+  for (const WorstPicture& picture : device.pictures) {
     const std::string file = fmt::format("{}-worst-{}.png", picture.kernel, index);
     write_sheet(folder + "/" + file, picture.panels, picture.width, picture.height);
     section.figures.push_back(

@@ -7,7 +7,7 @@
 #include "lens/aperture_mask.h"
 #include "methods/linear.h"
 #include "methods/tiltshift.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::validation {
 
@@ -36,7 +36,7 @@ StageFrame::StageFrame(const Case& c, const Input& in) : frame(frame_of(c, in)) 
   }
   frame.coc_quanta = std::move(coc_quanta);
   frame.inverse = std::move(inverse);
-  mixed = reference::TwinStages().edges(frame);
+  mixed = reference::TwinBackend().mixed(frame);
 }
 
 Frame blurred(const Case& c, Frame frame) {

@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
-#include "device/device_stages.h"
-#include "reference/twin_stages.h"
+#include "device/device_backend.h"
+#include "reference/twin_backend.h"
 #include "validation/oclgrind_log.h"
 #include "validation/worst_picture.h"
 
@@ -158,7 +158,7 @@ Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, co
     return check.memory ? check.memory(c, input) : band_memory(check.name, c, 1);
   };
   session.set_memory(has_bands ? memory() : default_memory_bytes);
-  DeviceStages device(session);
+  DeviceBackend device(session);
   Outcome outcome = check.run(device, c, input);
   session.set_copies(false);
   session.set_memory(default_memory_bytes);
@@ -169,7 +169,7 @@ Run run_case(Session& session, const KernelCheck& check, const Case& c) {
   Run run;
   run.input = make_input(c);
   run.kernel = run_kernel(session, check, c, run.input);
-  reference::TwinStages twins;
+  reference::TwinBackend twins;
   run.twin = check.run(twins, c, run.input);
   return run;
 }

@@ -27,7 +27,7 @@ struct KernelResult {
 };
 
 /// Kernel, twin and their difference where they lie farthest apart.
-struct Picture {
+struct WorstPicture {
   std::string kernel, case_text;
   int width, height;
   std::vector<SheetPanel> panels;
@@ -46,7 +46,7 @@ struct DeviceResult {
   std::string watch;  ///< What a simulator looked for beside values; empty: nothing.
   std::vector<KernelResult> kernels;
   std::vector<ExactPoint> exact;
-  std::vector<Picture> pictures;  ///< Of kernels with differences.
+  std::vector<WorstPicture> pictures;  ///< Of kernels with differences.
   bool passed() const;
 };
 

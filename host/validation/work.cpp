@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/params.h"
-#include "validation/pattern_input.h"
+#include "validation/patterns_input.h"
 
 namespace defray::validation {
 namespace {
@@ -33,7 +33,7 @@ double columns_work(const Case& c) { return pixels(c) * (4 + 2.0 * window_of(c))
 
 double difference_work(const Case& c) { return pixels(c) * 4; }
 
-double edges_work(const Case& c) { return 20 * pixels(c) + band_work(c); }
+double mixed_work(const Case& c) { return 20 * pixels(c) + band_work(c); }
 
 /// Steps of all ways over the picture: each grows by a 16th of the distance.
 double fill_work(const Case& c) {

@@ -10,7 +10,7 @@ double add_work(const Case& c);
 double clear_work(const Case& c);
 double columns_work(const Case& c);
 double difference_work(const Case& c);
-double edges_work(const Case& c);
+double mixed_work(const Case& c);
 double fill_work(const Case& c);
 double gather_work(const Case& c);
 double highlights_work(const Case& c);

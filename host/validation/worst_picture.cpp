@@ -54,7 +54,7 @@ Plane plane_of(const Outcome& values, std::size_t at, std::size_t pixels) {
 
 }  // namespace
 
-std::optional<Picture> worst_picture(const Case& c, const Run& run, std::size_t at) {
+std::optional<WorstPicture> worst_picture(const Case& c, const Run& run, std::size_t at) {
   const std::size_t pixels = static_cast<std::size_t>(c.width) * static_cast<std::size_t>(c.height);
   const Plane kernel = plane_of(run.kernel, at, pixels), twin = plane_of(run.twin, at, pixels);
   if (kernel.empty()) return {};
@@ -62,7 +62,8 @@ std::optional<Picture> worst_picture(const Case& c, const Run& run, std::size_t 
   for (std::size_t i = 0; i < pixels; ++i) difference.push_back(std::fabs(kernel[i] - twin[i]));
   const int scale = std::max(1, 240 / std::max(c.width, c.height));
   constexpr int caption_px = 110;
-  Picture picture{"", to_string(c), std::max(c.width * scale, caption_px), c.height * scale, {}};
+  WorstPicture picture{
+      "", to_string(c), std::max(c.width * scale, caption_px), c.height * scale, {}};
   const auto add = [&](const std::string& caption, const Plane& plane) {
     const Plane large = enlarged(stretched(plane), c.width, scale, picture.width);
     picture.panels.push_back({caption, std::vector<Plane>(3, large)});

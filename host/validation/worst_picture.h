@@ -9,6 +9,6 @@ namespace defray::validation {
 
 /// The plane that holds value `at` of this run, each panel stretched to be seen; nothing where the
 /// values are no picture (tiles).
-std::optional<Picture> worst_picture(const Case& c, const Run& run, std::size_t at);
+std::optional<WorstPicture> worst_picture(const Case& c, const Run& run, std::size_t at);
 
 }  // namespace defray::validation

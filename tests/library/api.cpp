@@ -188,8 +188,8 @@ void check_messages(Device& device) {
   expect_error(ErrorKind::device, "no OpenCL device is called 'abacus'",
                [] { Device::open("abacus"); });
   expect_error(ErrorKind::usage, "memory is 0", [&] { device.set_memory(0); });
-  expect_error(ErrorKind::usage, "no kernel is called 'edge'. Did you mean 'edges'?",
-               [&] { device.set_work_group("edge", 8, 8); });
+  expect_error(ErrorKind::usage, "no kernel is called 'mixd'. Did you mean 'mixed'?",
+               [&] { device.set_work_group("mixd", 8, 8); });
   expect_error(ErrorKind::usage, "work-items", [&] { device.set_work_group(100000, 1); });
   Device reference = Device::open("reference");
   expect_error(ErrorKind::usage, "memory means nothing to device reference",

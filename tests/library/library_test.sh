@@ -30,7 +30,7 @@ grep -vE '^. (DEFRAY_0\.1|(typeinfo( name)?|vtable) for defray::Error@|defray::)
   true
 [ -s foreign ] && complain "it shows what is not the API: $(head -3 foreign)"
 grep -q 'T defray::render(defray::Device' symbols || complain "render does not show"
-grep -E 'defray::(Session|DeviceStages|Frame|ImageFile|run_chain|apply_method)\b' symbols &&
+grep -E 'defray::(Session|DeviceBackend|Frame|ImageFile|run_chain|apply_method)\b' symbols &&
   complain "it shows its inner works"
 
 # Every header compiles alone, strictly, and none brings another library's.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lens/aperture_table.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 
 namespace defray::test::property_aperture_test {
 namespace {
@@ -71,9 +71,9 @@ RC_GTEST_PROP(ApertureProperty, SamplesOfBladesStayInTheDisc, ()) {
   }
   a.squeeze = *rc::gen::inRange(1, 65) / 8.0;
   const int count = *rc::gen::inRange(1, 600);
-  const LensCells cells = make_lens_samples(a, count);
-  RC_ASSERT(cells.centres.size() == static_cast<std::size_t>(count));
-  for (const auto& [u, v] : cells.centres) RC_ASSERT(std::hypot(u, v) <= 65536);
+  const LensPoints lens = make_lens_points(a, count);
+  RC_ASSERT(lens.points.size() == static_cast<std::size_t>(count));
+  for (const auto& [u, v] : lens.points) RC_ASSERT(std::hypot(u, v) <= 65536);
 }
 
 }  // namespace

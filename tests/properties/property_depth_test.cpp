@@ -9,6 +9,7 @@
 #include <random>
 
 #include "device/rdb_run.h"
+#include "lens/lens_grid.h"
 #include "properties.h"
 
 namespace defray::test::property_depth_test {
@@ -67,11 +68,11 @@ RC_GTEST_PROP(DepthProperty, AmongEqualDepthsTheSmallerIndexIsNearer, ()) {
 }
 
 /// Whether a ray of some cell ends exactly between two pixels, where [-1/2, 1/2) takes a side.
-bool has_rays_on_borders(const RandomFrame& frame, const LensCells& cells) {
+bool has_rays_on_borders(const RandomFrame& frame, const LensPoints& lens) {
   constexpr std::int64_t pixel = std::int64_t{1}
                                  << (DEFRAY_COC_FRACTION_BITS + DEFRAY_LENS_FRACTION_BITS);
   for (const std::int64_t r : frame.coc) {
-    for (const auto& [u, v] : cells.centres) {
+    for (const auto& [u, v] : lens.points) {
       if (((r * u) & (pixel - 1)) == pixel / 2 || ((r * v) & (pixel - 1)) == pixel / 2) return true;
     }
   }
@@ -99,12 +100,12 @@ RandomFrame mirrored(const RandomFrame& frame) {
 }
 
 /// The cell on the other side of the lens's vertical axis.
-std::size_t mirrored_cell(const LensCells& cells, std::size_t cell) {
-  const auto [u, v] = cells.centres[cell];
+std::size_t mirrored_cell(const LensPoints& lens, std::size_t cell) {
+  const auto [u, v] = lens.points[cell];
   const auto found =
-      std::find(cells.centres.begin(), cells.centres.end(), std::array<std::int32_t, 2>{-u, v});
-  RC_ASSERT(found != cells.centres.end());
-  return static_cast<std::size_t>(found - cells.centres.begin());
+      std::find(lens.points.begin(), lens.points.end(), std::array<std::int32_t, 2>{-u, v});
+  RC_ASSERT(found != lens.points.end());
+  return static_cast<std::size_t>(found - lens.points.begin());
 }
 
 // An odd count of cells: their coordinates have so few factors of two that no radius of these
@@ -113,12 +114,12 @@ RC_GTEST_PROP(DepthProperty, AMirroredSceneThroughAMirroredLensIsMirrored, ()) {
   RandomFrame frame = any_frame();
   untie(frame, *rc::gen::inRange<std::uint32_t>(0, 1u << 16));
   const int side = *rc::gen::element(1, 3, 5, 7);
-  const LensCells cells = make_lens_cells(side, false);
-  RC_ASSERT(!has_rays_on_borders(frame, cells));
+  const LensPoints lens = make_lens_grid(side, false);
+  RC_ASSERT(!has_rays_on_borders(frame, lens));
   const auto plain = winners(frame, side), mirror = winners(mirrored(frame), side);
   const std::size_t area = frame.depth.size();
-  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
-    const std::size_t other = mirrored_cell(cells, cell);
+  for (std::size_t cell = 0; cell < lens.points.size(); ++cell) {
+    const std::size_t other = mirrored_cell(lens, cell);
     for (int y = 0; y < frame.size.height; ++y) {
       for (int x = 0; x < frame.size.width; ++x) {
         const auto from = [&](std::uint32_t source) -> std::int64_t {

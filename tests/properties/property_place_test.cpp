@@ -61,7 +61,7 @@ RandomFrame turned(const RandomFrame& frame) {
   return turn;
 }
 
-// Half a turn maps lens cells and the gather's antipodal samples to themselves. They are summed in
+// Half a turn maps lens points and the gather's antipodal samples to themselves. They are summed in
 // another order, so the bound is that of two pictures; literal reads at 1 - part where it read at
 // part, rounded (u a side, differences <= 2: 4 u a pass), and aware's three sums of weights (near,
 // its rest, base; n u each, differences <= 2) differ too: 6 n u a pass and picture. Frames of whole

@@ -9,7 +9,7 @@
 
 namespace defray {
 
-class Stages;
+class Backend;
 
 /// What matters to defray about an OpenCL device.
 struct DeviceProperties {
@@ -79,7 +79,7 @@ class DEFRAY_API Device {
   struct State;
   explicit Device(std::unique_ptr<State> state);
   State& state_on_device(const char* setting);
-  friend Stages& stages_of(Device& device);
+  friend Backend& backend_of(Device& device);
 
   std::unique_ptr<State> state_;
 };

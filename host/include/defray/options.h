@@ -27,7 +27,7 @@ enum class RaysBy {
 /// The ray distribution buffer as the paper has it.
 struct RdbSettings {
   int cells_per_side = 9;  ///< Of the lens, 1 to 64.
-  bool jitter = false;     ///< Shifts each pixel's lens samples: noise instead of patterns.
+  bool jitter = false;     ///< Shifts each pixel's lens points: noise instead of patterns.
   std::uint32_t seed = 0;
   RaysBy rays = RaysBy::gather;
 };
@@ -42,17 +42,17 @@ enum class Border {
 /// What is done about what lies behind.
 enum class Hidden {
   off,
-  smooth,  ///< Made up from what is around.
-  on,      ///< And from where the picture repeats itself.
+  fill,      ///< Made up from what is around.
+  patterns,  ///< And from where the picture repeats itself.
 };
 
 /// The stages that bring the ray distribution buffer closer to the truth.
 struct ChainSettings {
   int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
-  Hidden hidden = Hidden::on;
-  int pattern_shifts = 24;  ///< Shifts at which Hidden::on looks, each with both its signs.
-  bool split_edges = true;
-  bool repair_depth = true;
+  Hidden hidden = Hidden::patterns;
+  int pattern_shifts = 24;  ///< Shifts at which Hidden::patterns looks, each with both its signs.
+  bool split = true;
+  bool repair = true;
   bool highlights = true;
   bool soften = true;
   RaysBy rays = RaysBy::gather;

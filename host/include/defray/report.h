@@ -32,7 +32,7 @@ struct TileShares {
   std::size_t tiles = 0;  ///< In all.
   double in_focus = 0;    ///< Every CoC below half a pixel.
   double smooth = 0;      ///< Surfaces that the lens does not part.
-  double edges = 0;       ///< Mixed pixels.
+  double mixed = 0;       ///< Mixed pixels.
   double hidden = 0;      ///< A made-up surface behind.
   double lights = 0;      ///< Highlights that became discs.
 };

@@ -59,8 +59,8 @@ TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
   expect_ok(perf("experiment truth -o report --quick"));
   const std::string mechanisms = text_of("report/truth-mechanisms.csv");
   for (const std::string row : {"pinhole,", "literal RDB 9x9,", "default,", "--hidden off,",
-                                "--hidden smooth,", "--edges keep,", "--highlights rays,",
-                                "--border renormalise,", "--keep-depth,", "--quality high,"}) {
+                                "--hidden fill,", "--split off,", "--highlights rays,",
+                                "--border renormalise,", "--repair off,", "--quality high,"}) {
     EXPECT_NE(mechanisms.find("\n" + row), std::string::npos) << row;
   }
   for (const std::string table : {"mechanisms", "cost", "split"}) {

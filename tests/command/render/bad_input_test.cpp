@@ -109,7 +109,7 @@ TEST_F(BadInput, OptionValues) {
                         {"--cats-eye: 'abc' cannot be read as a number", "0 to 1"});
   expect_render_refused(base + "--rdb 1.5", 2, {"'1.5' cannot be read as a whole number", "64"});
   expect_render_refused(base + "--literal=x", 2, {"--literal", "'x'", "as true or false"});
-  expect_render_refused(base + "--hidden", 2, {"--hidden: a value is missing", "smooth"});
+  expect_render_refused(base + "--hidden", 2, {"--hidden: a value is missing", "patterns"});
   expect_render_refused(base + "--blades 5 --blades 6", 2,
                         {"--blades: it is given more than once", "3 to 32"});
   expect_render_refused(base + "--method rbd", 2, {"'rbd'", "Did you mean 'rdb'?"});

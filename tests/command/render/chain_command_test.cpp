@@ -45,15 +45,15 @@ TEST_F(ChainCommand, EveryOptionChangesThePicture) {
   for (const std::string options : {"",
                                     "--literal",
                                     "--literal --jitter",
-                                    "--pixels half",
+                                    "--half-size on",
                                     "--quality draft",
                                     "--quality high",
                                     "--rdb 20",
                                     "--rdb 20 --quality draft",
-                                    "--rdb 20 --hidden on --quality high",
+                                    "--rdb 20 --hidden patterns --quality high",
                                     "--hidden off",
-                                    "--hidden smooth",
-                                    "--edges keep",
+                                    "--hidden fill",
+                                    "--split off",
                                     "--border black",
                                     "--border renormalise",
                                     "--blades 5",
@@ -71,9 +71,9 @@ TEST_F(ChainCommand, EveryOptionChangesThePicture) {
 TEST_F(ChainCommand, AntialiasedDepthIsRepairedAndReported) {
   const std::uint64_t repaired = rendered(bg, "smooth");
   EXPECT_NE(last_.find("depth looks anti-aliased"), std::string::npos) << last_;
-  EXPECT_NE(rendered(bg + "--keep-depth", "smooth"), repaired);
+  EXPECT_NE(rendered(bg + "--repair off", "smooth"), repaired);
   EXPECT_EQ(last_.find("anti-aliased"), std::string::npos) << last_;
-  EXPECT_EQ(rendered(bg), rendered(bg + "--keep-depth"));
+  EXPECT_EQ(rendered(bg), rendered(bg + "--repair off"));
 }
 
 TEST_F(ChainCommand, ConfidenceIsAChannelAndInTheSummary) {
@@ -134,8 +134,8 @@ TEST_F(ChainCommand, SameBitsForEveryMemoryAndWorkGroup) {
 
 TEST_F(ChainCommand, WrongUseIsSaid) {
   for (const std::string option :
-       {"--quality high", "--hidden off", "--edges keep", "--highlights rays", "--border black",
-        "--keep-depth", "--confidence-out c.exr", "--tiles-out t.exr", "--stats", "--pixels half",
+       {"--quality high", "--hidden off", "--split off", "--highlights rays", "--border black",
+        "--repair off", "--confidence-out c.exr", "--tiles-out t.exr", "--stats", "--half-size on",
         "--blades 5", "--blade-curvature 1", "--blade-rotation 3", "--squeeze 2",
         "--aperture-image a.png", "--cats-eye 1"}) {
     const std::string name = option.substr(0, option.find(' '));
@@ -146,7 +146,7 @@ TEST_F(ChainCommand, WrongUseIsSaid) {
   expect_refused(bg + "--jitter", {"--jitter goes with --literal"});
   expect_refused(bg + "--quality best", {"--quality 'best'", "draft", "high", "normal"});
   expect_refused(bg + "--hidden of", {"--hidden 'of'", "Did you mean 'off'"});
-  expect_refused(bg + "--edges splitt", {"--edges", "Did you mean 'split'"});
+  expect_refused(bg + "--split onn", {"--split", "Did you mean 'on'"});
   expect_refused(bg + "--highlights disc", {"--highlights", "Did you mean 'discs'"});
   expect_refused(bg + "--border mirror", {"--border", "clamp", "renormalise"});
   expect_refused(bg + "--blades 2", {"blades", "2"});
@@ -156,7 +156,7 @@ TEST_F(ChainCommand, WrongUseIsSaid) {
   expect_refused(bg + "--confidence-out none.exr", {"none.exr", "same file"});
   expect_refused(bg + "--tiles-out t.png", {"t.png", ".exr"});
   expect_refused(bg + "--tiles-out none.exr", {"none.exr", "same file"});
-  expect_refused(bg + "--pixels quarter", {"--pixels", "half"});
+  expect_refused(bg + "--half-size quarter", {"--half-size", "half"});
 }
 
 }  // namespace

@@ -20,26 +20,26 @@ struct OptionsCommand : testing::Test {
 };
 
 TEST_F(OptionsCommand, WithoutHiddenSurfacesNoPixelIsSplit) {
-  const std::string words = "--edges means nothing to --hidden off";
-  expect_refused(lens + "--hidden off --edges split", {words});
-  expect_refused(lens + "--hidden off --edges keep", {words});
+  const std::string words = "--split means nothing to --hidden off";
+  expect_refused(lens + "--hidden off --split on", {words});
+  expect_refused(lens + "--hidden off --split off", {words});
 }
 
 TEST_F(OptionsCommand, QualityMustHaveSomethingLeftToSay) {
-  for (const std::string hidden : {"off", "smooth"}) {
+  for (const std::string hidden : {"off", "fill"}) {
     expect_refused(lens + "--quality high --rdb 5 --hidden " + hidden,
                    {"--quality means nothing beside --rdb and this --hidden"});
   }
-  expect_refused(lens + "--quality preview --rdb 5 --hidden off --pixels half",
+  expect_refused(lens + "--quality preview --rdb 5 --hidden off --half-size on",
                  {"--quality means nothing beside --rdb and this --hidden"});
   EXPECT_EQ(rendered(lens + "--quality preview --rdb 5 --hidden off"),
-            rendered(lens + "--rdb 5 --hidden off --pixels half"));
+            rendered(lens + "--rdb 5 --hidden off --half-size on"));
   // What is typed wins over the quality, wherever it stands.
-  EXPECT_EQ(rendered(lens + "--quality preview --pixels all"),
-            rendered(lens + "--hidden smooth --rdb 6"));
-  EXPECT_EQ(rendered(lens + "--hidden smooth --rdb 9"), rendered(lens + "--quality draft"));
-  EXPECT_EQ(rendered(lens + "--hidden smooth --quality normal"),
-            rendered(lens + "--quality normal --hidden smooth"));
+  EXPECT_EQ(rendered(lens + "--quality preview --half-size off"),
+            rendered(lens + "--hidden fill --rdb 6"));
+  EXPECT_EQ(rendered(lens + "--hidden fill --rdb 9"), rendered(lens + "--quality draft"));
+  EXPECT_EQ(rendered(lens + "--hidden fill --quality normal"),
+            rendered(lens + "--quality normal --hidden fill"));
 }
 
 TEST_F(OptionsCommand, WhatGoesWithAnotherOptionNeedsIt) {
@@ -81,7 +81,7 @@ TEST_F(OptionsCommand, DefaultsTypedOutAreRefusedWhereTheyMeanNothing) {
   }
   expect_refused(lens + "--device reference --math strict",
                  {"--math means nothing to --device reference"});
-  expect_refused(lens + "--literal --hidden on", {"--hidden means nothing to --literal"});
+  expect_refused(lens + "--literal --hidden patterns", {"--hidden means nothing to --literal"});
 }
 
 TEST_F(OptionsCommand, WorkGroupsForOneKernelOrAllChangeNoBit) {
@@ -109,7 +109,7 @@ TEST_F(OptionsCommand, HelpTellsDefaultsAndMethodsByTheRows) {
   for (const std::string words :
        {"1 to 1024 (gather); default 32", "MiB for buffers (not gather); default 512",
         "default 0.5", "Lens (not tiltshift):", "preview|draft|normal|high",
-        "--rdb 33 --hidden on"}) {
+        "--rdb 33 --hidden patterns"}) {
     EXPECT_NE(help.find(words), std::string::npos) << words << "\n" << help;
   }
 }

@@ -87,7 +87,7 @@ TEST(RenderReport, TextHasEveryFigure) {
       "  note: 6 NaN or Inf colour values set to 0\n"
       "  note: 3 stored depths lie outside 0...1: is this normalized depth?\n"
       "  note: CoC limited in 5 px\n"
-      "  note: depth looks anti-aliased: 11 px repaired (--keep-depth leaves them)\n"
+      "  note: depth looks anti-aliased: 11 px repaired (--repair off leaves them)\n"
       "  note: the border goes on for 15 px: rays from further out do not count\n"
       "  read 0.500 s, rdb 1.250 s on device, write 0.125 s\n");
 }
@@ -164,7 +164,7 @@ TEST(RenderReport, JsonHasEveryFigure) {
                             {{"count", 8},
                              {"in_focus", 0.5},
                              {"smooth", 0.25},
-                             {"edges", 0.125},
+                             {"mixed", 0.125},
                              {"hidden", 0.0625},
                              {"lights", 0.03125}}}}},
                          {"nearest_coc_px", -4.5},
@@ -186,7 +186,7 @@ TEST(RenderReport, StatsTellOfStagesAndTiles) {
             "  stage            ms  share MiB made\n"
             "  lens          250.0   33 %      0.0\n"
             "  rays          500.0   67 %      1.5\n"
-            "  tiles: 50.0 % in focus, 25.0 % smooth, 12.5 % with edges, 6.2 % with hidden "
+            "  tiles: 50.0 % in focus, 25.0 % smooth, 12.5 % mixed, 6.2 % with hidden "
             "surfaces, 3.1 % with lights\n");
   FrameOutcome without = outcome();
   without.report.chain.reset();

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "chain/fill_tiles.h"
 #include "chain/highlight_tiles.h"
-#include "chain/pattern_window.h"
+#include "chain/patterns_window.h"
 #include "support.h"
 
 namespace defray::test::chain_parts_test {
@@ -206,7 +206,7 @@ TEST(PatternUnits, AreThoseNearSomethingHidden) {
   PatternSettings settings;
   settings.window_px = n;
   const PatternMargins margins({{-9, 3}, {4, -12}}, n);
-  const DefrayPatternParams p = pattern_band(frame, margins, settings, 30, 140);
+  const DefrayPatternsParams p = patterns_band(frame, margins, settings, 30, 140);
   const int left = static_cast<int>(p.margin_x), top = static_cast<int>(p.margin_y);
   for (std::uint32_t seed = 0; seed < 3; ++seed) {
     Random random(1, 1, seed);
@@ -228,15 +228,15 @@ TEST(PatternUnits, AreThoseNearSomethingHidden) {
         difference.insert({x / run * run, word(row)});
       }
     }
-    const PatternUnits units = pattern_units(p, pixels, 0, 140);
+    const PatternUnits units = patterns_units(p, pixels, 0, 140);
     EXPECT_EQ(cells_of(units.match), match);
     EXPECT_EQ(cells_of(units.columns), columns);
     EXPECT_EQ(cells_of(units.difference), difference);
 
     // Those of a part of the rows.
     constexpr int strip = DEFRAY_PATTERN_STRIP;
-    const PatternUnits upper = pattern_units(p, pixels, 0, strip);
-    const PatternUnits lower = pattern_units(p, pixels, strip, 140);
+    const PatternUnits upper = patterns_units(p, pixels, 0, strip);
+    const PatternUnits lower = patterns_units(p, pixels, strip, 140);
     const auto put_together = [](Cells a, const Cells& b) {
       return a.insert(b.begin(), b.end()), a;
     };

@@ -1,5 +1,5 @@
 // What is taken out of a frame as highlights: how much light, from where, listed in which tiles,
-// and which lens cell stands for which part of the lens.
+// and which lens point stands for which part of the lens.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "chain/highlights.h"
 #include "lens/aperture_mask.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 #include "support.h"
 
 namespace defray::test::light_sources_test {
@@ -58,7 +58,7 @@ const ApertureTable& aperture() {
 }
 
 LightSources taken(Scene& s, int light_channels) {
-  return take_light(s.frame, s.kept, light_channels, aperture(), make_lens_samples({}, 60));
+  return take_light(s.frame, s.kept, light_channels, aperture(), make_lens_points({}, 60));
 }
 
 TEST(LightSources, AreWhatIsNotKept) {
@@ -145,8 +145,8 @@ TEST(LightSources, AlphaBelongsToTheLightAsFarAsItStandsOut) {
 }
 
 TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
-  const LensCells cells = make_lens_samples({}, 137);
-  const std::vector<std::uint32_t> map = map_cells(cells);
+  const LensPoints lens = make_lens_points({}, 137);
+  const std::vector<std::uint32_t> map = map_cells(lens);
   constexpr int side = DEFRAY_CELL_MAP;
   ASSERT_EQ(map.size(), static_cast<std::size_t>(side * side));
   for (int j = 0; j < side; ++j) {
@@ -155,9 +155,8 @@ TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
         return std::hypot((2 * i + 1 - side) * 1024.0 - c[0], (2 * j + 1 - side) * 1024.0 - c[1]);
       };
       double least = HUGE_VAL;
-      for (const auto& c : cells.centres) least = std::min(least, distance(c));
-      EXPECT_NEAR(distance(cells.centres[map[static_cast<std::size_t>(j * side + i)]]), least,
-                  1e-6);
+      for (const auto& c : lens.points) least = std::min(least, distance(c));
+      EXPECT_NEAR(distance(lens.points[map[static_cast<std::size_t>(j * side + i)]]), least, 1e-6);
     }
   }
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 
 namespace defray::test::segments_test {
 namespace {
@@ -37,20 +37,20 @@ struct Range {
 };
 
 TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
-  const LensCells cells = make_lens_samples(Aperture{}, 37);
+  const LensPoints lens = make_lens_points(Aperture{}, 37);
   std::mt19937 random(3);
   for (const Range range :
        {Range{-900, 2000}, Range{0, 0}, Range{-70000, -300}, Range{-(1 << 30), 1 << 30}}) {
     const RadiusBins bins(range.least, range.largest, 40);
-    const SegmentTable table(cells, 0, bins, 40, 23, plenty);
+    const SegmentTable table(lens, 0, bins, 40, 23, plenty);
     std::uniform_int_distribution<std::int32_t> any(range.least, range.largest);
     std::uniform_int_distribution<std::int32_t> near(std::max(range.least, -20000),
                                                      std::min(range.largest, 20000));
     for (int i = 0; i < 4000; ++i) {
-      const auto cell = static_cast<std::size_t>(i) % cells.centres.size();
+      const auto cell = static_cast<std::size_t>(i) % lens.points.size();
       const std::int32_t radius = i % 2 ? any(random) : near.min() <= near.max() ? near(random) : 0;
-      const int dx = landing(radius, cells.centres[cell][0]);
-      const int dy = landing(radius, cells.centres[cell][1]);
+      const int dx = landing(radius, lens.points[cell][0]);
+      const int dy = landing(radius, lens.points[cell][1]);
       const Segment* s = find(table, cell, radius);
       const bool stays = std::abs(dx) < 40 && std::abs(dy) < 23;
       ASSERT_EQ(s != nullptr, stays) << radius << " of cell " << cell;
@@ -62,10 +62,10 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
 }
 
 TEST(Segments, AscendWithoutGapsAndBeginWhereTheirBinDoes) {
-  const LensCells cells = make_lens_samples(Aperture{}, 21);
+  const LensPoints lens = make_lens_points(Aperture{}, 21);
   const RadiusBins bins(-3000, 5000, 1000);
-  const SegmentTable table(cells, 0, bins, 1000, 1000, plenty);
-  for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
+  const SegmentTable table(lens, 0, bins, 1000, 1000, plenty);
+  for (std::size_t cell = 0; cell < lens.points.size(); ++cell) {
     const std::int32_t* first = &table.first[cell * (DEFRAY_RAY_BINS + 1)];
     EXPECT_EQ(table.segments[static_cast<std::size_t>(first[0])][2], -3000);
     for (int i = first[0] + 1; i < first[DEFRAY_RAY_BINS]; ++i) {
@@ -82,15 +82,15 @@ TEST(Segments, AscendWithoutGapsAndBeginWhereTheirBinDoes) {
 }
 
 TEST(Segments, ComeInPassesOfNoMoreThanAllowed) {
-  const LensCells cells = make_lens_samples(Aperture{}, 21);
+  const LensPoints lens = make_lens_points(Aperture{}, 21);
   const RadiusBins bins(-3000, 5000, 1000);
-  const SegmentTable all(cells, 0, bins, 1000, 1000, plenty);
+  const SegmentTable all(lens, 0, bins, 1000, 1000, plenty);
   EXPECT_EQ(all.cell_count(), 21);
   for (const std::size_t most : {std::size_t{1}, std::size_t{150}, all.segments.size() - 1}) {
     std::vector<Segment> together;
     int passes = 0;
     for (int cell = 0; cell < 21; ++passes) {
-      const SegmentTable table(cells, cell, bins, 1000, 1000, most);
+      const SegmentTable table(lens, cell, bins, 1000, 1000, most);
       ASSERT_GE(table.cell_count(), 1);
       if (table.cell_count() > 1) {
         EXPECT_LE(table.segments.size(), most);

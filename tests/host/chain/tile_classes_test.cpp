@@ -26,7 +26,7 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   inverse[f.index(43, 23)] = 1;  // margin
   TileClasses tiles(f);
   tiles.add_hidden(inverse);
-  tiles.add_edges(mixed);
+  tiles.add_mixed(mixed);
   LightSources lights;
   lights.where = {{2 + 20, 2 + 18, 300, 0}, {1, 5, 300, 0}};  // fifth, and margin
   tiles.add(lights);
@@ -39,7 +39,7 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   const TileShares shares = tiles.shares();
   EXPECT_EQ(shares.tiles, 6u);
   EXPECT_DOUBLE_EQ(shares.in_focus, 2 / 6.0);
-  for (const double share : {shares.smooth, shares.edges, shares.hidden, shares.lights}) {
+  for (const double share : {shares.smooth, shares.mixed, shares.hidden, shares.lights}) {
     EXPECT_DOUBLE_EQ(share, 1 / 6.0);
   }
 }

@@ -7,7 +7,7 @@
 #include "image/ldr.h"
 #include "lens/aperture_mask.h"
 #include "lens/aperture_table.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 #include "support.h"
 
 namespace defray::test::aperture_picture_test {
@@ -38,7 +38,7 @@ TEST(AperturePicture, IsUprightBehindTheFocusAndTurnedInFront) {
   const ApertureTable table = make_aperture_table(mask);
   EXPECT_EQ(light_in_box(table, -65536, -65536, 0, 0), table.total());
   for (const double r : {20.0, -20.0}) {
-    for (const auto& [u, v] : make_lens_samples(top_left, 200).centres) {
+    for (const auto& [u, v] : make_lens_points(top_left, 200).points) {
       const double right = r * u, down = r * v;
       EXPECT_LE(r > 0 ? right : -right, 0) << r;
       EXPECT_LE(r > 0 ? down : -down, 0) << r;
@@ -127,13 +127,13 @@ TEST(AperturePicture, SamplesFollowItsLight) {
   for (int i = 0; i < 64 * 64; ++i) ramp.push_back(static_cast<float>(i % 64 + i / 64));
   const Aperture a = picture(write_grey(folder, 64, 64, ramp));
   const ApertureTable table = make_aperture_table(rasterise(a));
-  const LensCells cells = make_lens_samples(a, 1024);
+  const LensPoints lens = make_lens_points(a, 1024);
   for (const std::int32_t u : {-30000, 0, 20000, 65536}) {
     for (const std::int32_t v : {-20000, 0, 40000, 65536}) {
       const double light = static_cast<double>(light_in_box(table, -65536, -65536, u, v)) /
                            static_cast<double>(table.total());
       double inside = 0;
-      for (const auto& [cu, cv] : cells.centres) inside += cu < u && cv < v ? 1.0 / 1024 : 0;
+      for (const auto& [cu, cv] : lens.points) inside += cu < u && cv < v ? 1.0 / 1024 : 0;
       // Half a standard deviation of random points: 32 of those would not stay within it.
       EXPECT_NEAR(inside, light, 8.0 / 1024) << u << "," << v;
     }
@@ -155,7 +155,7 @@ TEST(AperturePicture, AllLightOfALoneTexelIsThere) {
     const int left = x * texel - 65536, top = y * texel - 65536;
     const ApertureTable table = make_aperture_table(rasterise(lone));
     EXPECT_EQ(light_in_box(table, left, top, left + texel, top + texel), table.total());
-    for (const auto& [u, v] : make_lens_samples(lone, 5).centres) {
+    for (const auto& [u, v] : make_lens_points(lone, 5).points) {
       EXPECT_TRUE(u >= left && u <= left + texel && v >= top && v <= top + texel)
           << x << " " << y << ": " << u << " " << v;
     }
@@ -173,13 +173,13 @@ TEST(AperturePicture, SamplesOfASymmetricPictureMoveNothing) {
   const Aperture a = picture(write_grey(folder, size.width, size.height, light));
   for (const int count : {1, 16, 69, 1025}) {
     std::int64_t u = 0, v = 0;
-    for (const auto& [cu, cv] : make_lens_samples(a, count).centres) u += cu, v += cv;
+    for (const auto& [cu, cv] : make_lens_points(a, count).points) u += cu, v += cv;
     EXPECT_LE(std::abs(u), count) << count;
     EXPECT_LE(std::abs(v), count) << count;
   }
 }
 
-// The promise of lens_samples.h. Over 150 seeds the root mean square is 0.8 / count, the largest
+// The promise of lens_points.h. Over 150 seeds the root mean square is 0.8 / count, the largest
 // 3.1 / count; random points' is 0.8 / sqrt(count).
 TEST(AperturePicture, SamplesKeepItsCentroid) {
   const Folder folder;
@@ -197,7 +197,7 @@ TEST(AperturePicture, SamplesKeepItsCentroid) {
     }
     for (const int count : {16, 69, 144, 400, 1025}) {
       double su = 0, sv = 0;
-      for (const auto& [cu, cv] : make_lens_samples(a, count).centres) su += cu, sv += cv;
+      for (const auto& [cu, cv] : make_lens_points(a, count).points) su += cu, sv += cv;
       const double off = std::hypot(su / 65536 / count - u / total, sv / 65536 / count - v / total);
       EXPECT_LE(off, 4.0 / count) << seed << " " << count;
     }

@@ -61,8 +61,8 @@ TEST(Units, LimitOfTheCocIsTheNearestQuantum) {
   for (const double limit : {0.01, 1.0, 2.999, 3.001, 17.3}) {
     const Lens lens = make_lens(camera(1), 1, LensModel::cg, limit);
     const Plane depth = {0.01f};  // far beyond any of these limits
-    for (Stages* stages : device_and_twins()) {
-      const Quanta coc = stages->coc(lens, 1920, depth);
+    for (Backend* backend : device_and_twins()) {
+      const Quanta coc = backend->coc(lens, 1920, depth);
       EXPECT_EQ(std::abs(coc[0]), std::lround(256 * limit)) << limit;
     }
   }

@@ -10,7 +10,7 @@
 namespace defray::test::plot_test {
 namespace {
 
-Plot plot_of(std::vector<Point> points) {
+Plot plot_of(std::vector<PlotPoint> points) {
   Plot plot{"Title", "x", "y"};
   plot.series.push_back({"", std::move(points), false, true});
   return plot;

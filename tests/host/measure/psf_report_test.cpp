@@ -160,7 +160,7 @@ TEST(PsfReport, ChartMarksThePixelAndLeavesOutAGeometricPoint) {
   EXPECT_EQ(plot.series.back().points.back().x, 0.5);
   double largest = 0, least = HUGE_VAL;
   for (const Series& series : plot.series) {
-    for (const Point& point : series.points) {
+    for (const PlotPoint& point : series.points) {
       if (series.name == "550 nm") largest = std::max(largest, point.y);
       least = std::min(least, point.y);
     }

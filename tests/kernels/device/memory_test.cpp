@@ -36,12 +36,12 @@ struct Stage {
 
 TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
   const Frame frame = tall_frame();
-  const Words mixed = device().edges(frame);
+  const Words mixed = device().mixed(frame);
   const Frame behind = device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS);
   const Surfaces surfaces = device().split(frame, mixed, behind);
   const std::vector<Stage> stages = {
       {"repair", 0, 1, [&] { device().repair(frame); }},
-      {"edges", 0, 1, [&] { device().edges(frame); }},
+      {"mixed", 0, 1, [&] { device().mixed(frame); }},
       {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS); }},
       {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
       {"assemble", 0, 1, [&] { device().assemble(surfaces); }},
@@ -71,7 +71,7 @@ TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
     RayPlan plan = plan_rays({9});
     plan.by = RaysBy::scatter;
     plan.wants_nearest = wants_nearest;
-    const std::size_t cells = plan.cells.centres.size(), given = 40 * 40 * 20 * rdb_bytes_a_cell;
+    const std::size_t cells = plan.lens.points.size(), given = 40 * 40 * 20 * rdb_bytes_a_cell;
     const InBands bands(session(), given);
     std::size_t windows = 0, band_pixels = 0, most_cells = 0;
     int last_y = -1;

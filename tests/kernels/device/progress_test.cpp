@@ -5,13 +5,13 @@
 namespace defray::test::progress_test {
 namespace {
 
-void expect_progress(const MethodSettings& settings, Stages& stages, const std::string& what) {
+void expect_progress(const MethodSettings& settings, Backend& backend, const std::string& what) {
   const Size size{40, 90};
   const std::vector<Plane> channels = {random_plane(size, 1), random_plane(size, 2)};
   const Frame frame{size.width, size.height, random_coc(size, 5, 3), random_depth(size, 4),
                     channels};
   std::vector<double> shares;
-  apply_method(frame, settings, stages, false, [&](double share) { shares.push_back(share); });
+  apply_method(frame, settings, backend, false, [&](double share) { shares.push_back(share); });
   ASSERT_GE(shares.size(), 2u) << what;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     EXPECT_GE(shares[i], i == 0 ? 0 : shares[i - 1]) << what;
@@ -32,11 +32,11 @@ TEST(Progress, GoesToOneAndNeverBack) {
     expect_progress(gather, device(), "gather");
   }
   expect_progress(linear, device(), "linear");
-  for (Stages* stages : device_and_twins()) {
+  for (Backend* backend : device_and_twins()) {
     const InBands bands(session(), 1 << 17);  // several passes
-    const std::string where = stages == &device() ? " on the device" : " by the twins";
-    expect_progress({}, *stages, "literal" + where);
-    expect_progress(chain, *stages, "rdb" + where);
+    const std::string where = backend == &device() ? " on the device" : " by the twins";
+    expect_progress({}, *backend, "literal" + where);
+    expect_progress(chain, *backend, "rdb" + where);
   }
 }
 

@@ -69,7 +69,7 @@ TEST(Session, WorkGroupsAreOfOneKernelOrOfAll) {
   own.set_work_group(8, 2);
   EXPECT_EQ(size_of_group(), (Size{8, 2}));
   own.set_work_group("coc", 4, 4);
-  own.set_work_group("edges", 2, 1);
+  own.set_work_group("mixed", 2, 1);
   EXPECT_EQ(size_of_group(), (Size{4, 4}));
   own.set_work_group(8, 1);
   EXPECT_EQ(size_of_group(), (Size{8, 1}));
@@ -111,8 +111,8 @@ TEST(Session, BuildErrorsNameFileAndLine) {
 
 TEST(Session, BuildsTheFilesAskedFor) {
   SessionOptions options;
-  options.files = {"tiltshift.cl", "edges.cl"};
-  const std::vector<std::string> expected{"edges", "repair", "tiltshift"};
+  options.files = {"tiltshift.cl", "mixed.cl"};
+  const std::vector<std::string> expected{"mixed", "repair", "tiltshift"};
   EXPECT_EQ(Session(device_under_test(), options).kernel_names(), expected);
   options.files = {"nonesuch.cl"};
   expect_error(ErrorKind::internal, {"no kernel file 'nonesuch.cl'"},
@@ -141,8 +141,8 @@ void render_default(Session& session) {
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (i % 64 > 20 && i % 64 < 30) depth[i] = 1, coc[i] = -3 * 256;
   }
-  DeviceStages stages(session);
-  run_chain({size.width, size.height, coc, depth, {{random_plane(size, 1)}}}, {}, stages);
+  DeviceBackend backend(session);
+  run_chain({size.width, size.height, coc, depth, {{random_plane(size, 1)}}}, {}, backend);
 }
 
 TEST(Session, PlanesStayWhereTheyAre) {
@@ -158,12 +158,12 @@ TEST(Session, PlanesStayWhereTheyAre) {
 
 TEST(Session, WorkGroupsOfSingleKernels) {
   Session own(device_under_test());
-  own.set_work_group("edges", 7, 3);
+  own.set_work_group("mixed", 7, 3);
   expect_error(ErrorKind::usage, {"work-items"},
                [&] { own.set_work_group("fill", own.info().max_work_group, 2); });
-  DeviceStages stages(own);
+  DeviceBackend backend(own);
   const Frame frame{37, 23, random_coc({37, 23}, 9, 1)};
-  EXPECT_EQ(stages.edges(frame), twins().edges(frame));
+  EXPECT_EQ(backend.mixed(frame), twins().mixed(frame));
 }
 
 TEST(LaunchTable, HasEveryKernelOnce) {
@@ -179,7 +179,7 @@ TEST(Session, MeasuresTheTimeOfEachKernelWhereAsked) {
   Session own(device_under_test(), options);
   EXPECT_TRUE(own.take_kernel_seconds().empty());
   const Plane depth(1000, 2);
-  DeviceStages(own).coc(Lens(), 100, depth);
+  DeviceBackend(own).coc(Lens(), 100, depth);
   const auto seconds = own.take_kernel_seconds();
   ASSERT_EQ(seconds.size(), 1u);
   EXPECT_EQ(seconds.begin()->first, "coc");
@@ -199,7 +199,7 @@ TEST(Session, FastArithmeticBuildsAndStaysNear) {
   lens.aperture_diameter_mm = 100;
   const Plane depth = random_depth({64, 16}, 1);
   const auto strict_coc = device().coc(lens, 64, depth);
-  const auto fast_coc = DeviceStages(fast).coc(lens, 64, depth);
+  const auto fast_coc = DeviceBackend(fast).coc(lens, 64, depth);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (std::isinf(depth[i])) continue;  // -cl-fast-relaxed-math leaves open what Inf gives
     EXPECT_NEAR(fast_coc[i], strict_coc[i], 1) << depth[i];

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "lens/lens_cells.h"
+#include "lens/lens_grid.h"
 #include "methods/method.h"
 #include "numbers.h"
 #include "reference/reference.h"
@@ -108,7 +108,7 @@ TEST(ExtremeColours, ClosedApertureKeepsEveryBit) {
   const std::vector<std::int32_t> coc(depth.size());
   for (const Case& c : cases()) {
     const Frame frame{size.width, size.height, coc, depth, colour};
-    for (Stages* s : device_and_twins()) {
+    for (Backend* s : device_and_twins()) {
       EXPECT_EQ(hash_of(apply_method(frame, c.settings, *s).colour), hash_of(colour)) << c.name;
     }
   }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lens/lens_cells.h"
+#include "lens/lens_grid.h"
 #include "methods/linear.h"
 #include "methods/method.h"
 #include "numbers.h"
@@ -85,7 +85,7 @@ TEST(ExtremeFrames, OneDepthIsAShiftByEachCell) {
       if (settings.method == Method::linear && is_slow_device() && quanta > 1000) continue;
       const Plane out = render_both({37, 19, coc, depth, {colour}}, settings)[0];
       if (settings.method != Method::rdb) continue;
-      const auto cells = make_lens_cells(settings.rdb.cells_per_side, false).centres;
+      const auto cells = make_lens_grid(settings.rdb.cells_per_side, false).points;
       for (int x = 0; x < 37 * 19; ++x) {
         double sum = 0, largest_colour = 0;
         int count = 0;

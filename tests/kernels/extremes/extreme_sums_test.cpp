@@ -1,8 +1,9 @@
-// Means over the most lens cells there are, of colours as unequal as they come, against exact ones.
+// Means over the most lens points there are, of colours as unequal as they come, against exact
+// ones.
 #include <cmath>
 #include <cstdio>
 
-#include "lens/lens_cells.h"
+#include "lens/lens_grid.h"
 #include "rdb/rdb.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -30,7 +31,7 @@ TEST(ExtremeSums, MeansOfLightAreWithinARoundingACell) {
     settings.cells_per_side = is_slow_device() ? 12 : 64;
     settings.jitter = jitter;
     const double cells =
-        static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
+        static_cast<double>(make_lens_grid(settings.cells_per_side, jitter).points.size());
     for (std::uint32_t seed = 0; seed < 4; ++seed) {
       const auto coc = random_coc(size, 5, seed);
       const Plane depth = random_depth(size, seed + 10), colour = unequal_colours(size, seed + 20);

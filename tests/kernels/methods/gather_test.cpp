@@ -149,7 +149,7 @@ TEST(Gather, SameBitsForEveryWorkGroupAndRun) {
     for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 4}}) {
       s.set_work_group(x, y);
       EXPECT_EQ(
-          hash_of(DeviceStages(s).gather({size.width, size.height, coc, {}, channels}, settings)),
+          hash_of(DeviceBackend(s).gather({size.width, size.height, coc, {}, channels}, settings)),
           expected)
           << x << "x" << y;
     }
@@ -216,7 +216,7 @@ TEST(Gather, RefusesAbsurdCounts) {
   for (const int passes : {0, 9}) {
     expect_error(ErrorKind::usage, {"passes", "1 to 8"},
                  [&] { validate(settings_of(GatherKind::aware, 1, passes, false)); });
-    for (Stages* on : device_and_twins()) {
+    for (Backend* on : device_and_twins()) {
       const Frame frame{1, 1, {0}, {}, {Plane{1}}};
       expect_error(ErrorKind::usage, {"passes"},
                    [&] { on->gather(frame, settings_of(GatherKind::aware, 1, passes, false)); });

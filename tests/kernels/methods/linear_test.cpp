@@ -145,7 +145,7 @@ TEST(Linear, SameBitsForEveryMemoryBudgetAndWorkGroup) {
   Session s(device_under_test());
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 1}}) {
     s.set_work_group(x, y);
-    EXPECT_EQ(hash_of(DeviceStages(s).linear({size.width, size.height, coc, {}, channels})),
+    EXPECT_EQ(hash_of(DeviceBackend(s).linear({size.width, size.height, coc, {}, channels})),
               expected)
         << x << "x" << y;
   }

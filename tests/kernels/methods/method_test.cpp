@@ -39,7 +39,7 @@ TEST(Method, ClosedApertureReturnsTheInputBitForBit) {
   std::vector<Plane> colour;
   for (std::uint32_t c = 0; c < 3; ++c) colour.push_back(random_plane(size, c));
   for (const auto& [name, settings] : all_methods()) {
-    for (Stages* s : device_and_twins()) {
+    for (Backend* s : device_and_twins()) {
       EXPECT_EQ(hash_of(apply_method({37, 23, coc, depth, colour}, settings, *s).colour),
                 hash_of(colour))
           << name << (s ? "" : ", twin");
@@ -76,7 +76,7 @@ TEST(Method, TiltshiftKeepsFlatAreasFlat) {
   const std::vector<Plane> grey{Plane(40 * 60, 0.5f)};
   MethodSettings settings;
   settings.method = Method::tiltshift;
-  for (Stages* s : device_and_twins()) {
+  for (Backend* s : device_and_twins()) {
     const Plane out = apply_method({40, 60, coc, {}, grey}, settings, *s).colour[0];
     // 25 x 25 additions each of light and weight.
     for (const float value : out) ASSERT_NEAR(value, 0.5f, 2 * 625 * 0x1p-24);

@@ -47,14 +47,14 @@ Scene bar(Size size, int x0, int x1) {
   return s;
 }
 
-std::vector<std::uint32_t> hits(const Scene& s, int cells_per_side, Stages& stages) {
+std::vector<std::uint32_t> hits(const Scene& s, int cells_per_side, Backend& backend) {
   RayPlan plan = plan_rays({cells_per_side});
   plan.wants_nearest = true;
-  return stages.rays(s.frame(), plan).nearest;
+  return backend.rays(s.frame(), plan).nearest;
 }
 
-MethodResult through(const Scene& s, const ChainSettings& settings, Stages& stages) {
-  return run_chain(s.frame(), settings, stages, true);
+MethodResult through(const Scene& s, const ChainSettings& settings, Backend& backend) {
+  return run_chain(s.frame(), settings, backend, true);
 }
 
 TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
@@ -69,7 +69,7 @@ TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
         rows * static_cast<std::size_t>(size.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
     const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
     EXPECT_EQ(hits(s, cells, device()), expected) << "few rows and cells a pass";
-    DeviceStages two_passes(session_without_int64());
+    DeviceBackend two_passes(session_without_int64());
     EXPECT_EQ(hits(s, cells, two_passes), expected);
   }
 }
@@ -78,7 +78,7 @@ TEST(Nearest, IsTheSmallestRadiusOfAllCellsWinners) {
   const Scene s = random_scene({23, 17}, 3);
   const RayPlan plan = plan_rays({5});
   std::vector<std::set<std::pair<std::int32_t, std::int64_t>>> met(s.count());
-  for (std::size_t cell = 0; cell < plan.cells.centres.size(); ++cell) {
+  for (std::size_t cell = 0; cell < plan.lens.points.size(); ++cell) {
     const auto winner = reference::rdb_scatter(s.frame(), plan, cell);
     for (std::size_t i = 0; i < winner.size(); ++i) {
       if (winner[i] >= 0) met[i].emplace(s.coc[static_cast<std::size_t>(winner[i])], winner[i]);
@@ -100,7 +100,7 @@ TEST(Nearest, OnlyOnDemand) {
   EXPECT_TRUE(run_chain(s.frame(), {}, device()).nearest.empty());
   MethodSettings literal;
   EXPECT_TRUE(apply_method(s.frame(), literal, device()).nearest.empty());
-  for (Stages* on : device_and_twins()) {
+  for (Backend* on : device_and_twins()) {
     const MethodResult details = apply_method(s.frame(), literal, *on, true);
     for (const std::uint32_t i : details.nearest) EXPECT_LT(i, s.count());
     EXPECT_EQ(details.nearest.size(), s.count());
@@ -109,7 +109,7 @@ TEST(Nearest, OnlyOnDemand) {
 
 TEST(NearestPicture, ABlurredBarsDataReachAsFarAsItsLight) {
   const Scene s = bar({48, 24}, 20, 30);
-  for (Stages* on : device_and_twins()) {
+  for (Backend* on : device_and_twins()) {
     const MethodResult r = through(s, {}, *on);
     for (std::size_t i = 0; i < s.count(); ++i) {
       const int x = static_cast<int>(i) % 48;

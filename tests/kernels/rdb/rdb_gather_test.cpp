@@ -2,7 +2,7 @@
 #include "base/random.h"
 #include "chain/chain.h"
 #include "lens/aperture_table.h"
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 #include "rdb/rdb.h"
 #include "support.h"
 #include "validation/input.h"
@@ -10,9 +10,9 @@
 namespace defray::test::rdb_gather_test {
 namespace {
 
-RayResult rays(Stages& stages, const Frame& f, RayPlan plan, RaysBy by) {
+RayResult rays(Backend& backend, const Frame& f, RayPlan plan, RaysBy by) {
   plan.by = by;
-  return stages.rays(f, plan);
+  return backend.rays(f, plan);
 }
 
 void expect_equal(const RayResult& a, const RayResult& b, const std::string& what) {
@@ -34,7 +34,7 @@ Frame random_frame(Size size, double coc_px, std::uint32_t seed) {
 
 RayPlan plan_of(int points, bool wants_nearest = false) {
   RayPlan plan;
-  plan.cells = make_lens_samples(Aperture{}, points);
+  plan.lens = make_lens_points(Aperture{}, points);
   plan.wants_nearest = wants_nearest;
   return plan;
 }
@@ -73,14 +73,14 @@ TEST(RdbGather, GivesTheSameBitsOnDevicesThatPreferScalars) {
   Session scalars(device_under_test(), options);
   EXPECT_FALSE(scalars.uses_vectors());
   EXPECT_EQ(session().uses_vectors(), device_under_test().prefers_vectors);
-  DeviceStages stages(scalars);
+  DeviceBackend backend(scalars);
   const Size size{61, 43};
   const std::vector<Plane> channels(3, random_plane(size, 8));
   const Frame plain{size.width, size.height, random_coc(size, 5, 6), random_depth(size, 7),
                     channels};
   for (const Frame& f : {plain, random_frame(size, 9, 5)}) {
     const RayPlan plan = plan_of(13, f.layers > 1);
-    expect_equal(rays(stages, f, plan, RaysBy::gather), rays(device(), f, plan, RaysBy::gather),
+    expect_equal(rays(backend, f, plan, RaysBy::gather), rays(device(), f, plan, RaysBy::gather),
                  fmt::format("{} layers", f.layers));
   }
 }
@@ -90,10 +90,10 @@ TEST(RdbGather, GivesTheSameBitsForEveryWorkGroup) {
   const RayPlan plan = plan_of(13, true);
   const RayResult expected = rays(device(), f, plan, RaysBy::gather);
   Session s(device_under_test());
-  DeviceStages stages(s);
+  DeviceBackend backend(s);
   for (const auto& [x, y] : {std::pair{7, 3}, {1, 16}}) {
     s.set_work_group(static_cast<std::size_t>(x), static_cast<std::size_t>(y));
-    expect_equal(rays(stages, f, plan, RaysBy::gather), expected, fmt::format("{}x{}", x, y));
+    expect_equal(rays(backend, f, plan, RaysBy::gather), expected, fmt::format("{}x{}", x, y));
   }
 }
 
@@ -128,8 +128,8 @@ TEST(RdbGather, GivesTheSameBitsInPassesOfFewCells) {
   for (const std::size_t most : {1, 2000, 9000}) {
     short_of_breath.most_segments = most;
     Session s(short_of_breath);
-    DeviceStages stages(s);
-    expect_equal(rays(stages, f, plan, RaysBy::gather), expected, fmt::format("{}", most));
+    DeviceBackend backend(s);
+    expect_equal(rays(backend, f, plan, RaysBy::gather), expected, fmt::format("{}", most));
   }
 }
 

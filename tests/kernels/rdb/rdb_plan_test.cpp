@@ -1,7 +1,7 @@
 // Passes within a memory budget, and the cells of the lens.
 #include "rdb/rdb_plan.h"
 
-#include "lens/lens_cells.h"
+#include "lens/lens_grid.h"
 #include "support.h"
 
 namespace defray::test::rdb_plan_test {
@@ -35,22 +35,22 @@ TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
   EXPECT_NO_THROW(plan_rdb_passes(100, 10, 69, 1, 0.004 * 1048576));
 }
 
-TEST(LensCells, RoundApertureOfThePaper) {
-  EXPECT_EQ(make_lens_cells(9, false).centres.size(), 69u);
-  EXPECT_EQ(make_lens_cells(1, false).centres.size(), 1u);
-  EXPECT_EQ(make_lens_cells(2, false).centres.size(), 4u);
+TEST(LensPoints, RoundApertureOfThePaper) {
+  EXPECT_EQ(make_lens_grid(9, false).points.size(), 69u);
+  EXPECT_EQ(make_lens_grid(1, false).points.size(), 1u);
+  EXPECT_EQ(make_lens_grid(2, false).points.size(), 4u);
   // pi/4 of the square, as the cells get small.
-  EXPECT_NEAR(make_lens_cells(64, false).centres.size() / 4096.0, 0.785398, 0.005);
+  EXPECT_NEAR(make_lens_grid(64, false).points.size() / 4096.0, 0.785398, 0.005);
   for (const int n : {0, -1, 65}) {
     expect_error(ErrorKind::usage, {"cells_per_side", "1 to 64"},
-                 [n] { make_lens_cells(n, false); });
+                 [n] { make_lens_grid(n, false); });
   }
 }
 
-TEST(LensCells, AreCentredOnTheAxis) {
+TEST(LensPoints, AreCentredOnTheAxis) {
   for (int n = 1; n <= 64; ++n) {
     std::int64_t u = 0, v = 0;
-    for (const auto& cell : make_lens_cells(n, false).centres) u += cell[0], v += cell[1];
+    for (const auto& cell : make_lens_grid(n, false).points) u += cell[0], v += cell[1];
     EXPECT_EQ(u, 0) << n;
     EXPECT_EQ(v, 0) << n;
   }

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "device/rdb_run.h"
+#include "lens/lens_grid.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -41,7 +42,7 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
   const Frame frame{size.width, size.height, coc, depth, std::vector<Plane>{depth}};
   const RayPlan plan = plan_rays(settings);
   RdbRun run(s, frame, plan);
-  CellWinners all(make_lens_cells(settings.cells_per_side, settings.jitter).centres.size(),
+  CellWinners all(make_lens_grid(settings.cells_per_side, settings.jitter).points.size(),
                   std::vector<std::int64_t>(depth.size(), -2));
   for (const RdbPass& pass : run.passes()) {
     run.scatter(pass);
@@ -78,7 +79,7 @@ std::size_t differing_winners(Session& s, Size size, const RdbSettings& settings
   return differing;
 }
 
-int cells_a_side(Size size) {
+int cells_per_side(Size size) {
   const int pixels = size.width * size.height;
   if (is_slow_device()) return pixels > 100000 ? 1 : pixels > 10000 ? 2 : 5;
   return pixels > 100000 ? 4 : 9;
@@ -93,7 +94,7 @@ void expect_no_differing_winners(Session& s, bool jitter) {
       if (jitter && size.width > 100 && radius > (size.width > 300 ? 8 : 32)) continue;
       if (jitter && is_slow_device() && (size.width > 300 || radius > 8)) continue;
       RdbSettings settings;
-      settings.cells_per_side = cells_a_side(size);
+      settings.cells_per_side = cells_per_side(size);
       settings.jitter = jitter;
       settings.seed = seed;
       const auto coc = random_coc(size, radius, ++seed);
@@ -108,15 +109,15 @@ TEST(RdbScatter, TwinIsTheDefinition) {
   std::uint32_t seed = 100;
   for (const Size size : {Size{1, 1}, Size{1, 17}, Size{13, 7}, Size{29, 23}}) {
     for (const double radius : radii) {
-      const LensCells cells = make_lens_cells(size.width > 20 ? 5 : 9, false);
+      const LensPoints lens = make_lens_grid(size.width > 20 ? 5 : 9, false);
       const auto coc = random_coc(size, radius, ++seed);
       const Plane depth = random_depth(size, ++seed);
-      for (std::size_t cell = 0; cell < cells.centres.size(); ++cell) {
+      for (std::size_t cell = 0; cell < lens.points.size(); ++cell) {
         const auto twin =
-            reference::rdb_scatter({size.width, size.height, coc, depth}, {cells}, cell);
+            reference::rdb_scatter({size.width, size.height, coc, depth}, {lens}, cell);
         for (std::size_t i = 0; i < twin.size(); ++i) {
           const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
-          ASSERT_EQ(twin[i], winner_by_definition(size, x, y, cells.centres[cell], coc))
+          ASSERT_EQ(twin[i], winner_by_definition(size, x, y, lens.points[cell], coc))
               << "cell " << cell << " of pixel (" << x << ", " << y << "), CoC up to " << radius;
         }
       }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lens/lens_grid.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -24,7 +25,7 @@ Input make_input(Size size, double radius, std::uint32_t seed) {
 }
 
 std::vector<Plane> render(Session& s, const Input& in, const RdbSettings& settings) {
-  return DeviceStages(s)
+  return DeviceBackend(s)
       .rays({in.size.width, in.size.height, in.coc, in.depth, in.channels}, plan_rays(settings))
       .means;
 }
@@ -51,7 +52,7 @@ TEST(Rdb, MeansEqualTheTwinsBitForBitAndTheExactOnesWithinTheBoundOfFloatSums) {
     const auto exact =
         reference::exact_rays({67, 41, in.coc, in.depth, in.channels}, plan_rays(settings));
     const double cells =
-        static_cast<double>(make_lens_cells(settings.cells_per_side, jitter).centres.size());
+        static_cast<double>(make_lens_grid(settings.cells_per_side, jitter).points.size());
     for (std::size_t c = 0; c < 4; ++c) {
       double largest = 0;
       for (const float v : in.channels[c]) largest = std::fmax(largest, std::fabs(v));

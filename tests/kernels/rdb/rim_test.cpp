@@ -4,7 +4,7 @@
 
 #include "chain/chain.h"
 #include "lens/cats_eye.h"
-#include "lens/lens_cells.h"
+#include "lens/lens_grid.h"
 #include "methods/method.h"
 #include "rdb/rdb.h"
 #include "support.h"
@@ -71,7 +71,7 @@ TEST(Rim, LampsLoseTheirOuterSide) {
 TEST(Rim, ItsEdgeItselfIsOpen) {
   Frame frame{3, 1, std::vector<std::int32_t>(3), Plane(3, 4), {Plane(3, 1)}};
   RayPlan plan;
-  plan.cells = make_lens_cells(1, false);  // its middle alone
+  plan.lens = make_lens_grid(1, false);  // its middle alone
   plan.rim_x = {65535, 65536, 65537};
   plan.rim_y = {0};
   for (const RaysBy by : {RaysBy::gather, RaysBy::scatter}) {

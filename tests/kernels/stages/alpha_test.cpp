@@ -44,10 +44,10 @@ Layer blocks(Size size, std::uint32_t seed) {
 std::vector<ChainSettings> all_settings() {
   std::vector<ChainSettings> all(1);
   for (const int cells : {9, 33}) all.emplace_back().cells_per_side = is_slow_device() ? 3 : cells;
-  for (const Hidden h : {Hidden::off, Hidden::smooth}) all.emplace_back().hidden = h;
+  for (const Hidden h : {Hidden::off, Hidden::fill}) all.emplace_back().hidden = h;
   for (const Border b : {Border::renormalise, Border::black}) all.emplace_back().border = b;
-  all.emplace_back().split_edges = false;
-  all.emplace_back().repair_depth = false;
+  all.emplace_back().split = false;
+  all.emplace_back().repair = false;
   all.emplace_back().highlights = false;
   all.emplace_back().soften = false;
   all.emplace_back().aperture.cats_eye = 0.7;
@@ -74,11 +74,11 @@ TEST(Alpha, AnOpaqueImageStaysOpaque) {
 
 TEST(Alpha, OpaqueWithoutStagesTooAndInTheTwins) {
   const Layer l = blocks({47, 33}, 3);
-  for (Stages* on : device_and_twins()) {
+  for (Backend* on : device_and_twins()) {
     const auto literal = apply_method(l.frame(), {}, *on).colour;
-    const MethodResult stages = run_chain(l.frame(), {}, *on);
+    const MethodResult whole = run_chain(l.frame(), {}, *on);
     for (const float a : literal[3]) EXPECT_NEAR(a, 1.0f, 1e-6f);
-    for (const float a : stages.colour[3]) EXPECT_NEAR(a, 1.0f, 1e-6f);
+    for (const float a : whole.colour[3]) EXPECT_NEAR(a, 1.0f, 1e-6f);
   }
 }
 

@@ -118,7 +118,7 @@ TEST(Chain, AFrameThatDoesNotFitTheHostIsRefused) {
   small.global_memory_bytes = 60 * 40 * 100;
   small.shares_host_memory = true;  // only then it is the host's
   Session session(small);
-  DeviceStages device(session);
+  DeviceBackend device(session);
   const Frame frame{size.width, size.height, scene.coc, scene.depth, scene.channels};
   try {
     run_chain(frame, {}, device);

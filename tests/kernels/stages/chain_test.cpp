@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "rdb/rdb.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 #include "support.h"
 
 namespace defray::test::chain_test {
@@ -14,29 +14,31 @@ namespace {
 constexpr double delay_s = 0.1;
 
 /// The twins, one of them late.
-class LateStages : public reference::TwinStages {
+class LateBackend : public reference::TwinBackend {
  public:
-  explicit LateStages(std::string late) : late_(std::move(late)) {}
+  explicit LateBackend(std::string late) : late_(std::move(late)) {}
 
-  Words repair(const Frame& f) override { return wait("repair"), TwinStages::repair(f); }
-  Words edges(const Frame& f) override { return wait("edges"), TwinStages::edges(f); }
+  Words repair(const Frame& f) override { return wait("repair"), TwinBackend::repair(f); }
+  Words mixed(const Frame& f) override { return wait("mixed"), TwinBackend::mixed(f); }
   Frame fill(const Frame& f, const Words& m, int n) override {
-    return wait("fill"), TwinStages::fill(f, m, n);
+    return wait("fill"), TwinBackend::fill(f, m, n);
   }
   Surfaces split(const Frame& f, const Words& m, Frame b) override {
-    return wait("split"), TwinStages::split(f, m, std::move(b));
+    return wait("split"), TwinBackend::split(f, m, std::move(b));
   }
   Values<float> highlights(const Frame& f, int n) override {
-    return wait("highlights"), TwinStages::highlights(f, n);
+    return wait("highlights"), TwinBackend::highlights(f, n);
   }
-  Planes soften(const Frame& f, int n) override { return wait("soften"), TwinStages::soften(f, n); }
+  Planes soften(const Frame& f, int n) override {
+    return wait("soften"), TwinBackend::soften(f, n);
+  }
   RayResult rays(const Frame& f, const RayPlan& plan, const LightSources* lights,
                  const Progress& progress) override {
-    return wait("rays"), TwinStages::rays(f, plan, lights, progress);
+    return wait("rays"), TwinBackend::rays(f, plan, lights, progress);
   }
   PatternSums patterns(const Frame& f, const Frame& b, const Words& w,
                        const std::vector<PatternShift>& s, const PatternSettings& p) override {
-    return wait("patterns"), TwinStages::patterns(f, b, w, s, p);
+    return wait("patterns"), TwinBackend::patterns(f, b, w, s, p);
   }
 
  private:
@@ -47,7 +49,7 @@ class LateStages : public reference::TwinStages {
 };
 
 /// Stripes behind a bar before the plane of focus, a lamp on them.
-MethodResult rendered(Stages& stages) {
+MethodResult rendered(Backend& backend) {
   constexpr int width = 64, height = 40;
   std::vector<std::int32_t> coc(width * height, 4 * 256);
   Plane depth(coc.size(), 5), colour(coc.size());
@@ -57,7 +59,7 @@ MethodResult rendered(Stages& stages) {
     if (x >= 28 && x < 36) coc[i] = -6 * 256, depth[i] = 1, colour[i] = 0.4f;
   }
   colour[20 * width + 10] = 3000;
-  return run_chain({width, height, coc, depth, {colour, colour, colour}}, ChainSettings{}, stages);
+  return run_chain({width, height, coc, depth, {colour, colour, colour}}, ChainSettings{}, backend);
 }
 
 double seconds_of(const MethodResult& result, const std::string& stage) {
@@ -67,14 +69,14 @@ double seconds_of(const MethodResult& result, const std::string& stage) {
 }
 
 TEST(Chain, ReportsItsStagesByName) {
-  reference::TwinStages twins;
+  reference::TwinBackend twins;
   const MethodResult result = rendered(twins);
   std::vector<std::string> names;
   for (const StageTime& s : result.report.stages) {
     names.push_back(s.stage);
     EXPECT_GE(s.seconds, 0) << s.stage;
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"lens", "border", "edges", "repair", "tiles", "fill",
+  EXPECT_EQ(names, (std::vector<std::string>{"lens", "border", "mixed", "repair", "tiles", "fill",
                                              "patterns", "split", "highlights", "soften", "rays",
                                              "crop"}));
   EXPECT_EQ(result.report.highlights, 1u);
@@ -83,11 +85,11 @@ TEST(Chain, ReportsItsStagesByName) {
 }
 
 TEST(Chain, GivesEachStageItsOwnTime) {
-  reference::TwinStages twins;
+  reference::TwinBackend twins;
   for (const std::string late :
-       {"edges", "repair", "fill", "patterns", "split", "highlights", "soften", "rays"}) {
-    LateStages stages(late);
-    const MethodResult result = rendered(stages);
+       {"mixed", "repair", "fill", "patterns", "split", "highlights", "soften", "rays"}) {
+    LateBackend backend(late);
+    const MethodResult result = rendered(backend);
     for (const StageTime& s : result.report.stages) {
       if (s.stage == late) {
         EXPECT_GE(s.seconds, delay_s) << late;
@@ -124,7 +126,7 @@ TEST(Chain, RepairsDepthWhereOneEdgePixelIn20IsBetween) {
   int repaired_often = 0, left_often = 0;
   for (int ramps = 0; ramps <= 36; ramps += 2) {
     const Bar bar(ramps);
-    const Words mixed = device().edges(bar.frame()), source = device().repair(bar.frame());
+    const Words mixed = device().mixed(bar.frame()), source = device().repair(bar.frame());
     std::size_t between = 0, edge = 0;
     for (std::size_t i = 0; i < source.size(); ++i) between += source[i] != i, edge += mixed[i];
     for (const Border border : {Border::renormalise, Border::clamp}) {
@@ -149,7 +151,7 @@ TEST(Chain, RepairedPixelsLendNoData) {
   const Words source = device().repair(bar.frame());
   const auto data_from_between = [&](bool repairs) {
     ChainSettings settings;
-    settings.repair_depth = repairs;
+    settings.repair = repairs;
     std::size_t count = 0;
     for (const std::uint32_t i : run_chain(bar.frame(), settings, device(), true).nearest) {
       count += source[i] != i;
@@ -162,7 +164,7 @@ TEST(Chain, RepairedPixelsLendNoData) {
 
 TEST(Chain, LeavesDepthAloneWhereAskedTo) {
   ChainSettings settings;
-  settings.repair_depth = false;
+  settings.repair = false;
   EXPECT_EQ(run_chain(Bar(36).frame(), settings, device()).report.repaired, 0u);
 }
 

@@ -96,7 +96,7 @@ struct Disc {
   double at(std::size_t i) const { return (double{picture[i]} - grey) / (double{light} - grey); }
 };
 
-Disc render_disc(std::int32_t quanta, float grey, const ChainSettings& settings, Stages& on) {
+Disc render_disc(std::int32_t quanta, float grey, const ChainSettings& settings, Backend& on) {
   const double radius = quanta / 256.0;
   const int side = 2 * (static_cast<int>(std::fabs(radius)) + 6) + 1;
   const Plane depth(static_cast<std::size_t>(side * side), 4.0f);

@@ -39,7 +39,7 @@ Frame frame_of(const Wall& wall, int lamp_x, float lamp) {
   return {width, height, coc, depth, {colour}};
 }
 
-Spot spot(const Wall& wall, int lamp_x, Stages& on, const Aperture& aperture = {}) {
+Spot spot(const Wall& wall, int lamp_x, Backend& on, const Aperture& aperture = {}) {
   MethodSettings settings;
   settings.chain = ChainSettings{};
   settings.chain->aperture = aperture;

@@ -1,7 +1,7 @@
 // The search for shifts parallel to the picture, retold in plain loops.
 #include <cmath>
 
-#include "pattern_search.h"
+#include "patterns_search.h"
 
 namespace defray::test::parallel_search_test {
 namespace {

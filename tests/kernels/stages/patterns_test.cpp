@@ -1,6 +1,6 @@
 // `patterns`: the kernels against their twins.
-#include "chain/pattern_window.h"
-#include "pattern_scene.h"
+#include "chain/patterns_window.h"
+#include "patterns_scene.h"
 #include "reference/reference.h"
 
 namespace defray::test::patterns_test {
@@ -39,8 +39,8 @@ void expect_twins_bits(const PatternScene& s, PatternSettings settings) {
   const PatternMargins margins(some_shifts, settings.window_px);
   for (const int rows : {0, 1, 7, 64}) {
     if (rows == 1 && size.height > 50) continue;
-    const InBands in_bands(
-        session(), rows > 0 ? pattern_band_bytes(size.width, margins, rows) : default_memory_bytes);
+    const InBands in_bands(session(), rows > 0 ? patterns_band_bytes(size.width, margins, rows)
+                                               : default_memory_bytes);
     session().set_work_group(rows == 7 ? 3 : 0, rows == 7 ? 1 : 0);
     EXPECT_EQ(
         hash_of_sums(device().patterns(s.frame(), s.hidden(), s.words(), some_shifts, settings)),
@@ -71,7 +71,7 @@ TEST(Patterns, BandsTakeTheMemoryTheyAreReckonedWith) {
   const std::vector<PatternShift> shifts{{10, -20}, {0, 15}};
   const PatternMargins margins(shifts, settings.window_px);
   for (const int rows : {20, 60}) {
-    const std::size_t given = pattern_band_bytes(90, margins, rows);
+    const std::size_t given = patterns_band_bytes(90, margins, rows);
     const InBands in_bands(session(), given);
     const std::size_t before = session().traffic().made;
     device().patterns(s.frame(), s.hidden(), s.words(), shifts, settings);
@@ -114,7 +114,7 @@ TEST(Patterns, VarianceIsThatOfTheWindow) {
   PatternSettings settings;
   settings.window_px = 5;
   const auto pixels = s.words();
-  const Plane variance = pattern_variance(s.frame(), pixels, settings);
+  const Plane variance = patterns_variance(s.frame(), pixels, settings);
   for (const auto& [px, py] :
        {std::pair{91, 15}, {90, 0}, {103, 149}, {94, 127}, {95, 128}, {93, 7}}) {
     double n = 0, sum[3] = {}, squares = 0;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "chain/lens_grid.h"
+#include "lens/lens_grid.h"
 #include "numbers.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 #include "stages_support.h"
 
 namespace defray::test::soften_test {
@@ -37,7 +37,7 @@ TEST(Soften, ACellBelowAPixelChangesNothing) {
   Frame f = flat_fragments(23, 17, 1, 0);
   f.channels[0] = random_plane({23, 17}, 4);
   // The diameter is as many pixels as a grid has cells a side.
-  const auto sharp = static_cast<std::int32_t>(128 * cells_a_side(64));
+  const auto sharp = static_cast<std::int32_t>(128 * cells_per_side(64));
   for (const std::int32_t quanta : {0, sharp, -sharp}) {
     f.coc_quanta = Quanta(f.surfaces(), quanta);
     expect_same_bits(device().soften(f, 64)[0], f.channels[0]);
@@ -51,7 +51,7 @@ TEST(Soften, ABrightPixelIsSpreadOverTheCellAndKeepsItsEnergy) {
     Frame f = flat_fragments(101, 101, 1, radius);
     f.channels[0].edit()[f.index(50, 50, 0)] = 1000;
     const auto out = device().soften(f, 64)[0];
-    const double cell = 2 * std::fabs(radius) / cells_a_side(64);
+    const double cell = 2 * std::fabs(radius) / cells_per_side(64);
     double sum = 0;
     for (int y = 0; y < 101; ++y) {
       for (int x = 0; x < 101; ++x) {
@@ -77,7 +77,7 @@ TEST(Soften, IsTheMeanOverTheCellsSquare) {
     Frame f = flat_fragments(side, side, 1, radius);
     const Plane colour = random_plane({side, side}, 5);
     f.channels[0] = colour;
-    const double cell = 2 * std::fabs(f.coc_quanta[0] / 256.0) / cells_a_side(lens_points);
+    const double cell = 2 * std::fabs(f.coc_quanta[0] / 256.0) / cells_per_side(lens_points);
     const auto overlap = [&](int d) {
       return std::fmax(0, std::fmin(d + 0.5, cell / 2) - std::fmax(d - 0.5, -cell / 2));
     };
@@ -129,7 +129,7 @@ TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
       const Words source = device().repair({f.width, f.height, f.coc});
       EXPECT_EQ(source, twins().repair({f.width, f.height, f.coc}));
       for (const std::uint32_t s : source) EXPECT_LT(s, f.count());
-      const Words mixed = twins().edges({f.width, f.height, f.coc});
+      const Words mixed = twins().mixed({f.width, f.height, f.coc});
       EXPECT_EQ(f.mixed(), mixed);
       const Frame behind = f.filled(), twin = twins().fill(f.view(), mixed, DEFRAY_FILL_DIRECTIONS);
       EXPECT_EQ(behind.coc_quanta, twin.coc_quanta);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "support.h"
 
 namespace defray::test {
@@ -28,7 +28,7 @@ struct Canvas {
     f.inverse = inverse;
     return f;
   }
-  Words mixed() const { return device().edges(view()); }
+  Words mixed() const { return device().mixed(view()); }
   Frame filled() const { return device().fill(view(), mixed(), DEFRAY_FILL_DIRECTIONS); }
   Surfaces parted() const { return device().split(view(), mixed(), filled()); }
 

@@ -130,7 +130,7 @@ TEST(ValidateDevice, ABrokenKernelIsNamedWithItsCaseAndPicture) {
   EXPECT_EQ(result.kernels[0].first_wrong, to_string(parse_case("3x60,ties,coc=3")));
   EXPECT_EQ(result.kernels[0].worst_case, result.kernels[0].first_wrong);
   ASSERT_EQ(result.pictures.size(), 1u);
-  const Picture& picture = result.pictures[0];
+  const WorstPicture& picture = result.pictures[0];
   ASSERT_EQ(picture.panels.size(), 3u);
   EXPECT_EQ(picture.height % 60, 0);
   EXPECT_GE(picture.width, 100);   // room for the caption

@@ -8,7 +8,7 @@
 
 #include "numbers.h"
 #include "support.h"
-#include "validation/pattern_input.h"
+#include "validation/patterns_input.h"
 #include "validation/report.h"
 
 namespace defray::test::validation_test {
@@ -185,7 +185,7 @@ std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
 TEST(KernelChecks, BandsHaveTheCasesRows) {
   const Case c = parse_case("16x48,ties,coc=0.3,cells=2,seed=2");
   for (const char* kernel :
-       {"assemble", "edges", "linear_psf", "patterns_match", "rdb_merge", "rdb_nearest",
+       {"assemble", "mixed", "linear_psf", "patterns_match", "rdb_merge", "rdb_nearest",
         "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
     const KernelCheck& check = find_check(kernel);
     // 24, 8 and 2 bands: each takes as many copies.

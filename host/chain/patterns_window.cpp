@@ -1,4 +1,4 @@
-#include "chain/pattern_window.h"
+#include "chain/patterns_window.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,7 +17,7 @@ std::size_t stride_for(int width, const PatternMargins& margins) {
 /// A grid of cells over a window, each wanted or not.
 class Wanted {
  public:
-  Wanted(const DefrayPatternParams& p, int cell_x, int cell_y)
+  Wanted(const DefrayPatternsParams& p, int cell_x, int cell_y)
       : cell_x_(cell_x),
         cell_y_(cell_y),
         across_((static_cast<int>(p.stride) + cell_x - 1) / cell_x),
@@ -62,9 +62,9 @@ PatternMargins::PatternMargins(const std::vector<PatternShift>& shifts, int wind
   y += window_px + 1;
 }
 
-DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margins,
-                                 const PatternSettings& settings, int band_y, int band_rows) {
-  DefrayPatternParams p{};
+DefrayPatternsParams patterns_band(const Frame& frame, const PatternMargins& margins,
+                                   const PatternSettings& settings, int band_y, int band_rows) {
+  DefrayPatternsParams p{};
   p.width = static_cast<std::uint32_t>(frame.width);
   p.rows = static_cast<std::uint32_t>(band_rows);
   p.stride = static_cast<std::uint32_t>(stride_for(frame.width, margins));
@@ -77,8 +77,8 @@ DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margi
   return p;
 }
 
-PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels,
-                           int first_row, int end_row) {
+PatternUnits patterns_units(const DefrayPatternsParams& p, const std::vector<std::uint32_t>& pixels,
+                            int first_row, int end_row) {
   const int n = p.window_px, rows = static_cast<int>(p.rows);
   const int left = static_cast<int>(p.margin_x), top = static_cast<int>(p.margin_y);
   constexpr int strip = DEFRAY_PATTERN_STRIP;
@@ -102,7 +102,7 @@ PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::
   return units;
 }
 
-std::size_t pattern_band_bytes(int width, const PatternMargins& margins, int rows) {
+std::size_t patterns_band_bytes(int width, const PatternMargins& margins, int rows) {
   constexpr std::size_t window_pixel = 3 * 4 + 4 + 8;  // pixels, CoC, 1/depth, differences, sums
   constexpr std::size_t target_pixel =
       2 * 4 + 4 * 4 + 4 * 4 + 2 * 4;  // both, smooth, sums, weights

@@ -1,16 +1,25 @@
 #pragma once
-// Sample points on an aperture of any shape: the cells of a ray distribution buffer.
-#include "lens/aperture.h"
-#include "lens/aperture_mask.h"
-#include "lens/lens_cells.h"
+// Lens points: where rays go through the aperture. A ray distribution buffer has a cell for each.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "defray/lens.h"
 
 namespace defray {
 
-inline constexpr int lens_samples_max_count = 4096;
+/// Lens coordinates are integers, 2^-16 of the aperture radius: kernel and twin share them exactly.
+struct LensPoints {
+  std::vector<std::array<std::int32_t, 2>> points;  ///< (u, v)
+  /// How far each pixel moves each of them at most: half a cell of a grid; 0 without jitter.
+  std::int32_t jitter = 0;
+};
+
+inline constexpr int most_lens_points = 4096;
 
 /// Exactly `count` points, without jitter, the light's share around each alike. |u| and |v| are at
 /// most 1; points of an iris lie within its shape. Throws Error(usage) unless
-/// 1 <= count <= lens_samples_max_count, and what rasterise throws.
+/// 1 <= count <= most_lens_points, and what rasterise throws.
 ///
 /// An iris: Vogel's spiral ("A better way to construct the sunflower head", 1979) with two arms, so
 /// that points come as antipodal pairs (an odd count begins with the centre) and their mean is 0:
@@ -22,6 +31,6 @@ inline constexpr int lens_samples_max_count = 4096;
 ///
 /// The mean is the shape's: but for rounding where the shape is point-symmetric; else to
 /// 1 / (2 count) of the aperture radius (blades), 1 / count or so (pictures; noise: to 4 / count).
-LensCells make_lens_samples(const Aperture& aperture, int count);
+LensPoints make_lens_points(const Aperture& aperture, int count);
 
 }  // namespace defray

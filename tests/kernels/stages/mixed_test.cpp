@@ -1,4 +1,4 @@
-// Kernels repair and edges: anti-aliased depth, and where one surface ends before another.
+// Kernels repair and mixed: anti-aliased depth, and where one surface ends before another.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include "scenes/subject.h"
 #include "stages_support.h"
 
-namespace defray::test::edges_test {
+namespace defray::test::mixed_test {
 namespace {
 
 constexpr int side = 21;
@@ -114,7 +114,7 @@ TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {
   }
 }
 
-TEST(Edges, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
+TEST(Mixed, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
   Canvas f(12, 6);
   f.add_bar(4, 8);
   const Words mixed = f.mixed();
@@ -126,4 +126,4 @@ TEST(Edges, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
 }
 
 }  // namespace
-}  // namespace defray::test::edges_test
+}  // namespace defray::test::mixed_test

@@ -1,4 +1,4 @@
-#include "validation/pattern_input.h"
+#include "validation/patterns_input.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +36,7 @@ PatternCase::PatternCase(const Case& c, const Input& in, bool hides_everything)
   // Some pairs are of one surface, some are not.
   settings.tolerance_quanta = 256 + static_cast<std::int32_t>(128 * c.coc_px);
   add_shifts(c);
-  pixels = pattern_pixels(std::move(encoded_), frame.channels, behind_);
+  pixels = patterns_pixels(std::move(encoded_), frame.channels, behind_);
 }
 
 void PatternCase::add_pixel(Random random, const Input& in, bool hides_everything) {

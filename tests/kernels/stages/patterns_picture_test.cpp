@@ -1,9 +1,9 @@
 // `patterns`: what it must and must not change.
-#include "chain/pattern_window.h"
-#include "pattern_scene.h"
+#include "chain/patterns_window.h"
+#include "patterns_scene.h"
 #include "reference/reference.h"
 
-namespace defray::test::pattern_picture_test {
+namespace defray::test::patterns_picture_test {
 namespace {
 
 /// On pictures large enough for shifts to be found. What simulators look for, the tests above show.
@@ -170,4 +170,4 @@ TEST_F(PatternPicture, AnotherSurfaceIsNotCopied) {
 }
 
 }  // namespace
-}  // namespace defray::test::pattern_picture_test
+}  // namespace defray::test::patterns_picture_test

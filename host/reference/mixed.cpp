@@ -1,10 +1,10 @@
-// Twins of kernels/edges.cl.
+// Twins of kernels/mixed.cl.
 #include <array>
 #include <cstdlib>
 #include <optional>
 
 #include "reference/stage_frame.h"
-#include "reference/twin_stages.h"
+#include "reference/twin_backend.h"
 
 namespace defray::reference {
 namespace {
@@ -45,7 +45,7 @@ std::optional<std::size_t> end_of_ramp(const CocFrame& frame, Place at) {
 
 }  // namespace
 
-Words TwinStages::repair(const Frame& f) {
+Words TwinBackend::repair(const Frame& f) {
   const CocFrame frame(f);
   std::vector<std::uint32_t> source;
   frame.for_each_place([&](Place at) {
@@ -55,7 +55,7 @@ Words TwinStages::repair(const Frame& f) {
   return source;
 }
 
-Words TwinStages::edges(const Frame& f) {
+Words TwinBackend::mixed(const Frame& f) {
   const CocFrame frame(f);
   std::vector<std::uint32_t> mixed;
   frame.for_each_place([&](Place at) {

@@ -1,10 +1,10 @@
 // The search for shifts, retold in plain loops.
-#include "pattern_search.h"
+#include "patterns_search.h"
 
 #include <map>
 #include <tuple>
 
-namespace defray::test::pattern_search_test {
+namespace defray::test::patterns_search_test {
 namespace {
 
 Grid blocks_of(const Grid& g) {
@@ -104,4 +104,4 @@ TEST(PatternSearch, FindsTheShiftsThatPlainLoopsFind) {
 }
 
 }  // namespace
-}  // namespace defray::test::pattern_search_test
+}  // namespace defray::test::patterns_search_test

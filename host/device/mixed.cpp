@@ -1,5 +1,5 @@
-// Kernels `repair` and `edges`.
-#include "device/device_stages.h"
+// Kernels `repair` and `mixed`.
+#include "device/device_backend.h"
 #include "opencl/bands.h"
 
 namespace defray {
@@ -23,7 +23,7 @@ Words words_of(Session& session, const char* kernel, const Frame& f,
 
 }  // namespace
 
-Words DeviceStages::repair(const Frame& f) {
+Words DeviceBackend::repair(const Frame& f) {
   // The kernel counts from the window's first pixel.
   return words_of(session_, "repair", f, [&](const Band& band, Words& source) {
     if (band.first() == 0) return;
@@ -34,6 +34,6 @@ Words DeviceStages::repair(const Frame& f) {
   });
 }
 
-Words DeviceStages::edges(const Frame& f) { return words_of(session_, "edges", f); }
+Words DeviceBackend::mixed(const Frame& f) { return words_of(session_, "mixed", f); }
 
 }  // namespace defray

@@ -1,13 +1,14 @@
 // Samples of an aperture: how many, where, how even; that they move nothing.
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "lens/lens_grid.h"
 #include "support.h"
 
-namespace defray::test::lens_samples_test {
+namespace defray::test::lens_points_test {
 namespace {
 
 constexpr int side = ApertureMask::side;
@@ -22,10 +23,10 @@ void add(Moments& m, double u, double v, double weight) {
   m.uu += weight * u * u, m.vv += weight * v * v, m.uv += weight * u * v;
 }
 
-Moments moments_of(const LensCells& cells) {
+Moments moments_of(const LensPoints& lens) {
   Moments m;
-  for (const auto& [u, v] : cells.centres) {
-    add(m, u / radius, v / radius, 1.0 / static_cast<double>(cells.centres.size()));
+  for (const auto& [u, v] : lens.points) {
+    add(m, u / radius, v / radius, 1.0 / static_cast<double>(lens.points.size()));
   }
   return m;
 }
@@ -60,10 +61,10 @@ TEST(LensSamples, AsManyAsAskedAndWithinTheShape) {
   for (const Aperture& a : shapes()) {
     const ApertureMask mask = rasterise(a);
     for (const int count : {1, 2, 3, 64, 145, 1024}) {
-      const LensCells cells = make_lens_samples(a, count);
-      EXPECT_EQ(cells.jitter, 0);
-      ASSERT_EQ(cells.centres.size(), static_cast<std::size_t>(count));
-      for (const auto& [u, v] : cells.centres) {
+      const LensPoints lens = make_lens_points(a, count);
+      EXPECT_EQ(lens.jitter, 0);
+      ASSERT_EQ(lens.points.size(), static_cast<std::size_t>(count));
+      for (const auto& [u, v] : lens.points) {
         EXPECT_LE(std::hypot(u, v), radius);
         // A texel that is open in part, at a corner perhaps in less than 1/256: or its neighbour.
         int most = 0;
@@ -84,9 +85,9 @@ TEST(LensSamples, MoveNothingThroughAPointSymmetricShape) {
   for (const Aperture& a : shapes()) {
     if (a.blades % 2 == 1) continue;
     for (const int count : {1, 16, 69, 256, 1025}) {
-      const LensCells cells = make_lens_samples(a, count);
+      const LensPoints lens = make_lens_points(a, count);
       std::int64_t u = 0, v = 0;
-      for (const auto& [cu, cv] : cells.centres) u += cu, v += cv;
+      for (const auto& [cu, cv] : lens.points) u += cu, v += cv;
       // Each half of a pair is rounded on its own.
       EXPECT_LE(std::max(std::abs(u), std::abs(v)), count / 2) << a.blades << " " << count;
     }
@@ -98,7 +99,7 @@ TEST(LensSamples, HaveTheMomentsOfTheShape) {
   for (const Aperture& a : shapes()) {
     const Moments shape = moments_of(rasterise(a));
     for (const int count : {16, 69, 144, 400, 1025}) {
-      const Moments m = moments_of(make_lens_samples(a, count));
+      const Moments m = moments_of(make_lens_points(a, count));
       EXPECT_LE(std::hypot(m.u - shape.u, m.v - shape.v), 0.5 / count) << a.blades << " " << count;
       const double size = shape.uu + shape.vv;
       EXPECT_LE(std::fabs(m.uu - shape.uu), 2 * size / count) << a.blades << " " << count;
@@ -110,7 +111,7 @@ TEST(LensSamples, HaveTheMomentsOfTheShape) {
 
 /// Largest error, over half-planes in 24 directions with the axes among them, of the samples' share
 /// against the mask's: what a straight edge's blur is off by.
-double discrepancy(const LensCells& cells, const ApertureMask& mask) {
+double discrepancy(const LensPoints& lens, const ApertureMask& mask) {
   constexpr int bins = 4096, reach = 2;
   double worst = 0;
   for (int direction = 0; direction < 24; ++direction) {
@@ -127,8 +128,8 @@ double discrepancy(const LensCells& cells, const ApertureMask& mask) {
         total += mask.at(column, row);
       }
     }
-    for (const auto& [u, v] : cells.centres) {
-      samples[bin(u / radius, v / radius)] += 1.0 / static_cast<double>(cells.centres.size());
+    for (const auto& [u, v] : lens.points) {
+      samples[bin(u / radius, v / radius)] += 1.0 / static_cast<double>(lens.points.size());
     }
     double error = 0;
     for (std::size_t i = 0; i < bins; ++i) {
@@ -142,10 +143,10 @@ double discrepancy(const LensCells& cells, const ApertureMask& mask) {
 }
 
 /// The square grid's cells whose centres are open.
-LensCells grid(const ApertureMask& mask, int cells_per_side) {
-  LensCells open;
-  for (const auto& [u, v] : make_lens_cells(cells_per_side, false).centres) {
-    if (mask.at((u + 65536) / 256, (v + 65536) / 256) >= 128) open.centres.push_back({u, v});
+LensPoints grid(const ApertureMask& mask, int cells_per_side) {
+  LensPoints open;
+  for (const auto& [u, v] : make_lens_grid(cells_per_side, false).points) {
+    if (mask.at((u + 65536) / 256, (v + 65536) / 256) >= 128) open.points.push_back({u, v});
   }
   return open;
 }
@@ -154,10 +155,10 @@ TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
   for (const Aperture& a : shapes()) {
     const ApertureMask mask = rasterise(a);
     for (const int cells_per_side : {9, 16, 33, 64}) {
-      const LensCells cells = grid(mask, cells_per_side);
-      const int count = static_cast<int>(cells.centres.size());
-      const double of_grid = discrepancy(cells, mask);
-      const double of_samples = discrepancy(make_lens_samples(a, count), mask);
+      const LensPoints lens = grid(mask, cells_per_side);
+      const int count = static_cast<int>(lens.points.size());
+      const double of_grid = discrepancy(lens, mask);
+      const double of_samples = discrepancy(make_lens_points(a, count), mask);
       EXPECT_LT(of_samples, of_grid) << a.blades << " " << count;
     }
   }
@@ -166,12 +167,12 @@ TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
 TEST(LensSamples, RefuseAbsurdCounts) {
   for (const int count : {0, -1, 4097}) {
     expect_error(ErrorKind::usage, {std::to_string(count), "1 to 4096"},
-                 [&] { make_lens_samples({}, count); });
+                 [&] { make_lens_points({}, count); });
   }
   expect_error(ErrorKind::usage, {"blades is 2"}, [&] {
-    make_lens_samples({2, 0, 0, 1, "", 0}, 16);
+    make_lens_points({2, 0, 0, 1, "", 0}, 16);
   });
 }
 
 }  // namespace
-}  // namespace defray::test::lens_samples_test
+}  // namespace defray::test::lens_points_test

@@ -1,4 +1,4 @@
-// repair, edges: where one surface ends before another.
+// repair, mixed: where one surface ends before another.
 //
 // The signed CoC orders surfaces as depth does, and a step of it says by how many pixels the lens
 // parts the two: only steps above a pixel (DEFRAY_JUMP_QUANTA) matter, whatever the scene's scale.
@@ -7,7 +7,7 @@
 // source      [height][width]  repair: index of the pixel whose depth a pixel should have: its own,
 //                              or, where depth was anti-aliased, one of the two surfaces' that it
 //                              lies between
-// mixed       [height][width]  edges: 1 where a neighbour lies on another surface: anti-aliased
+// mixed       [height][width]  mixed: 1 where a neighbour lies on another surface: anti-aliased
 //                              colour holds both there
 // Global size of both: (runs of DEFRAY_RUN pixels of a row, height).
 #include "run.clh"
@@ -81,7 +81,7 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
   }
 }
 
-__kernel void edges(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+__kernel void mixed(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                     __global uint* restrict mixed) {
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;

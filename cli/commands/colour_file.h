@@ -8,17 +8,17 @@
 namespace defray::cli {
 
 /// The colour of a file: R G B, and A where it has it.
-struct Picture {
+struct ColourFile {
   std::string path;
   std::vector<Plane> planes;
   Window data;
 };
 
 /// Throws Error(input) as ImageFile::read and choose_colour do.
-Picture read_picture(const std::string& path);
+ColourFile read_colour_file(const std::string& path);
 
 /// Throws Error(input) unless the data windows are the same.
-void require_same_size(const Picture& a, const Picture& b);
+void require_same_size(const ColourFile& a, const ColourFile& b);
 
 /// Before the work: throws Error(usage) unless `path` is a PNG or JPEG and none of the inputs,
 /// Error(output) unless it can be written.

@@ -8,7 +8,7 @@
 //   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal
 //                      and tiltshift
 //   from a definition  patterns (whole windows), gather_reach (each tile against each)
-//   the kernel's way   edges, repair    edges_test: steps and slopes drawn with known answers
+//   the kernel's way   mixed, repair    mixed_test: steps and slopes drawn with known answers
 //                      fill             fill_test, stage_oracles_test: planes, slants and stripes
 //                                       that must go on
 //                      split, assemble  split_test: coverage and colours mixed by hand come back;
@@ -19,22 +19,22 @@
 // Neither sees what device and twins share: chain/ (border, layers, light taken, shifts found and
 // blended) and lens/ (apertures, samples). There tests have oracles of their own:
 // picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
-// pattern_picture_test, *_search_test, chain_parts_test, layers_test.
+// patterns_picture_test, *_search_test, chain_parts_test, layers_test.
 #include <cstdint>
 #include <vector>
 
 #include "chain/patterns.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "methods/gather.h"
 
 namespace defray::reference {
 
-class TwinStages : public Stages {
+class TwinBackend : public Backend {
  public:
   Quanta coc(const Lens& lens, int display_width_px, const Values<float>& depth) override;
   Quanta tiltshift(const DefrayTiltshiftParams& params) override;
   Words repair(const Frame& frame) override;
-  Words edges(const Frame& frame) override;
+  Words mixed(const Frame& frame) override;
   /// It looks behind every pixel, in whatever tile.
   Frame fill(const Frame& frame, const Words& mixed, int directions) override;
   PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,

@@ -1,4 +1,4 @@
-#include "lens/lens_samples.h"
+#include "lens/lens_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "kernels/params.h"
+#include "lens/aperture.h"
+#include "lens/aperture_mask.h"
 #include "lens/iris.h"
 
 namespace defray {
@@ -19,25 +21,25 @@ std::array<std::int32_t, 2> to_lens(double u, double v) {
           static_cast<std::int32_t>(std::lround(radius * v))};
 }
 
-LensCells sample_iris(const Aperture& a, int count) {
+LensPoints sample_iris(const Aperture& a, int count) {
   // 1 - 1/phi of a turn is the golden angle; two arms take half of it.
   constexpr double turn = (2 - std::numbers::phi) / 2;
   const double scale_u = std::min(1.0, 1 / a.squeeze), scale_v = std::min(1.0, a.squeeze);
   const Iris iris(a);
-  LensCells cells;
+  LensPoints lens;
   const int centre = count % 2;
-  if (centre) cells.centres.push_back({0, 0});
+  if (centre) lens.points.push_back({0, 0});
   for (int k = 0; k < count / 2; ++k) {
     const double way = std::sqrt((2.0 * k + 1 + centre) / count);
     for (const double arm : {0.0, 0.5}) {
       const double share = k * turn + arm;
       const Iris::Edge edge = iris.edge_at_share(share - std::floor(share));
       const double r = way * edge.radius;
-      cells.centres.push_back(
+      lens.points.push_back(
           to_lens(scale_u * r * std::cos(edge.angle), scale_v * r * std::sin(edge.angle)));
     }
   }
-  return cells;
+  return lens;
 }
 
 /// Where, 0...side, light has come to this share of its sum along a row of texels.
@@ -50,11 +52,11 @@ double place_of_share(const std::vector<double>& light, double share) {
   return static_cast<double>(i) + (light[i] > 0 ? std::min(1.0, left / light[i]) : 0);
 }
 
-LensCells sample_picture(const ApertureMask& mask, int count) {
+LensPoints sample_picture(const ApertureMask& mask, int count) {
   std::vector<double> of_columns(mask_side);
   for (std::size_t i = 0; i < mask.coverage.size(); ++i)
     of_columns[i % mask_side] += mask.coverage[i];
-  LensCells cells;
+  LensPoints lens;
   for (int k = 0; k < count; ++k) {
     const double u = place_of_share(of_columns, (k + 0.5) / count);
     std::vector<double> of_column;
@@ -63,18 +65,18 @@ LensCells sample_picture(const ApertureMask& mask, int count) {
     // Counted from the middle one on: a lattice that half a turn maps to itself.
     const double turns = (k - (count - 1) / 2.0) * std::numbers::phi + 0.5;
     const double v = place_of_share(of_column, turns - std::floor(turns));
-    cells.centres.push_back(to_lens(2 * u / mask_side - 1, 2 * v / mask_side - 1));
+    lens.points.push_back(to_lens(2 * u / mask_side - 1, 2 * v / mask_side - 1));
   }
-  return cells;
+  return lens;
 }
 
 }  // namespace
 
-LensCells make_lens_samples(const Aperture& aperture, int count) {
+LensPoints make_lens_points(const Aperture& aperture, int count) {
   validate(aperture);
-  if (count < 1 || count > lens_samples_max_count) {
-    fail(ErrorKind::usage, "lens samples: {} asked for, allowed are 1 to {}", count,
-         lens_samples_max_count);
+  if (count < 1 || count > most_lens_points) {
+    fail(ErrorKind::usage, "lens points: {} asked for, allowed are 1 to {}", count,
+         most_lens_points);
   }
   if (aperture.image.empty()) return sample_iris(aperture, count);
   return sample_picture(rasterise(aperture), count);

@@ -161,7 +161,7 @@ void row_variance(const Lines& columns, int n, std::span<const std::uint32_t> wo
 
 }  // namespace
 
-Plane pattern_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings) {
+Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings) {
   constexpr int band = 128;
   Plane variance(pixels.size());
   const auto words = pixels.host();

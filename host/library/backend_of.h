@@ -1,11 +1,11 @@
 #pragma once
 // What a device of the API is made of.
 #include "defray/device.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 
 namespace defray {
 
 /// Alive as long as the device.
-Stages& stages_of(Device& device);
+Backend& backend_of(Device& device);
 
 }  // namespace defray

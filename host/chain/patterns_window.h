@@ -25,13 +25,13 @@ struct PatternMargins {
 };
 
 /// Fields of a band; those of a launch are left 0.
-DefrayPatternParams pattern_band(const Frame& frame, const PatternMargins& margins,
-                                 const PatternSettings& settings, int band_y, int band_rows);
+DefrayPatternsParams patterns_band(const Frame& frame, const PatternMargins& margins,
+                                   const PatternSettings& settings, int band_y, int band_rows);
 
 /// A plane of the frame on the window of a band, `outside` around the frame.
 template <typename T>
-std::vector<T> pattern_window(const Frame& frame, const DefrayPatternParams& p, int band_y,
-                              const Values<T>& plane, T outside) {
+std::vector<T> patterns_window(const Frame& frame, const DefrayPatternsParams& p, int band_y,
+                               const Values<T>& plane, T outside) {
   const std::size_t rows = p.rows + 2 * std::size_t{p.margin_y}, width = p.width;
   std::vector<T> window(rows * p.stride, outside);
   parallel_for(static_cast<int>(rows), [&](int row) {
@@ -46,10 +46,10 @@ std::vector<T> pattern_window(const Frame& frame, const DefrayPatternParams& p, 
 
 /// From the window of the frame's pixels: for the band's rows first_row to end_row - 1. The first
 /// is a multiple of DEFRAY_PATTERN_STRIP.
-PatternUnits pattern_units(const DefrayPatternParams& p, const std::vector<std::uint32_t>& pixels,
-                           int first_row, int end_row);
+PatternUnits patterns_units(const DefrayPatternsParams& p, const std::vector<std::uint32_t>& pixels,
+                            int first_row, int end_row);
 
 /// Memory for a band of so many rows.
-std::size_t pattern_band_bytes(int width, const PatternMargins& margins, int rows);
+std::size_t patterns_band_bytes(int width, const PatternMargins& margins, int rows);
 
 }  // namespace defray

@@ -1,23 +1,23 @@
 #pragma once
 // The stages as an OpenCL device computes them.
 #include "chain/patterns.h"
-#include "frame/stages.h"
+#include "frame/backend.h"
 #include "opencl/session.h"
 #include "rdb/ray_tiles.h"
 
 namespace defray {
 
 /// Every stage runs its kernel, in bands where the frame does not fit the session's memory.
-class DeviceStages : public Stages {
+class DeviceBackend : public Backend {
  public:
   /// The session must outlive this.
-  explicit DeviceStages(Session& session) : session_(session) {}
+  explicit DeviceBackend(Session& session) : session_(session) {}
 
   void require_memory(const Frame& frame, std::size_t bytes) override;
   Quanta coc(const Lens& lens, int display_width_px, const Values<float>& depth) override;
   Quanta tiltshift(const DefrayTiltshiftParams& params) override;
   Words repair(const Frame& frame) override;
-  Words edges(const Frame& frame) override;
+  Words mixed(const Frame& frame) override;
   std::size_t bytes_made() const override { return session_.traffic().made; }
   Frame fill(const Frame& frame, const Words& mixed, int directions) override;
   PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
@@ -36,11 +36,11 @@ class DeviceStages : public Stages {
   // Kernels by themselves, for their checks.
 
   /// `patterns_difference` and `patterns_columns` of one shift over a whole frame.
-  std::vector<std::uint32_t> pattern_difference(const Frame& frame, const Words& pixels,
-                                                PatternShift shift,
-                                                const PatternSettings& settings);
-  std::vector<std::uint64_t> pattern_columns(const Frame& frame, const Words& pixels,
-                                             PatternShift shift, const PatternSettings& settings);
+  std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
+                                                 PatternShift shift,
+                                                 const PatternSettings& settings);
+  std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
+                                              PatternShift shift, const PatternSettings& settings);
 
   /// `gather_tiles`: the largest |CoC| of each tile, quanta; `gather_reach`: how far light comes
   /// from, for each tile.

@@ -8,18 +8,18 @@ const WordTable<Quality> quality_words{{"preview", Quality::preview},
                                        {"draft", Quality::draft},
                                        {"normal", Quality::normal},
                                        {"high", Quality::high}};
-const WordTable<bool> pixel_words{{"all", false}, {"half", true}};
+const WordTable<bool> switch_words{{"off", false}, {"on", true}};
 const WordTable<Hidden> hidden_words{
-    {"off", Hidden::off}, {"smooth", Hidden::smooth}, {"on", Hidden::on}};
+    {"off", Hidden::off}, {"fill", Hidden::fill}, {"patterns", Hidden::patterns}};
 const WordTable<Border> border_words{
     {"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}};
 
-/// "preview: --rdb 6 --hidden smooth --pixels half".
+/// "preview: --rdb 6 --hidden fill --half-size on".
 std::string about(Quality quality) {
   const ChainSettings s = settings_for(quality);
   const std::string hidden = word_of(s.hidden, hidden_words);
   return fmt::format("{}: --rdb {} --hidden {}{}", word_of(quality, quality_words),
-                     s.cells_per_side, hidden, s.half_size ? " --pixels half" : "");
+                     s.cells_per_side, hidden, s.half_size ? " --half-size on" : "");
 }
 
 }  // namespace
@@ -28,8 +28,8 @@ std::string about(Quality quality) {
 /// patterns.
 OptionRow quality_row(ChainSettings& s) {
   const auto is_heard = [&s](const Given& given) {
-    const bool says_pixels = s.half_size && !given("--pixels");
-    return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::on || says_pixels;
+    const bool says_size = s.half_size && !given("--half-size");
+    return !given("--rdb") || !given("--hidden") || s.hidden == Hidden::patterns || says_size;
   };
   return {
       "--quality",
@@ -38,30 +38,31 @@ OptionRow quality_row(ChainSettings& s) {
       fmt::format("{}; {}; {}; {}, and twice as many repetitions of the picture looked at",
                   about(Quality::preview), about(Quality::draft), about(Quality::normal),
                   about(Quality::high)),
-      {.scope = of_stages,
+      {.scope = of_chain,
        .needs = {is_heard, "means nothing beside --rdb and this --hidden: they say all of it"}}};
 }
 
-OptionGroup stage_options(ChainSettings& s) {
+OptionGroup chain_options(ChainSettings& s) {
   return {
       "Closer to the truth",
       {{"--hidden", word(s.hidden, hidden_words),
-        "What lies behind near surfaces: off: nothing; smooth: made up from what is around; on: "
+        "What lies behind near surfaces: off: nothing; fill: made up from what is around; "
+        "patterns: "
         "and from where the picture repeats itself"},
-       {"--pixels", word(s.half_size, pixel_words),
-        "Which go through the lens: all; half: means of 2x2, the detail of what is sharp put back"},
-       {"--edges",
-        word(s.split_edges, WordTable<bool>{{"split", true}, {"keep", false}}),
-        "Anti-aliased pixels: split into what is in front and behind, or keep",
+       {"--half-size", word(s.half_size, switch_words),
+        "Means of 2x2 pixels go through the lens, the detail of what is sharp is put back"},
+       {"--split",
+        word(s.split, switch_words),
+        "Split anti-aliased pixels into what is in front and what is behind",
         {.needs = {[&s](const Given&) { return s.hidden != Hidden::off; },
                    "means nothing to --hidden off: without what lies behind no pixel is split"}}},
-       {"--keep-depth", flag(s.repair_depth, false), "Do not repair depth that looks anti-aliased"},
+       {"--repair", word(s.repair, switch_words), "Repair depth that looks anti-aliased"},
        {"--highlights", word(s.highlights, WordTable<bool>{{"discs", true}, {"rays", false}}),
         "Small bright sources: discs of the aperture's shape, or rays like others"},
        {"--border", word(s.border, border_words),
         "Outside the data window: clamp: its edge goes on; black; renormalise: only known rays "
         "count"}},
-      of_stages};
+      of_chain};
 }
 
 OptionGroup aperture_options(Aperture& a) {
@@ -86,7 +87,7 @@ OptionGroup aperture_options(Aperture& a) {
        {"--cats-eye", value(a.cats_eye),
         "Vignetting: offset of the lens rim at the corners, aperture radii, 0 to 1; 1 leaves 39 % "
         "of a corner's light"}},
-      of_stages};
+      of_chain};
 }
 
 }  // namespace defray::cli

@@ -1,4 +1,4 @@
-#include "commands/picture.h"
+#include "commands/colour_file.h"
 
 #include <filesystem>
 
@@ -9,15 +9,15 @@
 
 namespace defray::cli {
 
-Picture read_picture(const std::string& path) {
+ColourFile read_colour_file(const std::string& path) {
   const ImageFile file = ImageFile::read(path);
   const ColourChoice choice = choose_colour(path, file.parts(), {});
-  Picture picture{path, {}, file.parts()[static_cast<std::size_t>(choice.part)].data};
-  for (const int c : choice.channels) picture.planes.push_back(file.plane(choice.part, c));
-  return picture;
+  ColourFile colour{path, {}, file.parts()[static_cast<std::size_t>(choice.part)].data};
+  for (const int c : choice.channels) colour.planes.push_back(file.plane(choice.part, c));
+  return colour;
 }
 
-void require_same_size(const Picture& a, const Picture& b) {
+void require_same_size(const ColourFile& a, const ColourFile& b) {
   if (a.data != b.data) {
     fail(ErrorKind::input, "{} has data window {}, {} has {}: both must be the same", a.path,
          to_string(a.data), b.path, to_string(b.data));

@@ -61,15 +61,15 @@ struct PatternScene {
     return f;
   }
   Words words() const {
-    return pattern_pixels(encoded, channels, {is_behind.begin(), is_behind.end()});
+    return patterns_pixels(encoded, channels, {is_behind.begin(), is_behind.end()});
   }
 
   std::vector<Plane> improved(const PatternSettings& settings = {}) const {
     return improved(device(), settings);
   }
-  std::vector<Plane> improved(Stages& stages, const PatternSettings& settings = {}) const {
+  std::vector<Plane> improved(Backend& backend, const PatternSettings& settings = {}) const {
     Frame result = hidden();
-    improve_by_patterns(stages, frame(), words(), settings, result);
+    improve_by_patterns(backend, frame(), words(), settings, result);
     std::vector<Plane> planes;
     for (const auto& channel : result.channels) planes.emplace_back(channel.begin(), channel.end());
     return planes;

@@ -1,6 +1,6 @@
 #pragma once
 // Everything that kernels compute, behind one interface: a device runs the kernels
-// (device/device_stages.h), and the scalar twins compute the same (reference/twin_stages.h).
+// (device/device_backend.h), and the scalar twins compute the same (reference/twin_backend.h).
 #include <utility>
 #include <vector>
 
@@ -24,9 +24,9 @@ struct Surfaces {
   Frame front, behind;
 };
 
-class Stages {
+class Backend {
  public:
-  virtual ~Stages() = default;
+  virtual ~Backend() = default;
 
   /// Throws Error(device) if it is known that there is less host memory than a frame needs.
   virtual void require_memory(const Frame&, std::size_t /*bytes*/) {}
@@ -46,15 +46,15 @@ class Stages {
   /// for pixels of anti-aliased depth, which lie between two surfaces.
   virtual Words repair(const Frame& frame) = 0;
 
-  /// Kernel `edges`: 1 where a pixel has neighbours on another surface.
-  virtual Words edges(const Frame& frame) = 0;
+  /// Kernel `mixed`: 1 where a pixel has neighbours on another surface.
+  virtual Words mixed(const Frame& frame) = 0;
 
   /// Kernel `fill`: what lies behind each pixel, as far as the lens can uncover it, looked for in 8
   /// or DEFRAY_FILL_DIRECTIONS directions; `inverse` is negative where nothing does.
   virtual Frame fill(const Frame& frame, const Words& mixed, int directions) = 0;
 
   /// Kernels `patterns_*`: sums over shifts of what resembles what lies behind.
-  /// `pixels` are pattern_pixels.
+  /// `pixels` are patterns_pixels.
   virtual PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
                                const std::vector<PatternShift>& shifts,
                                const PatternSettings& settings) = 0;
