@@ -144,6 +144,30 @@ TEST(LightSources, AlphaBelongsToTheLightAsFarAsItStandsOut) {
   }
 }
 
+TEST(LightSources, AroundALightInFocusLiesWhatIsThreePixelsOff) {
+  // Half of what is looked at lies 5 px away, half of those 3 px and 2.
+  for (const auto& [nearest, farthest, around] :
+       {std::tuple{4.9, 5.7, 0.25f}, {2.8, 4.5, 0.25f}, {4.6, 4.8, 0.0f}, {5.8, 9.0, 0.0f}}) {
+    Scene s(1, 4);
+    s.kept.assign(s.kept.size(), 1);
+    const std::size_t light = s.frame.index(75, 50, 0);
+    s.kept[light] = 0.5f;
+    std::vector<std::int32_t> coc(s.frame.surfaces());
+    s.frame.coc_quanta = coc;
+    Plane alpha(s.frame.surfaces());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const double away = std::hypot(x - 75, y - 50);
+        alpha[s.frame.index(x, y, 0)] = away >= nearest && away <= farthest ? 0.25f : 0;
+      }
+    }
+    alpha[light] = 1;
+    s.frame.channels[3] = alpha;
+    taken(s, 3);
+    EXPECT_EQ(s.frame.channels[3][light], around) << nearest;
+  }
+}
+
 TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
   const LensPoints lens = make_lens_points({}, 137);
   const std::vector<std::uint32_t> map = map_cells(lens);

@@ -1,7 +1,9 @@
 // Charts: points, texts and colours are where they must be; what cannot be drawn is refused.
 #include "measure/plot.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "image/ldr.h"
 #include "measure/plot_axis.h"
@@ -82,6 +84,47 @@ TEST(Plot, LinesAndMarkersCanBeLeftOut) {
   EXPECT_EQ(colour_at(drawn(plot), middle[0], middle[1]), blue);
   plot.series[0].markers = false;
   EXPECT_NE(colour_at(drawn(plot), end[0] - 4, end[1] - 1), blue);
+}
+
+/// How much of the picture is not as `empty`, in pixels: half of it where half is covered.
+double covered_px(const LdrPicture& picture, const LdrPicture& empty,
+                  const std::array<int, 3>& ink) {
+  double sum = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      // The channel in which the ink is farthest from white.
+      const auto c =
+          static_cast<std::size_t>(std::min_element(ink.begin(), ink.end()) - ink.begin());
+      const double white_px = colour_at(empty, x, y)[c], now = colour_at(picture, x, y)[c];
+      if (now != white_px) sum += (white_px - now) / (white_px - ink[c]);
+    }
+  }
+  return sum;
+}
+
+TEST(Plot, MarkersAreDiscsSquaresDiamondsAndTriangles) {
+  constexpr double r = 5;
+  const std::array<double, 4> area = {std::numbers::pi * r * r, 4 * r * r, 2 * 1.3 * r * 1.3 * r,
+                                      1.2 * r * 2.2 * r},
+                              border = {2 * std::numbers::pi * r, 8 * r,
+                                        4 * 1.3 * std::numbers::sqrt2 * r,
+                                        2.4 * r + 2 * std::hypot(1.2 * r, 2.2 * r)};
+  Plot plot = plot_of({{0, 0}, {10, 10}});
+  plot.series.resize(5);
+  plot.series[4] = plot.series[0];  // a disc again
+  plot.series[0].points.clear();
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    Plot marked = plot;
+    marked.series[i].markers = true;
+    marked.series[i].points = {{4.7, 4.7}};  // between the grid's lines
+    const LdrPicture empty = drawn(plot), picture = drawn(marked);
+    const auto at = plot_position(marked, {4.7, 4.7});
+    const auto ink = colour_at(picture, at[0], at[1]);
+    // OpenCV's blurred edges cover 1/2 to 9/10 px more all around.
+    const double covered = covered_px(picture, empty, ink);
+    EXPECT_GT(covered, area[i] + 0.5 * border[i]) << i;
+    EXPECT_LT(covered, area[i] + 0.9 * border[i]) << i;
+  }
 }
 
 TEST(Plot, EverySeriesHasItsColourAndLegendLine) {

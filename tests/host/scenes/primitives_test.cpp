@@ -68,6 +68,30 @@ TEST(Bvh, FindsWhatBruteForceFinds) {
   }
 }
 
+TEST(Primitives, ABoxIsBoundedByItsCorners) {
+  RandomVectors random(3);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 centre = random.in_cube(10), d = random.in_cube(2);
+    const Vec3 half{std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+    const double yaw = random.between(-7, 7);
+    Vec3 low{far_away, far_away, far_away}, high = low * -1;
+    for (int corner = 0; corner < 8; ++corner) {
+      const double x = corner & 1 ? half.x : -half.x, z = corner & 2 ? half.z : -half.z;
+      const Vec3 at =
+          centre + Vec3{x * std::cos(yaw) - z * std::sin(yaw), corner & 4 ? half.y : -half.y,
+                        x * std::sin(yaw) + z * std::cos(yaw)};
+      low = {std::fmin(low.x, at.x), std::fmin(low.y, at.y), std::fmin(low.z, at.z)};
+      high = {std::fmax(high.x, at.x), std::fmax(high.y, at.y), std::fmax(high.z, at.z)};
+    }
+    const Bounds bounds = Box(centre, half, yaw, plain({})).bounds();
+    for (const double off :
+         {bounds.low.x - low.x, bounds.low.y - low.y, bounds.low.z - low.z, bounds.high.x - high.x,
+          bounds.high.y - high.y, bounds.high.z - high.z}) {
+      EXPECT_NEAR(off, 0, 1e-12) << i;
+    }
+  }
+}
+
 TEST(Primitives, HitsLieInTheirBoundsWithNormalsTowardsTheRay) {
   const auto primitives = random_primitives(200);
   RandomVectors random(5);
