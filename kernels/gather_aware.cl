@@ -62,7 +62,7 @@ Discs discs_of(const uint sample_count, const float16 own_coc, const float searc
 // Adds differences to the pixels' own colours, none where the share is 0, whatever the colour.
 void add_colours(const float16 shares, const uint* source, __global const float4* restrict colour,
                  const float4* own, float4* sums) {
-  if (!any(shares > 0.0f)) return;
+  if (!any_lane(shares > 0.0f)) return;
   float share[RUN];
   vstore16(shares, 0, share);
   for (int k = 0; k < RUN; ++k) {

@@ -85,20 +85,19 @@
 /// What a pixel's word holds for `patterns` beside its 8-bit colour (r | g << 8 | b << 16).
 #define DEFRAY_PATTERN_KNOWN (1u << 24)   ///< May be matched and copied.
 #define DEFRAY_PATTERN_BEHIND (1u << 25)  ///< Has a synthesised fragment behind it.
-/// Sums over a window hold squared differences below this bit, the number of pairs from it on.
-/// A pair's squared difference is at most 3 x 255^2 < 2^17.6 and its weights add up to n^4 for a
-/// window of n x n pixels: below 2^22.4 for n <= 48, so that both fit, 2^40 and 2^62.4 at most.
-#define DEFRAY_PATTERN_COUNT_BIT 40
-#define DEFRAY_PATTERN_LARGEST_WINDOW 48
-/// Pixels of a row that one work-item compares, as one vector.
-#define DEFRAY_PATTERN_RUN 16
+/// Pairs are compared in cells of so many pixels a side, whose words hold their sum of squared
+/// differences, at most 3 x 255^2 x 16 < 2^22, below KNOWN's bit and the number of pairs from it
+/// on.
+#define DEFRAY_PATTERN_CELL 4
+/// Side n of the box whose square, convolved, weighs the cells of a window: weights add up to n^4
+/// and 3 x 255^2 x 16 x 6^4 < 2^32.
+#define DEFRAY_PATTERN_LARGEST_WINDOW 6
+/// Cells that a work-item takes at once: those of a run of pixels. The plane of cells has so many
+/// units more on each side: a unit's windows read 16 cells from up to 5 before its first on.
+#define DEFRAY_PATTERN_UNIT (DEFRAY_RUN / DEFRAY_PATTERN_CELL)
+#define DEFRAY_PATTERN_MARGIN 3
 /// Closer pixels resemble each other on any smooth surface: no shift is shorter, px.
 #define DEFRAY_PATTERN_LEAST 8
-/// One work-item of `patterns_columns`: so many columns, as one vector, and rows.
-#define DEFRAY_PATTERN_COLUMNS 8
-#define DEFRAY_PATTERN_STRIP 64
-/// Pixels of a row that one work-item of `patterns_match` goes through.
-#define DEFRAY_PATTERN_CHUNK 64
 
 /// Thin-lens constants of `coc`.
 typedef struct {
@@ -257,23 +256,24 @@ typedef struct {
   DEFRAY_UINT along_y;     ///< gather_reach: 0 looks along x, 1 along y.
 } DefrayTileParams;
 
-/// One band of target rows and one shift of `patterns`. The window holds the band and everything
-/// that a target pixel's neighbourhood, or its match's, can reach, nothing known outside the frame.
+/// A shift of the picture for `patterns`.
 typedef struct {
-  DEFRAY_UINT unit_count;  ///< Work-items of this launch.
-  DEFRAY_UINT width;       ///< Pixels in a row of the frame.
-  DEFRAY_UINT rows;        ///< Rows of the band.
-  DEFRAY_UINT stride;      ///< Pixels in a row of the window.
-  DEFRAY_UINT margin_x;    ///< Columns of the window before the frame's first.
-  DEFRAY_UINT margin_y;    ///< Rows of the window before the band's first.
-  DEFRAY_UINT source_row;  ///< The band's first row, counted in the rows of the colour planes.
-  DEFRAY_INT shift_x;      ///< From a pixel to its match, px; if parallel, the longest.
-  DEFRAY_INT shift_y;
-  float parallel;        ///< Not 0: through the scene along the picture, px where 1/depth is 1.
-  DEFRAY_INT window_px;  ///< Side n of the box whose square, convolved, weighs pairs.
+  DEFRAY_INT x;  ///< From a pixel to its match, px; if parallel, the longest.
+  DEFRAY_INT y;
+  float parallel;  ///< Not 0: through the scene along the picture, px where 1/depth is 1.
+} DefrayPatternShift;
+
+/// Rows of cells of a window of the frame, and all shifts: `patterns`.
+typedef struct {
+  DEFRAY_UINT width;      ///< Pixels in a row of the frame.
+  DEFRAY_UINT height;     ///< Rows of the window.
+  DEFRAY_INT first_row;   ///< First row of pixels of these cells, in the window.
+  DEFRAY_UINT cell_rows;  ///< Rows of cells: those of matches and what windows reach.
+  DEFRAY_UINT shift_count;
+  DEFRAY_INT window_cells;       ///< Side n of the box whose square, convolved, weighs cells.
   DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
   DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
-  DEFRAY_UINT is_first;          ///< 1: sums start at zero.
+  DEFRAY_UINT channels;          ///< 1 to 4.
 } DefrayPatternsParams;
 
 #ifndef __OPENCL_C_VERSION__
@@ -283,7 +283,8 @@ static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefrayAssembleParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
-static_assert(sizeof(DefrayPatternsParams) == 56);
+static_assert(sizeof(DefrayPatternShift) == 12);
+static_assert(sizeof(DefrayPatternsParams) == 36);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

@@ -1,185 +1,159 @@
-// patterns_match: what one shift of the picture gives to hidden pixels (patterns.cl).
+// patterns_match: what lies behind, moved towards where the picture agrees with it (patterns.cl).
 //
-// Sums over columns, summed along rows with weights n - |dx|, give D, the mean squared difference
-// of the surroundings of a pixel and its match; then its weight w = (1/100 / D)^6, D in units of
-// white squared, and the sums of w, w D and w (colour of the match - smooth colour behind the
-// pixel).
+// Of each shift, the cells around a pixel give D, the mean squared difference of its surroundings
+// and its match's; then the shift's weight w = (1/100 / D)^6, D in units of white squared. Colours
+// move towards the matches' mean by the gain of linear regression, covariance / variance
+// = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
 //
-// units, pixels, coc_quanta, columns          as in patterns.cl
-// behind_coc   [rows][width]                  radius of the synthesised fragment
-// behind_inverse [rows][width]                its 1/depth
-// channel_behind0..3  [rows][width]           its colour, before: smooth
-// channel0..3  [from source_row rows above the band on][width]   linear colours of the frame
-// sums         [6][rows][width] of the four channels, of w, of w D; where there is a fragment
-//              behind
-// Global size: (units), of DEFRAY_PATTERN_CHUNK pixels of a row.
+// shifts, pixels, coc_quanta, cells           as in patterns.cl; the first row of cells here is
+//                                             row window_cells - 1 there
+// variance     [rows of cells of the window][units][DEFRAY_PATTERN_UNIT]  V around each cell, of
+//                                             8-bit colours
+// behind_coc   [height][width]                radius of the synthesised fragment
+// behind_inverse  [height][width]             its 1/depth
+// channel0..3  [height][width]                linear colours of the frame
+// channel_behind0..3  [height][width]         the fragment's: before, smooth
+// Global size: (units, rows of cells of this launch).
 #include "colour.clh"
-#include "params.h"
 #include "patterns_shift.clh"
 
-// A window's weight, and its mean squared difference times that; eight windows.
-typedef struct {
-  float8 w, square_w;
-} Weights;
+// Cells of a unit and those that its windows reach to the right.
+#define COLUMNS 16
 
-Weights weights_of(const ulong8 windows) {
-  const long8 squares = convert_long8(windows & (1ul << DEFRAY_PATTERN_COUNT_BIT) - 1ul);
-  const float8 pairs = convert_float8(convert_int8(windows >> DEFRAY_PATTERN_COUNT_BIT));
+// What a shift's windows weigh, and their mean squared difference times that, a cell of a unit.
+typedef struct {
+  float4 w, square_w;
+  int4 is_match;
+} Agreement;
+
+Agreement agreement_of(const DefrayPatternsParams p, const uint4 squares, const uint4 pairs) {
   // White is 255. Two thirds of a step squared more: rounding to 8 bits hides as much.
-  const float8 d = convert_float8(squares) / pairs + 0.65025f;
-  const float8 q = 650.25f / d;
-  const float8 q2 = q * q;
-  const float8 w = q2 * q2 * q2;
-  const Weights weights = {w, w * d};
-  return weights;
+  const float4 d = convert_float4(squares) / convert_float4(pairs) + 0.65025f;
+  const float4 q = 650.25f / d;
+  const float4 q2 = q * q;
+  const float4 w = q2 * q2 * q2;
+  const Agreement agreement = {w, w * d, as_int4(pairs >= (uint4)(p.least_pairs))};
+  return agreement;
 }
 
-// Eight values, from so far on; beside each other from the first one on, or anywhere.
-int8 eight_ints(__global const int* restrict plane, const int8 places, const bool are_beside) {
-  if (are_beside) return vload8(0, plane + places.s0);
-  int from[8], values[8];
-  vstore8(places, 0, from);
-  for (int i = 0; i < 8; ++i) values[i] = plane[from[i]];
-  return vload8(0, values);
+// From the first cell on that its windows reach.
+Agreement windows_of(const DefrayPatternsParams p, __global const uint* restrict cells,
+                     const uint stride) {
+  const int n = p.window_cells;
+  uint16 column_squares = 0u, column_pairs = 0u;
+  for (int j = 1 - n; j < n; ++j) {
+    const uint16 cell = vload16(0, cells + (uint)(j + n - 1) * stride);
+    const uint weight = (uint)(n - abs(j));
+    column_squares += weight * (cell & 0xffffffu);
+    column_pairs += weight * (cell >> 24u);
+  }
+  uint squares[COLUMNS], pairs[COLUMNS];
+  vstore16(column_squares, 0, squares);
+  vstore16(column_pairs, 0, pairs);
+  uint4 all_squares = 0u, all_pairs = 0u;
+  for (int j = 1 - n; j < n; ++j) {
+    const uint weight = (uint)(n - abs(j));
+    all_squares += weight * vload4(0, squares + j + n - 1);
+    all_pairs += weight * vload4(0, pairs + j + n - 1);
+  }
+  return agreement_of(p, all_squares, all_pairs);
 }
 
-float8 eight_floats(__global const float* restrict plane, const int8 places,
-                    const bool are_beside) {
-  return as_float8(eight_ints((__global const int*)plane, places, are_beside));
-}
+float16 of_cells(const float4 v) { return (float16)(v.xxxx, v.yyyy, v.zzzz, v.wwww); }
 
-// Where eight pixels of a row may find what lies behind them, their surroundings aside.
+// A row of a unit's pixels: sums over shifts.
 typedef struct {
-  int8 shift_x, shift_y, is_match;
-} Matches;
+  float16 channel[4], weight, square;
+} MatchSums;
 
-// Of `count` pixels, from `at` in the window and `target` in the band on.
-Matches matches_of(const DefrayPatternsParams p, __global const uint* restrict pixels,
-                   __global const int* restrict coc_quanta, __global const int* restrict behind_coc,
-                   __global const float* restrict behind_inverse, const size_t at,
-                   const size_t target, const int count) {
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const int8 is_behind =
-      lane < (int8)(count) && as_int8(vload8(0, pixels + at) & DEFRAY_PATTERN_BEHIND) != (int8)(0);
-  Matches m = {p.shift_x, p.shift_y, 0};
-  if (!any(is_behind)) return m;
-  const bool is_parallel = p.parallel != 0.0f;
-  if (is_parallel) {
-    int xs[8], ys[8], looks[8];
-    vstore8(is_behind, 0, looks);
-    for (int i = 0; i < 8; ++i) {
-      const int2 shift = looks[i] ? shift_at(p, behind_inverse[target + (uint)i]) : (int2)(0);
-      xs[i] = shift.x;
-      ys[i] = shift.y;
-    }
-    m.shift_x = vload8(0, xs);
-    m.shift_y = vload8(0, ys);
-  }
-  const bool is_whole = count == 8;
-  const int8 own = is_whole ? lane : select((int8)(0), lane, is_behind);
-  const int8 there = lane + m.shift_y * (int)p.stride + m.shift_x;
-  const int8 flags = eight_ints((__global const int*)pixels + at, there, !is_parallel);
-  const int8 coc = eight_ints(coc_quanta + at, there, !is_parallel);
-  const uint8 apart = abs_diff(coc, eight_ints(behind_coc + target, own, is_whole));
-  m.is_match = is_behind && (flags & (int)DEFRAY_PATTERN_KNOWN) != (int8)(0) &&
-               apart <= (uint8)(p.tolerance_quanta);
-  return m;
-}
+// A row's pixels that hide something, and its surfaces behind.
+typedef struct {
+  int16 is_behind, coc;
+  float16 inverse;
+} HiddenRow;
 
-// A plane of `sums`: values are added where there is a match.
-void add_to(__global float* sum, const int count, const int8 is_match, const float8 values) {
-  if (count == 8) {
-    const float8 old = vload8(0, sum);
-    vstore8(select(old, old + values, is_match), 0, sum);
-    return;
-  }
-  float added[8];
-  vstore8(select((float8)(-0.0f), values, is_match), 0, added);
-  for (int i = 0; i < count; ++i) sum[i] += added[i];
-}
-
-// What a shift gives to `count` pixels of a row, (x, y) in the band and on, in these windows.
-void add_matches(const DefrayPatternsParams p, CHANNEL_PARAMETERS(channel_behind),
-                 CHANNEL_PARAMETERS(channel), __global float* restrict sums, const Matches m,
-                 const ulong8 windows, const int x, const int y, const int count) {
-  const uint8 pairs = convert_uint8(windows >> DEFRAY_PATTERN_COUNT_BIT);
-  const int8 is_match = m.is_match && pairs >= (uint8)(p.least_pairs);
-  if (!any(is_match)) return;
-  // Where there is a match its row is in the frame; the rest of the eight may not be.
-  const int8 lane = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
-  const int from_x = x + p.shift_x;
-  const bool are_beside = p.parallel == 0.0f && from_x >= 0 && from_x + 8 <= (int)p.width;
-  const int8 beside = lane + m.shift_y * (int)p.width + m.shift_x;
-  const int8 places = are_beside ? beside : select((int8)(0), beside, is_match);
-  const bool is_whole = count == 8;
-  const int8 own = is_whole ? lane : select((int8)(0), lane, is_match);
-  const size_t source = (size_t)(p.source_row + (uint)y) * p.width + (uint)x;
-  const size_t target = (size_t)y * p.width + (uint)x;
-  const size_t plane = (size_t)p.rows * p.width;
-  const Weights weights = weights_of(windows);
-#define ADD_CHANNEL(i)                                                        \
-  add_to(sums + i * plane + target, count, is_match,                          \
-         weights.w * (eight_floats(channel##i + source, places, are_beside) - \
-                      eight_floats(channel_behind##i + target, own, is_whole)))
+// Adds a shift's share to the pixels of a row that have a match.
+void add_match(const DefrayPatternsParams p, const DefrayPatternShift shift,
+               __global const int* restrict pixels, __global const int* restrict coc_quanta,
+               CHANNEL_PARAMETERS(channel), CHANNEL_PARAMETERS(channel_behind),
+               const Agreement agreement, const HiddenRow row, const int2 start, MatchSums* sums) {
+  const Matches there = matches_of(p, shift, start, row.inverse);
+  const uint16 known = words_at(pixels, there) & DEFRAY_PATTERN_KNOWN;
+  const int16 close = are_close(p, ints_at(coc_quanta, there.places), row.coc);
+  const int4 m = agreement.is_match;
+  const int16 is_match =
+      row.is_behind & (int16)(m.xxxx, m.yyyy, m.zzzz, m.wwww) & as_int16(known != 0u) & close;
+  if (!any_lane(is_match)) return;
+  const Places own = itself(p, start).places;
+  const float16 w = of_cells(agreement.w);
+#define ADD(sum, value) sum = select(sum, sum + (value), is_match)
+#define ADD_CHANNEL(i) \
+  ADD(sums->channel[i], w*(floats_at(channel##i, there.places) - floats_at(channel_behind##i, own)))
   ADD_CHANNEL(0);
   ADD_CHANNEL(1);
   ADD_CHANNEL(2);
   ADD_CHANNEL(3);
-  add_to(sums + 4 * plane + target, count, is_match, weights.w);
-  add_to(sums + 5 * plane + target, count, is_match, weights.square_w);
+  ADD(sums->weight, w);
+  ADD(sums->square, of_cells(agreement.square_w));
 }
 
-__kernel void patterns_match(const DefrayPatternsParams p, __global const uint2* restrict units,
-                             __global const uint* restrict pixels,
-                             __global const int* restrict coc_quanta,
-                             __global const ulong* restrict columns,
-                             __global const int* restrict behind_coc,
-                             __global const float* restrict behind_inverse,
-                             CHANNEL_PARAMETERS(channel_behind), CHANNEL_PARAMETERS(channel),
-                             __global float* restrict sums) {
-  if (get_global_id(0) >= p.unit_count) return;
-  const uint2 unit = units[get_global_id(0)];
-  const int x = (int)(unit.x - p.margin_x), y = (int)(unit.y - p.margin_y);
-  const int count = min(DEFRAY_PATTERN_CHUNK, (int)p.width - x);
-  const size_t in_window = (size_t)unit.y * p.stride + unit.x;
-  const size_t in_band = (size_t)y * p.width + (uint)x;
-  for (int i = 0; p.is_first && i < 6 * count; ++i) {
-    sums[(size_t)(i / count) * p.rows * p.width + in_band + (size_t)(i % count)] = 0.0f;
-  }
-  // Windows are needed from the first match to the last.
-  Matches matches[DEFRAY_PATTERN_CHUNK / 8];
-  int begin = count, end = 0;
-  for (int i = 0; i < count; i += 8) {
-    matches[i / 8] = matches_of(p, pixels, coc_quanta, behind_coc, behind_inverse,
-                                in_window + (size_t)i, in_band + (size_t)i, min(8, count - i));
-    if (!any(matches[i / 8].is_match)) continue;
-    begin = min(begin, i);
-    end = i + 8;
-  }
-  if (begin >= end) return;
+// Moves a row's colours of one channel behind.
+void move_row(const DefrayPatternsParams p, __global float* channel_behind, const int2 start,
+              const int16 is_moved, const float16 by) {
+  const float16 old = floats_at(channel_behind, itself(p, start).places), now = old + by;
+  store_run(p.width, (__global uint*)channel_behind, start,
+            as_uint16(select(old, now, is_moved & isfinite(now))));
+}
 
-  const size_t n = (size_t)p.window_px, first = in_window + (size_t)begin;
-  ulong window = 0ul, before = 0ul, after = 0ul;
-  for (size_t j = 0; j < n; ++j) {
-    before += columns[first - j];
-    window += before;
+__kernel void patterns_match(
+    const DefrayPatternsParams p, __global const DefrayPatternShift* restrict shifts,
+    __global const int* restrict pixels, __global const int* restrict coc_quanta,
+    __global const uint* restrict cells, __global const float* restrict variance,
+    __global const int* restrict behind_coc, __global const float* restrict behind_inverse,
+    CHANNEL_PARAMETERS(channel), WRITTEN_CHANNELS(channel_behind)) {
+  const int units = ((int)p.width + RUN - 1) / RUN, margin = p.window_cells - 1;
+  const int unit = (int)get_global_id(0), cell_row = (int)get_global_id(1);
+  const int first = p.first_row + DEFRAY_PATTERN_CELL * (cell_row + margin);
+  if (unit >= units || cell_row + 2 * margin >= (int)p.cell_rows) return;
+  HiddenRow rows[DEFRAY_PATTERN_CELL];
+  MatchSums sums[DEFRAY_PATTERN_CELL];
+  bool has_behind = false;
+  for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
+    const Matches own = itself(p, (int2)(unit * RUN, first + j));
+    rows[j].is_behind = as_int16((words_at(pixels, own) & DEFRAY_PATTERN_BEHIND) != 0u);
+    has_behind |= any_lane(rows[j].is_behind);
+    rows[j].coc = ints_at(behind_coc, own.places);
+    rows[j].inverse = floats_at(behind_inverse, own.places);
+    const MatchSums none = {{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, 0.0f};
+    sums[j] = none;
   }
-  for (size_t j = 1; j < n; ++j) {
-    after += columns[first + j];
-    window += after;
-  }
-  after += columns[first + n];
-  for (int i = begin; i < end; i += 8) {
-    ulong windows[8];
-    for (size_t k = 0; k < 8; ++k) {
-      const size_t at = in_window + (size_t)i + k;
-      windows[k] = window;
-      window += after - before;
-      const ulong passing = columns[at + 1];
-      after += columns[at + n + 1] - passing;
-      before += passing - columns[at + 1 - n];
+  if (!has_behind) return;
+
+  const uint stride = (uint)(units + 2 * DEFRAY_PATTERN_MARGIN) * DEFRAY_PATTERN_UNIT;
+  const uint column = (uint)((unit + DEFRAY_PATTERN_MARGIN) * DEFRAY_PATTERN_UNIT - margin);
+  __global const uint* from = cells + (uint)cell_row * stride + column;
+  for (uint i = 0; i < p.shift_count; ++i, from += p.cell_rows * stride) {
+    const Agreement agreement = windows_of(p, from, stride);
+    if (!any(agreement.is_match)) continue;
+    for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
+      if (!any_lane(rows[j].is_behind)) continue;
+      add_match(p, shifts[i], pixels, coc_quanta, CHANNELS(channel), CHANNELS(channel_behind),
+                agreement, rows[j], (int2)(unit * RUN, first + j), &sums[j]);
     }
-    add_matches(p, CHANNELS(channel_behind), CHANNELS(channel), sums, matches[i / 8],
-                vload8(0, windows), x + i, y, min(8, count - i));
+  }
+
+  const float16 v = of_cells(
+      vload4(0, variance + (first / DEFRAY_PATTERN_CELL * units + unit) * DEFRAY_PATTERN_UNIT));
+  for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
+    const float16 w = sums[j].weight, gain = 1.0f - sums[j].square / w / (2.0f * v);
+    const int16 is_moved = (w > 0.0f) & (v > 0.0f) & (gain > 0.0f);
+    if (!any_lane(is_moved)) continue;
+    const int2 start = (int2)(unit * RUN, first + j);
+#define MOVE(i) \
+  if (p.channels > i) move_row(p, channel_behind##i, start, is_moved, gain*(sums[j].channel[i] / w))
+    MOVE(0);
+    MOVE(1);
+    MOVE(2);
+    MOVE(3);
   }
 }

@@ -34,37 +34,9 @@ Squares squares_of(const DefraySoftenParams p, const int16 own_coc, const int16 
   return s;
 }
 
-// Sixteen fragments: mostly beside each other, so that one load reads them.
-typedef struct {
-  uint16 at;
-  bool is_line;
-} Places;
-
-Places places_at(const DefraySoftenParams p, const int16 x, const int16 y, const int layer) {
+Places fragments_at(const DefraySoftenParams p, const int16 x, const int16 y, const int layer) {
   const int16 row = clamp(y, (int16)(0), (int16)((int)p.height - 1)) * (int)p.layers + layer;
-  const int16 column = clamp(x, (int16)(0), (int16)((int)p.width - 1));
-  Places places;
-  places.at = as_uint16(row * (int)p.width + column);
-  places.is_line = all(places.at == places.at.s0 + as_uint16(RUN_LANES));
-  return places;
-}
-
-int16 ints_at(__global const int* restrict plane, const Places from) {
-  if (from.is_line) return vload16(0, plane + from.at.s0);
-  uint places[RUN];
-  int values[RUN];
-  vstore16(from.at, 0, places);
-  for (int i = 0; i < RUN; ++i) values[i] = plane[places[i]];
-  return vload16(0, values);
-}
-
-float16 floats_at(__global const float* restrict plane, const Places from) {
-  if (from.is_line) return vload16(0, plane + from.at.s0);
-  uint places[RUN];
-  float values[RUN];
-  vstore16(from.at, 0, places);
-  for (int i = 0; i < RUN; ++i) values[i] = plane[places[i]];
-  return vload16(0, values);
+  return places_at(p.width, clamp(x, (int16)(0), (int16)((int)p.width - 1)), row);
 }
 
 // Coverage without its flag.
@@ -95,27 +67,27 @@ __kernel void soften(const DefraySoftenParams p, __global const int* restrict co
   if (!is_inside(p.width, p.height * p.layers, start)) return;
   const int16 x = (int16)(start.x) + RUN_LANES, y = (int16)(start.y / (int)p.layers);
   const int layer = start.y % (int)p.layers;
-  const Places own_at = places_at(p, x, y, layer);
+  const Places own_at = fragments_at(p, x, y, layer);
   const int16 own_coc = ints_at(coc_quanta, own_at);
   const Squares s = squares_of(p, own_coc, shares_at(coverage, own_at));
   const float16 own0 = floats_at(channel0, own_at), own1 = floats_at(channel1, own_at);
   const float16 own2 = floats_at(channel2, own_at), own3 = floats_at(channel3, own_at);
   float16 sum0 = 0.0f, sum1 = 0.0f, sum2 = 0.0f, sum3 = 0.0f, weights = 0.0f;
-  const int most = any(s.is_active) ? DEFRAY_SOFTEN_TAPS / 2 : -1;
+  const int most = any_lane(s.is_active) ? DEFRAY_SOFTEN_TAPS / 2 : -1;
   for (int j = -most; j <= most; ++j) {
     for (int i = -most; i <= most; ++i) {
       const int16 dx = s.stride * i, dy = s.stride * j;
       const int16 is_tap = s.is_active & (s.taps >= max(max(i, -i), max(j, -j)));
-      if (!any(is_tap)) continue;
+      if (!any_lane(is_tap)) continue;
       const int16 is_there =
           (x + dx >= 0) & (x + dx < (int)p.width) & (y + dy >= 0) & (y + dy < (int)p.height);
-      const Places from = places_at(p, x + dx, y + dy, layer);
+      const Places from = fragments_at(p, x + dx, y + dy, layer);
       const float16 apart =
           fabs(convert_float16(ints_at(coc_quanta, from)) - convert_float16(own_coc));
       const float16 share = convert_float16(shares_at(coverage, from)) * 0x1p-16f;
       const float16 weight = inside(s.half_side, dx) * inside(s.half_side, dy) * share;
       const int16 counts = is_tap & is_there & (apart <= s.alike) & (weight > 0.0f);
-      if (!any(counts)) continue;
+      if (!any_lane(counts)) continue;
       const float16 none = 0.0f;
       sum0 += select(none, weight * (floats_at(channel0, from) - own0), counts);
       sum1 += select(none, weight * (floats_at(channel1, from) - own1), counts);

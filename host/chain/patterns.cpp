@@ -10,9 +10,9 @@
 
 namespace defray {
 
-std::uint32_t least_pairs(int window_px) {
-  const auto n = static_cast<std::uint32_t>(window_px);
-  return (n * n * n * n + 9) / 10;
+std::uint32_t least_pairs(int window_cells) {
+  const auto n = static_cast<std::uint32_t>(window_cells);
+  return (n * n * n * n * DEFRAY_PATTERN_CELL * DEFRAY_PATTERN_CELL + 9) / 10;
 }
 
 std::vector<std::uint32_t> encoded_colours(const Frame& f, const Frame& behind,
@@ -47,30 +47,6 @@ Words patterns_pixels(std::vector<std::uint32_t> pixels, const Planes& channels,
   return pixels;
 }
 
-PatternShift shift_at(const PatternShift& shift, float inverse) {
-  if (shift.parallel == 0) return shift;
-  const int most = std::max(std::abs(shift.x), std::abs(shift.y));
-  const int length = parallel_length(shift.parallel, inverse, most);
-  return {std::clamp(shift.x, -length, length), std::clamp(shift.y, -length, length)};
-}
-
-void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& variance,
-                    Planes& behind) {
-  const auto words = pixels.host();
-  std::vector<std::span<float>> colour;
-  for (Values<float>& channel : behind) colour.push_back(channel.edit());
-  parallel_for_each(variance.size(), [&](std::size_t i) {
-    const float weight = sums.weight[i];
-    if (!(words[i] & DEFRAY_PATTERN_BEHIND) || !(weight > 0) || !(variance[i] > 0)) return;
-    const float gain = 1 - sums.weighted_square[i] / weight / (2 * variance[i]);
-    if (!(gain > 0)) return;
-    for (std::size_t c = 0; c < colour.size(); ++c) {
-      const float moved = colour[c][i] + gain * (sums.difference[c][i] / weight);
-      if (std::isfinite(moved)) colour[c][i] = moved;
-    }
-  });
-}
-
 void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixels,
                          const PatternSettings& settings, Frame& behind) {
   const auto is_behind = [](std::uint32_t pixel) { return (pixel & DEFRAY_PATTERN_BEHIND) != 0; };
@@ -79,8 +55,8 @@ void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixe
   const std::vector<PatternShift> parallel = find_parallel_shifts(frame, pixels, settings);
   shifts.insert(shifts.end(), parallel.begin(), parallel.end());
   if (shifts.empty()) return;
-  const PatternSums sums = backend.patterns(frame, behind, pixels, shifts, settings);
-  blend_patterns(pixels, sums, patterns_variance(frame, pixels, settings), behind.channels);
+  const Plane variance = patterns_variance(frame, pixels, settings);
+  behind = backend.patterns(frame, std::move(behind), pixels, variance, shifts, settings);
 }
 
 }  // namespace defray

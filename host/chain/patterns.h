@@ -14,8 +14,9 @@
 namespace defray {
 
 struct PatternSettings {
-  int window_px = 25;  ///< Side n of the box, at most 48; pairs weigh (n - |dx|)(n - |dy|).
-  int shifts = 24;     ///< The best of one half plane: each counts with both its signs.
+  /// Side n of the box, in cells of 4 px, at most 6; those around weigh (n - |dx|)(n - |dy|).
+  int window_cells = 6;
+  int shifts = 24;  ///< The best of one half plane: each counts with both its signs.
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   int parallel_shifts = 4;                 ///< The best of those parallel to the picture, as many.
   int parallel_reach_x_px = 400, parallel_reach_y_px = 128;  ///< Of these.
@@ -66,27 +67,9 @@ inline int parallel_length(float parallel, float inverse, int most) {
   return std::bit_cast<int>(px + no_fraction) - std::bit_cast<int>(no_fraction);
 }
 
-/// A shift where 1/depth is `inverse`: its way in the picture, px; {0, 0} where a parallel one is
-/// shorter than DEFRAY_PATTERN_LEAST or longer than its longest.
-PatternShift shift_at(const PatternShift& shift, float inverse);
-
-/// Sums over shifts; defined where there is a fragment behind.
-struct PatternSums {
-  PatternSums(std::size_t channels, std::size_t pixels)
-      : difference(channels, Plane(pixels)), weight(pixels), weighted_square(pixels) {}
-  std::vector<Plane> difference;  ///< Of w (match's colour - smooth colour), a channel each.
-  Plane weight;                   ///< Of w.
-  Plane weighted_square;          ///< Of w D, D the squared difference of surroundings, (1/255)^2.
-};
-
-/// Variance V of the known colours around each fragment, all three together, (1/255)^2. A shift's
-/// D is 2 (V - covariance).
+/// Variance V of the known colours around each cell, all three together, (1/255)^2, where it hides
+/// something: [rows of cells][units][DEFRAY_PATTERN_UNIT]. A shift's D is 2 (V - covariance).
 Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings);
-
-/// Moves `behind` towards the matches' mean by the gain of linear regression, covariance / variance
-/// = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
-void blend_patterns(const Words& pixels, const PatternSums& sums, const Plane& variance,
-                    Planes& behind);
 
 /// All of it. `pixels` are patterns_pixels; the smooth colours of `behind` are improved in place.
 /// Other pixels keep theirs.
@@ -94,6 +77,6 @@ void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixe
                          const PatternSettings& settings, Frame& behind);
 
 /// Weight of the pairs that a match needs: a tenth of a whole window's.
-std::uint32_t least_pairs(int window_px);
+std::uint32_t least_pairs(int window_cells);
 
 }  // namespace defray

@@ -20,9 +20,8 @@ class DeviceBackend : public Backend {
   Words mixed(const Frame& frame) override;
   std::size_t bytes_made() const override { return session_.traffic().made; }
   Frame fill(const Frame& frame, const Words& mixed, int directions) override;
-  PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                       const std::vector<PatternShift>& shifts,
-                       const PatternSettings& settings) override;
+  Frame patterns(const Frame& frame, Frame behind, const Words& pixels, const Plane& variance,
+                 const std::vector<PatternShift>& shifts, const PatternSettings& settings) override;
   Surfaces split(const Frame& frame, const Words& mixed, Frame behind) override;
   Frame assemble(const Surfaces& surfaces) override;
   Values<float> highlights(const Frame& frame, int light_channels) override;
@@ -35,12 +34,10 @@ class DeviceBackend : public Backend {
 
   // Kernels by themselves, for their checks.
 
-  /// `patterns_difference` and `patterns_columns` of one shift over a whole frame.
+  /// `patterns_difference` over a whole frame: [shifts][rows of cells][pattern_row_words].
   std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
-                                                 PatternShift shift,
+                                                 const std::vector<PatternShift>& shifts,
                                                  const PatternSettings& settings);
-  std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
-                                              PatternShift shift, const PatternSettings& settings);
 
   /// `gather_tiles`: the largest |CoC| of each tile, quanta; `gather_reach`: how far light comes
   /// from, for each tile.

@@ -15,7 +15,6 @@ struct Lens;
 struct LightSources;
 struct PatternSettings;
 struct PatternShift;
-struct PatternSums;
 struct RayPlan;
 struct RayResult;
 
@@ -53,11 +52,11 @@ class Backend {
   /// or DEFRAY_FILL_DIRECTIONS directions; `inverse` is negative where nothing does.
   virtual Frame fill(const Frame& frame, const Words& mixed, int directions) = 0;
 
-  /// Kernels `patterns_*`: sums over shifts of what resembles what lies behind.
-  /// `pixels` are patterns_pixels.
-  virtual PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                               const std::vector<PatternShift>& shifts,
-                               const PatternSettings& settings) = 0;
+  /// Kernels `patterns_*`: colours behind moved towards what resembles them, elsewhere in the
+  /// picture. `pixels` are patterns_pixels, `variance` is patterns_variance.
+  virtual Frame patterns(const Frame& frame, Frame behind, const Words& pixels,
+                         const Plane& variance, const std::vector<PatternShift>& shifts,
+                         const PatternSettings& settings) = 0;
 
   /// Kernel `split`: mixed pixels taken apart. `behind` is what `fill` gave.
   virtual Surfaces split(const Frame& frame, const Words& mixed, Frame behind) = 0;

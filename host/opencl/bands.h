@@ -74,6 +74,11 @@ class Band {
     session_.launch_from({0, first}, kernel_.c_str(),
                          {(size(frame_.width) + run - 1) / run, size(rows_.rows) * layers},
                          args...);
+    collect();
+  }
+
+  /// What kernels have written goes where `out` and `in_out` were told; `launch` does it.
+  void collect() {
     for (const auto& read : reads_) read();
   }
 

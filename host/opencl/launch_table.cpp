@@ -30,9 +30,9 @@ const std::vector<Launch>& launch_table() {
       {"highlights_add", 64, 1},
       {"linear_psf", 16, 1},
       {"mixed", 8, 1, 1, 2 * plane, DEFRAY_RUN},
-      {"patterns_columns", 16, 1},
-      {"patterns_difference", 16, 1},
-      {"patterns_match", 16, 1},
+      {"patterns_difference", 8, 1},
+      // What matches are within reach of, and both surfaces.
+      {"patterns_match", 8, 1, 0, 5 * plane + 2 * colour},
       {"rdb_clear", 256, 1},
       {"rdb_gather", 1, 1},
       // Cells take the most (rdb/rdb_plan.h); this says whether the frame stays on the device.

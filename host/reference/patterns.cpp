@@ -1,19 +1,39 @@
-// Twins of kernels/patterns.cl and patterns_match.cl: sums over whole windows, nothing running
-// along.
+// Twins of kernels/patterns.cl and patterns_match.cl, pixel by pixel and window by window.
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "base/parallel.h"
+#include "chain/patterns_cells.h"
 #include "reference/reference.h"
 #include "reference/twin_backend.h"
 
 namespace defray::reference {
 namespace {
 
+constexpr std::uint32_t count_bit = 24;  // that of DEFRAY_PATTERN_KNOWN
+constexpr int left_cells = DEFRAY_PATTERN_MARGIN * DEFRAY_PATTERN_UNIT;  // before the frame's first
+
 class Grid {
  public:
   explicit Grid(const Frame& frame) : frame_(frame) {}
   bool has(int x, int y) const { return x >= 0 && y >= 0 && x < frame_.width && y < frame_.height; }
   std::size_t at(int x, int y) const { return size(y) * size(frame_.width) + size(x); }
+
+  /// The match of (x, y), where 1/depth is so much: none outside the frame, nor of a parallel shift
+  /// that is too short or too long there.
+  std::optional<std::size_t> match(int x, int y, const PatternShift& s, float inverse) const {
+    int dx = s.x, dy = s.y;
+    if (s.parallel != 0) {
+      const int most = std::max(std::abs(s.x), std::abs(s.y));
+      const int length = parallel_length(s.parallel, inverse, most);
+      if (length == 0) return {};
+      dx = std::clamp(s.x, -length, length);
+      dy = std::clamp(s.y, -length, length);
+    }
+    if (!has(x + dx, y + dy)) return {};
+    return at(x + dx, y + dy);
+  }
 
  private:
   const Frame& frame_;
@@ -32,22 +52,10 @@ std::uint32_t squared_difference(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint32_t>(sum);
 }
 
-/// Weighted sum along a line of values: value(j), 0 outside the frame.
-template <typename Value>
-std::uint64_t line_sum(int window_px, const Value& value) {
-  std::uint64_t sum = 0;
-  for (int j = 1 - window_px; j < window_px; ++j) {
-    sum += static_cast<std::uint64_t>(window_px - std::abs(j)) * value(j);
-  }
-  return sum;
-}
-
-/// One shift at one pixel: its weight, and the squared difference times it.
+/// One shift around one cell: the squared difference, and its weight.
 struct Weight {
-  explicit Weight(std::uint64_t sum) {
-    const std::uint64_t count = sum >> DEFRAY_PATTERN_COUNT_BIT;
-    const std::uint64_t squares = sum - (count << DEFRAY_PATTERN_COUNT_BIT);
-    const float mean = static_cast<float>(squares) / static_cast<float>(count) + 0.65025f;
+  Weight(std::uint32_t squares, std::uint32_t pairs) {
+    const float mean = static_cast<float>(squares) / static_cast<float>(pairs) + 0.65025f;
     const float ratio = 650.25f / mean, square = ratio * ratio;
     w = square * square * square;
     square_w = w * mean;
@@ -55,29 +63,67 @@ struct Weight {
   float w, square_w;
 };
 
+/// Sums over shifts, a pixel.
+struct Sums {
+  Sums(std::size_t channels, std::size_t pixels)
+      : difference(channels, Plane(pixels)), weight(pixels), square(pixels) {}
+  std::vector<Plane> difference;
+  Plane weight, square;
+};
+
+/// Cells of one shift.
+class CellPlane {
+ public:
+  CellPlane(const Frame& frame, const std::vector<std::uint32_t>& cells, int n)
+      : row_words_(static_cast<int>(pattern_row_words(frame.width))),
+        rows_(pattern_rows(frame.height)),
+        cells_(cells),
+        n_(n) {}
+
+  /// The window around a pixel's cell; none with too few pairs.
+  std::optional<Weight> weight(int x, int y) const {
+    std::uint32_t squares = 0, pairs = 0;
+    for (int j = 1 - n_; j < n_; ++j) {
+      for (int i = 1 - n_; i < n_; ++i) {
+        const int column = x / DEFRAY_PATTERN_CELL + i, row = y / DEFRAY_PATTERN_CELL + j;
+        if (row < 0 || row >= rows_) continue;
+        const std::uint32_t cell = cells_[size(row * row_words_ + column + left_cells)];
+        const auto times = static_cast<std::uint32_t>((n_ - std::abs(i)) * (n_ - std::abs(j)));
+        squares += times * (cell % (1u << count_bit));
+        pairs += times * (cell >> count_bit);
+      }
+    }
+    if (pairs < least_pairs(n_)) return {};
+    return Weight(squares, pairs);
+  }
+
+ private:
+  int row_words_, rows_;
+  const std::vector<std::uint32_t>& cells_;
+  int n_;
+};
+
 void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, PatternShift shift,
-               const PatternSettings& settings, PatternSums& out) {
+               const PatternSettings& settings, Sums& out) {
   const Grid f(frame);
-  const std::vector<std::uint64_t> columns = patterns_columns(frame, pixels, shift, settings);
+  const std::vector<std::uint32_t> cells = patterns_difference(frame, pixels, {shift}, settings);
+  const CellPlane plane(frame, cells, settings.window_cells);
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t here = f.at(x, y);
-      const PatternShift s = shift_at(shift, behind.inverse[here]);
-      if (!(pixels[here] & DEFRAY_PATTERN_BEHIND) || !f.has(x + s.x, y + s.y)) continue;
-      const std::size_t there = f.at(x + s.x, y + s.y);
-      if (!(pixels[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (!close(frame.coc_quanta[there], behind.coc_quanta[here], settings.tolerance_quanta)) {
-        continue;
-      }
-      const std::uint64_t sum = line_sum(
-          settings.window_px, [&](int j) { return f.has(x + j, y) ? columns[f.at(x + j, y)] : 0; });
-      if (sum >> DEFRAY_PATTERN_COUNT_BIT < least_pairs(settings.window_px)) continue;
-      const Weight weight(sum);
+      if (!(pixels[here] & DEFRAY_PATTERN_BEHIND)) continue;
+      const auto there = f.match(x, y, shift, behind.inverse[here]);
+      if (!there || !(pixels[*there] & DEFRAY_PATTERN_KNOWN)) continue;
+      const std::int32_t own = behind.coc_quanta[here];
+      if (!close(frame.coc_quanta[*there], own, settings.tolerance_quanta)) continue;
+      const auto weight = plane.weight(x, y);
+      if (!weight) continue;
       for (std::size_t c = 0; c < out.difference.size(); ++c) {
-        out.difference[c][here] += weight.w * (frame.channels[c][there] - behind.channels[c][here]);
+        const float moved = frame.channels[c][*there] - behind.channels[c][here];
+        out.difference[c][here] += weight->w * moved;
       }
-      out.weight[here] += weight.w;
-      out.weighted_square[here] += weight.square_w;
+      out.weight[here] += weight->w;
+      out.square[here] += weight->square_w;
     }
   });
 }
@@ -85,52 +131,52 @@ void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, Pat
 }  // namespace
 
 std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
-                                               PatternShift shift,
+                                               const std::vector<PatternShift>& shifts,
                                                const PatternSettings& settings) {
   const Grid f(frame);
-  std::vector<std::uint32_t> out(pixels.size());
-  parallel_for(frame.height, [&](int y) {
-    for (int x = 0; x < frame.width; ++x) {
-      const std::size_t here = f.at(x, y);
-      const PatternShift s = shift_at(shift, frame.inverse[here]);
-      const bool is_too_short = shift.parallel != 0 && s == PatternShift{0, 0};
-      if (is_too_short || !f.has(x + s.x, y + s.y)) continue;
-      const std::size_t there = f.at(x + s.x, y + s.y);
-      const bool known =
-          pixels[here] & DEFRAY_PATTERN_KNOWN && pixels[there] & DEFRAY_PATTERN_KNOWN;
-      if (!known ||
-          !close(frame.coc_quanta[here], frame.coc_quanta[there], settings.tolerance_quanta)) {
-        continue;
-      }
-      out[here] = DEFRAY_PATTERN_KNOWN | squared_difference(pixels[here], pixels[there]);
+  const std::size_t row = pattern_row_words(frame.width), units = size(pattern_units(frame.width));
+  const std::size_t count = row * size(pattern_rows(frame.height));
+  const Words needed = needed_units(frame, pixels, settings.window_cells);
+  std::vector<std::uint32_t> cells(shifts.size() * count);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const int x = static_cast<int>(i % size(frame.width)),
+              y = static_cast<int>(i / size(frame.width));
+    const std::size_t cell_y = size(y / DEFRAY_PATTERN_CELL);
+    const bool is_needed = needed[cell_y * units + size(x / DEFRAY_RUN)] != 0;
+    if (!is_needed || !(pixels[i] & DEFRAY_PATTERN_KNOWN)) continue;
+    const std::size_t cell = cell_y * row + size(left_cells + x / DEFRAY_PATTERN_CELL);
+    for (std::size_t s = 0; s < shifts.size(); ++s) {
+      const auto there = f.match(x, y, shifts[s], frame.inverse[i]);
+      if (!there || !(pixels[*there] & DEFRAY_PATTERN_KNOWN)) continue;
+      const std::int32_t own = frame.coc_quanta[i];
+      if (!close(own, frame.coc_quanta[*there], settings.tolerance_quanta)) continue;
+      cells[s * count + cell] += (1u << count_bit) + squared_difference(pixels[i], pixels[*there]);
     }
-  });
-  return out;
+  }
+  return cells;
 }
 
-std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
-                                            PatternShift shift, const PatternSettings& settings) {
-  const Grid f(frame);
-  const std::vector<std::uint32_t> difference = patterns_difference(frame, pixels, shift, settings);
-  std::vector<std::uint64_t> out(pixels.size());
-  parallel_for(frame.height, [&](int y) {
-    for (int x = 0; x < frame.width; ++x) {
-      out[f.at(x, y)] = line_sum(settings.window_px, [&](int j) -> std::uint64_t {
-        if (!f.has(x, y + j)) return 0;
-        const std::uint64_t d = difference[f.at(x, y + j)];
-        return d ? (std::uint64_t{1} << DEFRAY_PATTERN_COUNT_BIT) + (d - DEFRAY_PATTERN_KNOWN) : 0;
-      });
+Frame TwinBackend::patterns(const Frame& frame, Frame behind, const Words& pixels,
+                            const Plane& variance, const std::vector<PatternShift>& shifts,
+                            const PatternSettings& settings) {
+  Sums sums(frame.channels.size(), pixels.size());
+  for (const PatternShift& shift : shifts) add_shift(frame, behind, pixels, shift, settings, sums);
+  std::vector<std::span<float>> colour;
+  for (Values<float>& channel : behind.channels) colour.push_back(channel.edit());
+  const int columns = pattern_units(frame.width) * DEFRAY_PATTERN_UNIT;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t x = i % size(frame.width), y = i / size(frame.width);
+    const float v = variance[y / DEFRAY_PATTERN_CELL * size(columns) + x / DEFRAY_PATTERN_CELL];
+    const float w = sums.weight[i];
+    if (!(pixels[i] & DEFRAY_PATTERN_BEHIND) || !(w > 0) || !(v > 0)) continue;
+    const float gain = 1 - sums.square[i] / w / (2 * v);
+    if (!(gain > 0)) continue;
+    for (std::size_t c = 0; c < colour.size(); ++c) {
+      const float moved = colour[c][i] + gain * (sums.difference[c][i] / w);
+      if (std::isfinite(moved)) colour[c][i] = moved;
     }
-  });
-  return out;
-}
-
-PatternSums TwinBackend::patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                                  const std::vector<PatternShift>& shifts,
-                                  const PatternSettings& settings) {
-  PatternSums out(frame.channels.size(), pixels.size());
-  for (const PatternShift& shift : shifts) add_shift(frame, behind, pixels, shift, settings, out);
-  return out;
+  }
+  return behind;
 }
 
 }  // namespace defray::reference

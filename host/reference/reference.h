@@ -51,10 +51,9 @@ std::vector<Plane> gather_literal(const DefrayGatherParams& p, const GatherSampl
 std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples& samples,
                                 const std::vector<Plane>& channels, const Frame& frame);
 
-/// Twins of kernels `patterns_difference` and `patterns_columns`.
+/// Twin of kernel `patterns_difference`: [shifts][rows of cells][pattern_row_words].
 std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& pixels,
-                                               PatternShift shift, const PatternSettings& settings);
-std::vector<std::uint64_t> patterns_columns(const Frame& frame, const Words& pixels,
-                                            PatternShift shift, const PatternSettings& settings);
+                                               const std::vector<PatternShift>& shifts,
+                                               const PatternSettings& settings);
 
 }  // namespace defray::reference

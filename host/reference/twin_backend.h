@@ -37,9 +37,8 @@ class TwinBackend : public Backend {
   Words mixed(const Frame& frame) override;
   /// It looks behind every pixel, in whatever tile.
   Frame fill(const Frame& frame, const Words& mixed, int directions) override;
-  PatternSums patterns(const Frame& frame, const Frame& behind, const Words& pixels,
-                       const std::vector<PatternShift>& shifts,
-                       const PatternSettings& settings) override;
+  Frame patterns(const Frame& frame, Frame behind, const Words& pixels, const Plane& variance,
+                 const std::vector<PatternShift>& shifts, const PatternSettings& settings) override;
   Surfaces split(const Frame& frame, const Words& mixed, Frame behind) override;
   Frame assemble(const Surfaces& surfaces) override;
   Values<float> highlights(const Frame& frame, int light_channels) override;

@@ -17,7 +17,7 @@ float any_inverse(Random& random) {
 
 }  // namespace
 
-int window_of(const Case& c) { return std::array{25, 1, 2, 7}[c.seed % 4]; }
+int window_of(const Case& c) { return std::array{6, 1, 2, 3}[c.seed % 4]; }
 
 PatternCase::PatternCase(const Case& c, const Input& in, bool hides_everything)
     : frame(frame_of(c, in)), behind(frame.without_planes()) {
@@ -32,7 +32,7 @@ PatternCase::PatternCase(const Case& c, const Input& in, bool hides_everything)
   for (const Plane& plane : in.channels) {
     behind.channels.emplace_back(Plane(plane.rbegin(), plane.rend()));
   }
-  settings.window_px = window_of(c);
+  settings.window_cells = window_of(c);
   // Some pairs are of one surface, some are not.
   settings.tolerance_quanta = 256 + static_cast<std::int32_t>(128 * c.coc_px);
   add_shifts(c);

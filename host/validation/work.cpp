@@ -29,9 +29,7 @@ double add_work(const Case& c) {
 
 double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
 
-double columns_work(const Case& c) { return pixels(c) * (4 + 2.0 * window_of(c)); }
-
-double difference_work(const Case& c) { return pixels(c) * 4; }
+double difference_work(const Case& c) { return shift_count * pixels(c) * 4; }
 
 double mixed_work(const Case& c) { return 20 * pixels(c) + band_work(c); }
 
@@ -52,7 +50,7 @@ double linear_work(const Case& c) {
 }
 
 double match_work(const Case& c) {
-  return shift_count * (pixels(c) * (4 + 3.0 * window_of(c)) + band_work(c));
+  return shift_count * pixels(c) * (8 + 0.25 * squared(window_of(c))) + band_work(c);
 }
 
 double rdb_work(const Case& c) {

@@ -8,7 +8,6 @@ double pixels(const Case& c);
 
 double add_work(const Case& c);
 double clear_work(const Case& c);
-double columns_work(const Case& c);
 double difference_work(const Case& c);
 double mixed_work(const Case& c);
 double fill_work(const Case& c);

@@ -67,7 +67,7 @@ inline std::vector<Fault> stage_faults() {
       {"mixed",
        "stale output: only runs with mixed pixels written",
        {"  store_run(p.width, mixed",
-        "  if (any(as_int16(is_mixed << 31u))) store_run(p.width, mixed"}},
+        "  if (any_lane(as_int16(is_mixed << 31u))) store_run(p.width, mixed"}},
       {"fill",
        "sine and cosine swapped",
        {"(float2)(c[part], c[4u - part])", "(float2)(c[4u - part], c[part])"}},
@@ -236,7 +236,7 @@ inline std::vector<Fault> stage_faults() {
        {"(x + dx < (int)p.width)", "(x + dx <= (int)p.width)"}},
       {"soften",
        "fragments of a run with other strides read beside each other",
-       {"places.is_line = all(", "places.is_line = any("}},
+       {"places.is_line = all_lanes(", "places.is_line = any_lane("}},
       {"soften",
        "wide squares without a stride",
        {"dx = s.stride * i, dy = s.stride * j", "dx = i, dy = j"}},
@@ -246,7 +246,7 @@ inline std::vector<Fault> stage_faults() {
        {"(difference == 0.0f) | ~isfinite(own)", "(difference == 0.0f)"}},
       {"soften",
        "stale output: sharp fragments",
-       {"  write_mean(out0", "  if (any(s.is_active)) write_mean(out0"}},
+       {"  write_mean(out0", "  if (any_lane(s.is_active)) write_mean(out0"}},
   };
 }
 

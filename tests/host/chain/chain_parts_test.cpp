@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "chain/fill_tiles.h"
 #include "chain/highlight_tiles.h"
-#include "chain/patterns_window.h"
+#include "chain/patterns_cells.h"
 #include "support.h"
 
 namespace defray::test::chain_parts_test {
@@ -167,83 +167,33 @@ TEST(HighlightTiles, FarTilesDoNotMatterToSmallDiscs) {
             (std::vector<float>{1, 1, 1, 0.25f, 0.25f}));
 }
 
-/// Matches that lie 0.6 away, in sums of two shifts; surroundings that differ by D.
-float moved(double difference_squared, double variance) {
-  PatternSums sums(1, 1);
-  sums.difference[0][0] = 3 * 0.6f;
-  sums.weight[0] = 3;
-  sums.weighted_square[0] = static_cast<float>(3 * difference_squared);
-  Planes behind{Plane{0.5f}};
-  blend_patterns(std::vector<std::uint32_t>{DEFRAY_PATTERN_BEHIND}, sums,
-                 {static_cast<float>(variance)}, behind);
-  return behind[0][0] - 0.5f;
-}
-
-TEST(PatternGain, IsTheShareOfTheVarianceThatMatchesExplain) {
-  constexpr double variance = 40;
-  // D = 2 (V - covariance): unlike by chance alone, half explained, all of it.
-  for (const double explained : {0.0, 0.25, 0.5, 1.0}) {
-    const double covariance = explained * variance;
-    EXPECT_NEAR(moved(2 * (variance - covariance), variance), 0.6 * explained, 1e-6);
-  }
-  EXPECT_EQ(moved(3 * variance, variance), 0);
-  EXPECT_EQ(moved(0, 0), 0);
-}
-
-/// Cells of a grid over a window of which a pixel is wanted.
-using Cells = std::set<std::pair<std::uint32_t, std::uint32_t>>;
-
-Cells cells_of(const std::vector<PatternUnit>& units) {
-  Cells cells;
-  for (const PatternUnit& u : units) cells.insert({u.x, u.y});
-  EXPECT_EQ(cells.size(), units.size());
-  return cells;
-}
-
-TEST(PatternUnits, AreThoseNearSomethingHidden) {
-  constexpr int n = 5, run = DEFRAY_PATTERN_RUN, wide = DEFRAY_PATTERN_COLUMNS;
-  const Frame frame{150, 200, std::vector<std::int32_t>(150 * 200)};
-  PatternSettings settings;
-  settings.window_px = n;
-  const PatternMargins margins({{-9, 3}, {4, -12}}, n);
-  const DefrayPatternsParams p = patterns_band(frame, margins, settings, 30, 140);
-  const int left = static_cast<int>(p.margin_x), top = static_cast<int>(p.margin_y);
-  for (std::uint32_t seed = 0; seed < 3; ++seed) {
-    Random random(1, 1, seed);
-    std::vector<std::uint32_t> pixels((140 + 2 * size(top)) * p.stride);
-    Cells match, columns, difference;
+TEST(PatternUnits, AreThoseInTheWindowsOfWhatHidesSomething) {
+  const Frame frame{151, 202, std::vector<std::int32_t>(151 * 202)};
+  const int units = pattern_units(frame.width), rows = pattern_rows(frame.height);
+  EXPECT_EQ(units, 10);
+  EXPECT_EQ(rows, 51);
+  for (const int n : {1, 2, 5, 6}) {
+    Random random(1, n, 3);
+    std::vector<std::uint32_t> pixels(frame.pixels(), DEFRAY_PATTERN_KNOWN);
+    std::vector<std::array<int, 2>> hiding;
     for (int i = 0; i < 4; ++i) {
-      const int x = static_cast<int>(150 * random.next()),
-                y = static_cast<int>(140 * random.next());
-      pixels[size(y + top) * p.stride + size(x + left)] = DEFRAY_PATTERN_BEHIND;
-      match.insert({word(left + x / DEFRAY_PATTERN_CHUNK * DEFRAY_PATTERN_CHUNK), word(top + y)});
-      for (int column = left + x - n + 1; column < left + x + n; ++column) {
-        columns.insert({word(column / wide * wide),
-                        word(top + y / DEFRAY_PATTERN_STRIP * DEFRAY_PATTERN_STRIP)});
+      const int x = static_cast<int>(151 * random.next()),
+                y = static_cast<int>(202 * random.next());
+      pixels[frame.index(x, y)] |= DEFRAY_PATTERN_BEHIND;
+      hiding.push_back({x / DEFRAY_RUN, y / DEFRAY_PATTERN_CELL});
+    }
+    const Words needed = needed_units(frame, pixels, n);
+    ASSERT_EQ(needed.size(), size(units) * size(rows));
+    for (int j = 0; j < rows; ++j) {
+      for (int i = 0; i < units; ++i) {
+        const bool is_near = std::any_of(hiding.begin(), hiding.end(), [&](const auto& unit) {
+          // Cells between the nearest of both.
+          const int apart = std::max(0, (std::abs(i - unit[0]) - 1) * DEFRAY_PATTERN_UNIT + 1);
+          return (i == unit[0] || apart < n) && std::abs(j - unit[1]) < n;
+        });
+        EXPECT_EQ(needed[size(j) * size(units) + size(i)], is_near) << n << " " << i << " " << j;
       }
     }
-    for (const auto& [x, y] : columns) {
-      const int end = std::min(static_cast<int>(y) + DEFRAY_PATTERN_STRIP, top + 140);
-      for (int row = static_cast<int>(y) - n + 1; row < end + n - 1; ++row) {
-        difference.insert({x / run * run, word(row)});
-      }
-    }
-    const PatternUnits units = patterns_units(p, pixels, 0, 140);
-    EXPECT_EQ(cells_of(units.match), match);
-    EXPECT_EQ(cells_of(units.columns), columns);
-    EXPECT_EQ(cells_of(units.difference), difference);
-
-    // Those of a part of the rows.
-    constexpr int strip = DEFRAY_PATTERN_STRIP;
-    const PatternUnits upper = patterns_units(p, pixels, 0, strip);
-    const PatternUnits lower = patterns_units(p, pixels, strip, 140);
-    const auto put_together = [](Cells a, const Cells& b) {
-      return a.insert(b.begin(), b.end()), a;
-    };
-    EXPECT_EQ(put_together(cells_of(upper.match), cells_of(lower.match)), match);
-    EXPECT_EQ(put_together(cells_of(upper.columns), cells_of(lower.columns)), columns);
-    EXPECT_EQ(upper.match.size() + lower.match.size(), match.size());
-    for (const PatternUnit& unit : upper.match) EXPECT_LT(unit.y, word(top + strip));
   }
 }
 

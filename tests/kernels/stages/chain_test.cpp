@@ -36,9 +36,9 @@ class LateBackend : public reference::TwinBackend {
                  const Progress& progress) override {
     return wait("rays"), TwinBackend::rays(f, plan, lights, progress);
   }
-  PatternSums patterns(const Frame& f, const Frame& b, const Words& w,
-                       const std::vector<PatternShift>& s, const PatternSettings& p) override {
-    return wait("patterns"), TwinBackend::patterns(f, b, w, s, p);
+  Frame patterns(const Frame& f, Frame b, const Words& w, const Plane& v,
+                 const std::vector<PatternShift>& s, const PatternSettings& p) override {
+    return wait("patterns"), TwinBackend::patterns(f, std::move(b), w, v, s, p);
   }
 
  private:

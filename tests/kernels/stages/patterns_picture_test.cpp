@@ -1,5 +1,4 @@
 // `patterns`: what it must and must not change.
-#include "chain/patterns_window.h"
 #include "patterns_scene.h"
 #include "reference/reference.h"
 

@@ -1,7 +1,7 @@
 // `patterns`: the kernels against their twins.
-#include "chain/patterns_window.h"
+#include "chain/patterns_cells.h"
+#include "opencl/launch_table.h"
 #include "patterns_scene.h"
-#include "reference/reference.h"
 
 namespace defray::test::patterns_test {
 namespace {
@@ -22,30 +22,30 @@ PatternScene random_scene(Size size, double share) {
   return s;
 }
 
-std::uint64_t hash_of_sums(const PatternSums& s) {
-  std::vector<Plane> all = s.difference;
-  all.push_back(s.weight);
-  all.push_back(s.weighted_square);
-  return hash_of(all);
-}
-
 const std::vector<PatternShift> some_shifts{{3, 1},    {-3, -1}, {0, 5},      {-40, 0},
                                             {1000, 3}, {0, 0},   {50, 0, 60}, {0, -30, 45}};
 
-void expect_twins_bits(const PatternScene& s, PatternSettings settings) {
-  const Size size = s.size;
-  const std::uint64_t twin =
-      hash_of_sums(twins().patterns(s.frame(), s.hidden(), s.words(), some_shifts, settings));
-  const PatternMargins margins(some_shifts, settings.window_px);
+/// Colours behind, moved.
+std::uint64_t moved(const PatternScene& s, Backend& backend, const PatternSettings& settings,
+                    const std::vector<PatternShift>& shifts = some_shifts) {
+  const Frame frame = s.frame();
+  const Plane variance = patterns_variance(frame, s.words(), settings);
+  const Frame behind = backend.patterns(frame, s.hidden(), s.words(), variance, shifts, settings);
+  std::vector<Plane> planes;
+  for (const auto& channel : behind.channels) planes.emplace_back(channel.begin(), channel.end());
+  return hash_of(planes);
+}
+
+void expect_twins_bits(const PatternScene& s, const PatternSettings& settings) {
+  const std::uint64_t twin = moved(s, twins(), settings);
   for (const int rows : {0, 1, 7, 64}) {
-    if (rows == 1 && size.height > 50) continue;
-    const InBands in_bands(session(), rows > 0 ? patterns_band_bytes(size.width, margins, rows)
-                                               : default_memory_bytes);
+    if (rows == 1 && s.size.height > 50) continue;
+    // As on a device with memory of its own: shifts and windows reach from band to band.
+    const std::size_t row = size(s.size.width) * launch_of("patterns_match").bytes_a_surface;
+    const InBands in_bands(session(), rows > 0 ? size(rows) * row : default_memory_bytes);
     session().set_work_group(rows == 7 ? 3 : 0, rows == 7 ? 1 : 0);
-    EXPECT_EQ(
-        hash_of_sums(device().patterns(s.frame(), s.hidden(), s.words(), some_shifts, settings)),
-        twin)
-        << size.width << "x" << size.height << ", window " << settings.window_px << ", rows "
+    EXPECT_EQ(moved(s, device(), settings), twin)
+        << s.size.width << "x" << s.size.height << ", window " << settings.window_cells << ", rows "
         << rows;
   }
   session().set_work_group(0, 0);
@@ -55,32 +55,28 @@ TEST(Patterns, KernelsEqualTwinsBitForBitWhateverBandsAndWorkGroups) {
   for (const Size size : awkward_sizes()) {
     if (is_slow_device() && size.width * size.height > 400) continue;
     for (const double share : {0.3, 0.002}) {
-      for (const int window_px : {1, 2, 9, 25}) {
-        if (is_slow_device() && window_px > 9) continue;
+      for (const int window_cells : {1, 2, 4, 6}) {
+        if (is_slow_device() && window_cells > 2) continue;
         PatternSettings settings;
-        settings.window_px = window_px;
+        settings.window_cells = window_cells;
         expect_twins_bits(random_scene(size, share), settings);
       }
     }
   }
 }
 
-TEST(Patterns, BandsTakeTheMemoryTheyAreReckonedWith) {
+TEST(Patterns, DifferencesTakeNoMoreThanTheMemory) {
   const PatternScene s = random_scene({90, 120}, 0.3);
   const PatternSettings settings;
-  const std::vector<PatternShift> shifts{{10, -20}, {0, 15}};
-  const PatternMargins margins(shifts, settings.window_px);
-  for (const int rows : {20, 60}) {
-    const std::size_t given = patterns_band_bytes(90, margins, rows);
-    const InBands in_bands(session(), given);
+  // 6 units and 6 at their sides, of 16 bytes, a row of cells and a shift; windows reach 5 rows.
+  const std::size_t row = some_shifts.size() * 12 * 16;
+  for (const std::size_t rows : {11, 20}) {
+    session().set_memory(rows * row);
     const std::size_t before = session().traffic().made;
-    device().patterns(s.frame(), s.hidden(), s.words(), shifts, settings);
-    const auto made = static_cast<double>(session().traffic().made - before);
-    const double reckoned = static_cast<double>(given) * 120 / rows;
-    // The first and the last band have less above and below.
-    EXPECT_LE(made / reckoned, 1) << rows;
-    EXPECT_GT(made / reckoned, 0.85) << rows;
+    moved(s, device(), settings);
+    EXPECT_EQ(session().traffic().made - before, rows * row);
   }
+  session().set_memory(default_memory_bytes);
 }
 
 TEST(Patterns, TheLargestWindowFullOfTheLargestDifferencesFits) {
@@ -88,13 +84,47 @@ TEST(Patterns, TheLargestWindowFullOfTheLargestDifferencesFits) {
   PatternScene s({100, 100});
   s.paint([](int x, int, int) { return x % 2 ? 1.0f : 0.0f; }, [](int, int) { return false; });
   s.is_behind.assign(s.pixels(), 1);
+  for (Plane& channel : s.behind) channel.assign(s.pixels(), 0.5f);
   PatternSettings settings;
-  settings.window_px = DEFRAY_PATTERN_LARGEST_WINDOW;
-  const PatternSums sums = device().patterns(s.frame(), s.hidden(), s.words(), {{1, 0}}, settings);
-  const std::size_t middle = s.at(50, 50);
-  EXPECT_NEAR(sums.weighted_square[middle] / sums.weight[middle], 3 * 255 * 255, 1);
-  EXPECT_EQ(hash_of_sums(sums),
-            hash_of_sums(twins().patterns(s.frame(), s.hidden(), s.words(), {{1, 0}}, settings)));
+  settings.window_cells = DEFRAY_PATTERN_LARGEST_WINDOW;
+  // D = 3 x 255^2 = V: half of the variance is explained, and half of the way is gone.
+  const Plane variance(size(pattern_rows(100) * pattern_units(100)) * DEFRAY_PATTERN_UNIT,
+                       3 * 255 * 255);
+  for (Backend* backend : device_and_twins()) {
+    const Frame behind =
+        backend->patterns(s.frame(), s.hidden(), s.words(), variance, {{1, 0}}, settings);
+    for (const int x : {50, 51}) {
+      EXPECT_NEAR(behind.channels[0][s.at(x, 50)], x % 2 ? 0.25 : 0.75, 1e-5);
+    }
+  }
+}
+
+/// How far a colour moves towards matches 0.6 away whose surroundings differ by D = 3 x 10^2.
+double way_moved(Backend& backend, double variance) {
+  PatternScene s({64, 48});
+  s.paint([](int x, int, int) { return x < 32 ? 0.3f : 0.9f; }, [](int, int) { return false; });
+  for (std::size_t i = 0; i < s.pixels(); ++i) {
+    s.encoded[i] = DEFRAY_PATTERN_KNOWN | (i % 64 < 32 ? 0x646464u : 0x6e6e6eu);
+    s.is_behind[i] = i % 64 < 32;
+  }
+  for (Plane& channel : s.behind) channel.assign(s.pixels(), 0.3f);
+  const Plane spread(size(pattern_rows(48) * pattern_units(64)) * DEFRAY_PATTERN_UNIT,
+                     static_cast<float>(variance));
+  const Frame behind = backend.patterns(s.frame(), s.hidden(), s.words(), spread, {{32, 0}}, {});
+  return behind.channels[1][s.at(13, 21)] - 0.3f;
+}
+
+TEST(Patterns, ColoursMoveByTheShareOfTheVarianceThatMatchesExplain) {
+  constexpr double difference = 300 + 0.65025;
+  for (Backend* backend : device_and_twins()) {
+    // D = 2 (V - covariance): hardly explained, half of it, nearly all.
+    for (const double explained : {0.01, 0.25, 0.5, 0.99}) {
+      const double variance = difference / 2 / (1 - explained);
+      EXPECT_NEAR(way_moved(*backend, variance), 0.6 * explained, 1e-5);
+    }
+    EXPECT_EQ(way_moved(*backend, difference / 3), 0);
+    EXPECT_EQ(way_moved(*backend, 0), 0);
+  }
 }
 
 TEST(Patterns, TheWholeStageEqualsItsTwinOnAwkwardFrames) {
@@ -109,32 +139,37 @@ TEST(Patterns, TheWholeStageEqualsItsTwinOnAwkwardFrames) {
 }
 
 TEST(Patterns, VarianceIsThatOfTheWindow) {
-  // More rows than are worked out together.
   const PatternScene s = scene_of(noise, {110, 150});
+  constexpr int n = 3;
   PatternSettings settings;
-  settings.window_px = 5;
+  settings.window_cells = n;
   const auto pixels = s.words();
   const Plane variance = patterns_variance(s.frame(), pixels, settings);
   for (const auto& [px, py] :
        {std::pair{91, 15}, {90, 0}, {103, 149}, {94, 127}, {95, 128}, {93, 7}}) {
-    double n = 0, sum[3] = {}, squares = 0;
-    for (int y = std::max(0, py - 4); y <= std::min(149, py + 4); ++y) {
-      for (int x = std::max(0, px - 4); x <= std::min(109, px + 4); ++x) {
-        const std::uint32_t v = pixels[s.at(x, y)];
-        if (!(v & DEFRAY_PATTERN_KNOWN)) continue;
-        const double w = (5 - std::abs(x - px)) * (5 - std::abs(y - py));
-        n += w;
-        for (int c = 0; c < 3; ++c) {
-          const double value = v >> (8 * c) & 255;
-          sum[c] += w * value;
-          squares += w * value * value;
-        }
+    double count = 0, sum[3] = {}, squares = 0;
+    for (std::size_t i = 0; i < s.pixels(); ++i) {
+      const int x = static_cast<int>(i) % 110, y = static_cast<int>(i) / 110;
+      const int across = n - std::abs(x / 4 - px / 4), down = n - std::abs(y / 4 - py / 4);
+      const std::uint32_t v = pixels[i];
+      if (!(v & DEFRAY_PATTERN_KNOWN) || across <= 0 || down <= 0) continue;
+      const double w = across * down;
+      count += w;
+      for (int c = 0; c < 3; ++c) {
+        const double value = v >> (8 * c) & 255;
+        sum[c] += w * value;
+        squares += w * value * value;
       }
     }
     const double expected =
-        n == 0 ? 0 : squares / n - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (n * n);
-    EXPECT_NEAR(variance[s.at(px, py)], expected, 1e-6 * expected) << px << " " << py;
+        squares / count - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (count * count);
+    const float found = variance[size(py / 4 * 28 + px / 4)];  // 7 units of 4 cells a row
+    EXPECT_NEAR(found, expected, 1e-6 * expected) << px << " " << py;
   }
+  // Nothing is known, or nothing hidden.
+  EXPECT_EQ(patterns_variance(s.frame(), Words(s.pixels(), DEFRAY_PATTERN_BEHIND), settings),
+            Plane(variance.size()));
+  EXPECT_EQ(variance[size(75 / 4 * 28)], 0);
 }
 
 }  // namespace
