@@ -24,6 +24,10 @@ TEST(Sequence, Ranges) {
   for (const char* many : {"1-999999999", "1-999999999y1", "1-600000,600001-1200000"}) {
     expect_error(ErrorKind::usage, {"at most"}, [many] { parse_frames(many); });
   }
+  // 1, 3 ... 2000001.
+  expect_error(ErrorKind::usage, {"goes over 1000001 frames", "at most 1000000"},
+               [] { parse_frames("1-2000002x2"); });
+  EXPECT_EQ(parse_frames("1-2000000x2").size(), 1000000u);
   expect_error(ErrorKind::usage, {"not a frame range"}, [] { parse_frames("1-2000000000"); });
   expect_error(ErrorKind::usage, {"no frame"}, [] { parse_frames("1-1y2"); });
 }

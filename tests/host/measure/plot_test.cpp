@@ -127,6 +127,20 @@ TEST(Plot, MarkersAreDiscsSquaresDiamondsAndTriangles) {
   }
 }
 
+TEST(Plot, ColoursAreThosePeopleOfAllKindsOfVisionTellApart) {
+  // Okabe & Ito 2008: blue, vermilion, bluish green, reddish purple, orange, sky blue, black.
+  const std::vector<std::array<int, 3>> expected = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
+                                                    {204, 121, 167}, {230, 159, 0}, {86, 180, 233},
+                                                    {0, 0, 0}};
+  Plot plot{"Title", "x", "y"};
+  for (int i = 0; i < 7; ++i) plot.series.push_back({"", {{double(i), double(i)}}, false, true});
+  const LdrPicture picture = drawn(plot);
+  for (int i = 0; i < 7; ++i) {
+    const auto at = plot_position(plot, {double(i), double(i)});
+    EXPECT_EQ(colour_at(picture, at[0], at[1]), expected[static_cast<std::size_t>(i)]) << i;
+  }
+}
+
 TEST(Plot, EverySeriesHasItsColourAndLegendLine) {
   Plot plot = plot_of({{0, 0}, {10, 10}});
   plot.series.push_back({"", {{5, 5}}, false, true});

@@ -68,6 +68,16 @@ TEST(Bvh, FindsWhatBruteForceFinds) {
   }
 }
 
+TEST(Primitives, ABoxWithoutDepthIsARectangle) {
+  const Box sheet({0, 0, 5}, {1, 2, 0}, 0, plain({1, 1, 1}));
+  Hit hit{far_away, {}, {}};
+  EXPECT_TRUE(sheet.intersect({{0.5, 1.5, 0}, {0, 0, 1}, 0}, hit));
+  EXPECT_EQ(hit.t, 5);
+  EXPECT_EQ(hit.normal.z, -1);
+  hit.t = far_away;
+  EXPECT_FALSE(sheet.intersect({{1.5, 1.5, 0}, {0, 0, 1}, 0}, hit));
+}
+
 TEST(Primitives, ABoxIsBoundedByItsCorners) {
   RandomVectors random(3);
   for (int i = 0; i < 50; ++i) {

@@ -88,6 +88,21 @@ TEST(Session, SubstitutionsMustHitOnceUnlessTheyAreForEverywhere) {
             session().kernel_names());
 }
 
+TEST(Session, BuffersBeyondTheDevicesLargestAreRefused) {
+  DeviceInfo small = device_under_test();
+  small.max_buffer_bytes = 8 << 20;
+  Session own(small);
+  expect_error(ErrorKind::device, {"a buffer of 16 MiB is needed", "at most 8 MiB", "memory"},
+               [&] { own.buffer(16 << 20); });
+  const std::vector<char> plane(16 << 20);
+  expect_error(ErrorKind::device, {"16 MiB of one image plane", "at most 8 MiB", "max_coc_px"},
+               [&] { own.view(plane); });
+}
+
+TEST(Session, OnlyCpusWorkInHostMemory) {
+  EXPECT_EQ(device_under_test().shares_host_memory, device_under_test().type == "CPU");
+}
+
 /// "kernels/NAME:LINE:" of the first line that holds this text.
 std::string place_of(const std::string& name, const std::string& text) {
   std::ifstream file(DEFRAY_SOURCE_DIR "/kernels/" + name);

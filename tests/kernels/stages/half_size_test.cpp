@@ -31,12 +31,16 @@ TEST(HalfSize, BlocksAreMeansAndHaveASurfacesOwnDepth) {
   const Plane colour{1, 2, 3, 4, 5, 6, 7, 8, 9};
   Frame f = frame_of({40 * 256, 0, 8 * 256, 0, 10 * 256, -8 * 256, 1, 2, 3}, {colour}, {3, 3});
   f.origin_x = 10;
+  f.origin_y = 6;
   f.display_width = 21;
+  f.display_height = 13;
   const HalfFrame half = at_half_size(f);
   EXPECT_EQ(half.frame.width, 2);
   EXPECT_EQ(half.frame.height, 2);
   EXPECT_EQ(half.frame.origin_x, 5);
+  EXPECT_EQ(half.frame.origin_y, 3);
   EXPECT_EQ(half.frame.display_width, 11);
+  EXPECT_EQ(half.frame.display_height, 7);
   const auto mean = half.frame.channels[0].host();
   EXPECT_EQ(Plane(mean.begin(), mean.end()), (Plane{3, 4.5f, 7.5f, 9}));
   // Of 40, 0, 0 and 10 px the second 0, which is the third pixel; of 8 and -8 twice the latter.
@@ -158,6 +162,14 @@ TEST(HalfSize, AlphaGoesThroughTheLensToo) {
   EXPECT_EQ(previewed(f).colour[3], opaque[3]);
   // An alpha that is 1 makes room for what is visible: the same colours as without it.
   EXPECT_EQ(previewed(f).colour[0], previewed(post()).colour[0]);
+  // Where what is visible stands out it is light as well, not alpha.
+  std::vector<Plane> lit{wall, wall, wall};
+  for (Plane& c : lit) c[16 * 44 + 40] = 500;
+  const Plane without = previewed(post(&lit)).colour[2];
+  lit.emplace_back(pixels, 1.0f);
+  Frame lamp = post(&lit);
+  lamp.has_alpha = true;
+  EXPECT_EQ(previewed(lamp).colour[2], without);
 }
 
 TEST(HalfSize, DataIsOfThePixelsThatShow) {

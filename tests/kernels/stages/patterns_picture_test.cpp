@@ -92,6 +92,26 @@ TEST_F(PatternPicture, ParallelShiftsOfAFloorAreItsPeriodAndFrontalWallsHaveNone
   EXPECT_TRUE(find_parallel_shifts(frontal.frame(), frontal.words(), PatternSettings()).empty());
 }
 
+TEST_F(PatternPicture, ParallelShiftsAreLookedForInAllOfALargeFloor) {
+  // Tiles below what is plain: of more pixels than are compared, those of all rows count.
+  const auto inverse = [](int row) { return 0.001f * static_cast<float>(row + 160); };
+  const auto tiles = [=](int x, int y, int c) {
+    const double u = (x - 300) / inverse(y);
+    return static_cast<float>(y < 220 ? 0.5 : 0.5 + 0.3 * std::sin(u / 12 + c));
+  };
+  PatternScene s({600, 480});
+  s.paint(tiles, bar);
+  for (std::size_t i = 0; i < s.pixels(); ++i) {
+    s.inverse[i] = inverse(static_cast<int>(i) / 600);
+    if (!s.is_behind[i]) s.coc[i] = static_cast<std::int32_t>(-9000 * s.inverse[i]);
+  }
+  const auto shifts = find_parallel_shifts(s.frame(), s.words(), PatternSettings());
+  ASSERT_GE(shifts.size(), 2u);
+  const double period = 2 * std::numbers::pi * 12;
+  const double periods = shifts[0].parallel / period;  // lengths are refined by 1/400
+  EXPECT_NEAR(periods, std::round(periods), 0.0025 * periods);
+}
+
 TEST_F(PatternPicture, NoiseStaysSmooth) {
   const PatternScene s = scene_of(noise);
   const auto planes = s.improved();

@@ -197,6 +197,25 @@ TEST(KernelChecks, BandsHaveTheCasesRows) {
   }
 }
 
+TEST(Validation, ProgressGoesFromKernelToKernelAndCaseToCase) {
+  validation::Settings settings;
+  settings.kernels = {"coc", "tiltshift"};
+  std::vector<std::pair<double, std::string>> seen;
+  validation::validate_device(device_under_test(), settings,
+                              [&](double share, const std::string& kernel) {
+                                seen.push_back({share, kernel});
+                              });
+  ASSERT_GT(seen.size(), 6u);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(),
+                             [](const auto& a, const auto& b) { return a.first < b.first; }));
+  EXPECT_EQ(seen.front(), std::pair(0.0, std::string("coc")));
+  EXPECT_EQ(seen.back().second, "tiltshift");
+  EXPECT_GT(seen.back().first, 0.9);
+  for (const auto& [share, kernel] : seen) {
+    if (share != 0.5) EXPECT_EQ(kernel, share < 0.5 ? "coc" : "tiltshift") << share;
+  }
+}
+
 /// A rule alone, for values made by hand.
 KernelCheck rule() { return {"", "", nullptr, nullptr, nullptr}; }
 
