@@ -49,7 +49,9 @@ Session& session() {
 
 Session& session_without_int64() {
   auto& shared = sessions().without_int64;
-  if (!shared) shared = std::make_unique<Session>(device_under_test(), SessionOptions{false});
+  SessionOptions options;
+  options.use_int64_atomics = false;
+  if (!shared) shared = std::make_unique<Session>(device_under_test(), options);
   return *shared;
 }
 

@@ -167,6 +167,16 @@ TEST(HighlightTiles, FarTilesDoNotMatterToSmallDiscs) {
             (std::vector<float>{1, 1, 1, 0.25f, 0.25f}));
 }
 
+TEST(PatternPairs, AMatchNeedsATenthOfAWindows) {
+  for (int n = 1; n <= DEFRAY_PATTERN_LARGEST_WINDOW; ++n) {
+    double weights = 0;
+    for (int x = 0; x < DEFRAY_PATTERN_CELL * (2 * n - 1); ++x) {
+      weights += n - std::abs(x / DEFRAY_PATTERN_CELL - (n - 1));
+    }
+    EXPECT_EQ(least_pairs(n), std::ceil(weights * weights / 10)) << n;
+  }
+}
+
 TEST(PatternUnits, AreThoseInTheWindowsOfWhatHidesSomething) {
   const Frame frame{151, 202, std::vector<std::int32_t>(151 * 202)};
   const int units = pattern_units(frame.width), rows = pattern_rows(frame.height);

@@ -28,7 +28,8 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   tiles.add_hidden(inverse);
   tiles.add_mixed(mixed);
   LightSources lights;
-  lights.where = {{2 + 20, 2 + 18, 300, 0}, {1, 5, 300, 0}};  // fifth, and margin
+  lights.where = {
+      {2 + 20, 2 + 18, 300, 0}, {1, 5, 300, 0}, {2 + 36, 22, 300, 0}};  // fifth, and margins
   tiles.add(lights);
   const Plane picture = tiles.picture();
   ASSERT_EQ(picture.size(), 800u);

@@ -99,6 +99,13 @@ TEST(Session, BuffersBeyondTheDevicesLargestAreRefused) {
                [&] { own.view(plane); });
 }
 
+TEST(Session, GoesWithoutWhatItIsToldToGoWithout) {
+  EXPECT_FALSE(session_without_int64().has_int64_atomics());
+  SessionOptions scalars;
+  scalars.use_vectors = false;
+  EXPECT_FALSE(Session(device_under_test(), scalars).uses_vectors());
+}
+
 TEST(Session, OnlyCpusWorkInHostMemory) {
   EXPECT_EQ(device_under_test().shares_host_memory, device_under_test().type == "CPU");
 }
