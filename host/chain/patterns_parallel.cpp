@@ -50,7 +50,7 @@ class ParallelSearch {
         if (!(pixels_[at(x, y)] & DEFRAY_PATTERN_KNOWN)) continue;
         ++known_;
         const float here = inverse_[at(x, y)], next = inverse_[at(x + dx, y + dy)];
-        // Over a window of 25 px a shift of 100 px changes by 1.
+        // Over a window of 24 px a shift of 100 px changes by 1.
         if (!(std::fabs(next - here) * 2500 > here) || !(here > 0)) continue;
         const std::size_t i = at(x, y);
         const int left = longest.y > 0 ? height_ - 1 - y : width_ - 1 - x;
