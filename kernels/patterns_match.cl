@@ -105,6 +105,35 @@ void move_row(const DefrayPatternsParams p, __global float* channel_behind, cons
             as_uint16(select(old, now, is_moved & isfinite(now))));
 }
 
+// Moves a row's colours towards its matches' mean; `v` is the variance around each pixel.
+void move_to_matches(const DefrayPatternsParams p, const int2 start, const float16 v,
+                     const MatchSums* sums, WRITTEN_CHANNELS(channel_behind)) {
+  const float16 w = sums->weight, gain = 1.0f - sums->square / w / (2.0f * v);
+  const int16 is_moved = (w > 0.0f) & (v > 0.0f) & (gain > 0.0f);
+  if (!any_lane(is_moved)) return;
+#define MOVE(i) \
+  if (p.channels > i) move_row(p, channel_behind##i, start, is_moved, gain*(sums->channel[i] / w))
+  MOVE(0);
+  MOVE(1);
+  MOVE(2);
+  MOVE(3);
+}
+
+// What hides something of a unit's rows, from `start` down; false: nothing does.
+bool find_hidden(const DefrayPatternsParams p, __global const int* restrict pixels,
+                 __global const int* restrict behind_coc,
+                 __global const float* restrict behind_inverse, const int2 start, HiddenRow* rows) {
+  bool has_behind = false;
+  for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
+    const Matches own = itself(p, start + (int2)(0, j));
+    rows[j].is_behind = as_int16((words_at(pixels, own) & DEFRAY_PATTERN_BEHIND) != 0u);
+    rows[j].coc = ints_at(behind_coc, own.places);
+    rows[j].inverse = floats_at(behind_inverse, own.places);
+    has_behind |= any_lane(rows[j].is_behind);
+  }
+  return has_behind;
+}
+
 __kernel void patterns_match(
     const DefrayPatternsParams p, __global const DefrayPatternShift* restrict shifts,
     __global const int* restrict pixels, __global const int* restrict coc_quanta,
@@ -115,19 +144,11 @@ __kernel void patterns_match(
   const int unit = (int)get_global_id(0), cell_row = (int)get_global_id(1);
   const int first = p.first_row + DEFRAY_PATTERN_CELL * (cell_row + margin);
   if (unit >= units || cell_row + 2 * margin >= (int)p.cell_rows) return;
+  const int2 start = (int2)(unit * RUN, first);
   HiddenRow rows[DEFRAY_PATTERN_CELL];
-  MatchSums sums[DEFRAY_PATTERN_CELL];
-  bool has_behind = false;
-  for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
-    const Matches own = itself(p, (int2)(unit * RUN, first + j));
-    rows[j].is_behind = as_int16((words_at(pixels, own) & DEFRAY_PATTERN_BEHIND) != 0u);
-    has_behind |= any_lane(rows[j].is_behind);
-    rows[j].coc = ints_at(behind_coc, own.places);
-    rows[j].inverse = floats_at(behind_inverse, own.places);
-    const MatchSums none = {{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, 0.0f};
-    sums[j] = none;
-  }
-  if (!has_behind) return;
+  if (!find_hidden(p, pixels, behind_coc, behind_inverse, start, rows)) return;
+  const MatchSums none = {{0.0f, 0.0f, 0.0f, 0.0f}, 0.0f, 0.0f};
+  MatchSums sums[DEFRAY_PATTERN_CELL] = {none, none, none, none};
 
   const uint stride = (uint)(units + 2 * DEFRAY_PATTERN_MARGIN) * DEFRAY_PATTERN_UNIT;
   const uint column = (uint)((unit + DEFRAY_PATTERN_MARGIN) * DEFRAY_PATTERN_UNIT - margin);
@@ -138,22 +159,13 @@ __kernel void patterns_match(
     for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
       if (!any_lane(rows[j].is_behind)) continue;
       add_match(p, shifts[i], pixels, coc_quanta, CHANNELS(channel), CHANNELS(channel_behind),
-                agreement, rows[j], (int2)(unit * RUN, first + j), &sums[j]);
+                agreement, rows[j], start + (int2)(0, j), &sums[j]);
     }
   }
 
   const float16 v = of_cells(
       vload4(0, variance + (first / DEFRAY_PATTERN_CELL * units + unit) * DEFRAY_PATTERN_UNIT));
   for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
-    const float16 w = sums[j].weight, gain = 1.0f - sums[j].square / w / (2.0f * v);
-    const int16 is_moved = (w > 0.0f) & (v > 0.0f) & (gain > 0.0f);
-    if (!any_lane(is_moved)) continue;
-    const int2 start = (int2)(unit * RUN, first + j);
-#define MOVE(i) \
-  if (p.channels > i) move_row(p, channel_behind##i, start, is_moved, gain*(sums[j].channel[i] / w))
-    MOVE(0);
-    MOVE(1);
-    MOVE(2);
-    MOVE(3);
+    move_to_matches(p, start + (int2)(0, j), v, &sums[j], CHANNELS(channel_behind));
   }
 }

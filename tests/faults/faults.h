@@ -146,7 +146,7 @@ inline const std::vector<Fault>& faults() {
         "matches_of(p, shift, start, (float16)(1.0f))"}},
       {"patterns_match",
        "first row's matches for all",
-       {"rows[j], (int2)(unit * RUN, first + j)", "rows[0], (int2)(unit * RUN, first + j)"}},
+       {"rows[j], start + (int2)(0, j)", "rows[0], start + (int2)(0, j)"}},
       {"patterns_match", "gain without its half", {"/ (2.0f * v)", "/ v"}},
       {"patterns_match", "what agrees by chance moves away", {" & (gain > 0.0f)", ""}},
       {"patterns_match",
