@@ -44,6 +44,7 @@ int reach_of(const std::vector<PatternShift>& shifts, const PatternSettings& set
 Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
                               const Plane& variance, const std::vector<PatternShift>& shifts,
                               const PatternSettings& settings) {
+  if (shifts.empty()) return behind;
   DefrayPatternsParams p = params_of(f, shifts, settings);
   const int units = pattern_units(f.width), row_units = units * DEFRAY_PATTERN_UNIT;
   const int margin = settings.window_cells - 1;
@@ -57,9 +58,9 @@ Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
       [&](Band& band) {
         const BandRows& rows = band.rows();
         const int cell_rows = pattern_rows(rows.rows);
-        const int group = rows_that_fit(std::min(cell_rows, group_rows), session_.memory_bytes(),
-                                        2 * size(margin) * row_bytes, row_bytes);
-        const cl::Buffer cells = session_.buffer(size(group + 2 * margin) * row_bytes);
+        const int most = rows_that_fit(std::min(cell_rows, group_rows), session_.memory_bytes(),
+                                       2 * size(margin) * row_bytes, row_bytes);
+        const cl::Buffer cells = session_.buffer(size(most + 2 * margin) * row_bytes);
         const cl::Buffer words = band.in(pixels), coc = band.in(f.coc_quanta);
         const cl::Buffer behind_coc = band.in(behind.coc_quanta);
         const cl::Buffer behind_inverse = band.in(behind.inverse), inverse = band.in(f.inverse);
@@ -67,15 +68,14 @@ Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
         const cl::Buffer spread_buffer = band.tiles(spread, row_units, DEFRAY_PATTERN_CELL);
         const auto source = band.in(f.channels), target = band.in_out(behind.channels);
         p.height = word(rows.window_rows);
-        for (int first = 0; first < cell_rows; first += group) {
-          const int count = std::min(group, cell_rows - first);
-          p.first_row = rows.y - rows.window_y + (first - margin) * DEFRAY_PATTERN_CELL;
-          p.cell_rows = word(count + 2 * margin);
+        for (const BandRows& group : cut_into_bands(cell_rows, most, 0)) {
+          p.first_row = rows.y - rows.window_y + (group.y - margin) * DEFRAY_PATTERN_CELL;
+          p.cell_rows = word(group.rows + 2 * margin);
           session_.launch("patterns_difference",
                           {size(units + 2 * DEFRAY_PATTERN_MARGIN), p.cell_rows}, p, shift_buffer,
                           is_needed, words, coc, inverse, cells);
-          session_.launch("patterns_match", {size(units), size(count)}, p, shift_buffer, words, coc,
-                          cells, spread_buffer, behind_coc, behind_inverse, source, target);
+          session_.launch("patterns_match", {size(units), size(group.rows)}, p, shift_buffer, words,
+                          coc, cells, spread_buffer, behind_coc, behind_inverse, source, target);
         }
         session_.finish();  // buffers are this function's own
         band.collect();

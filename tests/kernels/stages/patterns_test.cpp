@@ -65,6 +65,13 @@ TEST(Patterns, KernelsEqualTwinsBitForBitWhateverBandsAndWorkGroups) {
   }
 }
 
+TEST(Patterns, WithoutShiftsNothingMoves) {
+  const PatternScene s = random_scene({40, 23}, 0.3);
+  for (Backend* backend : device_and_twins()) {
+    EXPECT_EQ(moved(s, *backend, {}, {}), hash_of(s.behind));
+  }
+}
+
 TEST(Patterns, DifferencesTakeNoMoreThanTheMemory) {
   const PatternScene s = random_scene({90, 120}, 0.3);
   const PatternSettings settings;
