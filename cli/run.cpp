@@ -15,6 +15,7 @@
 #include "exit_code.h"
 #include "image/safe_output.h"
 #include "options/option_table.h"
+#include "standard_streams.h"
 
 namespace defray::cli {
 namespace {
@@ -46,6 +47,26 @@ std::vector<std::string> known_words(const CLI::App& app) {
   return words;
 }
 
+/// " There are --aperture-diameter, --aperture-image." for words that go on like this one; an
+/// aperture can be an f-number too.
+std::string continued(const std::string& word, const std::vector<std::string>& known) {
+  if (!word.starts_with("--") || word.size() < 4) return "";
+  std::vector<std::string> longer;
+  for (const std::string& name : known) {
+    if (name.starts_with(word)) longer.push_back(name);
+  }
+  if (word == "--aperture") longer.insert(longer.begin(), "--fstop");
+  return longer.empty() ? "" : " There are " + join(longer, ", ") + ".";
+}
+
+bool is_picture(const std::string& word) {
+  const std::string extension = lower_extension(word);
+  for (const char* known : {".exr", ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".hdr"}) {
+    if (extension == known) return word[0] != '-';
+  }
+  return false;
+}
+
 /// "unknown option '--focsu'. Did you mean '--focus'?"
 std::string explain_extras(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
@@ -56,8 +77,14 @@ std::string explain_extras(const CLI::App& app) {
   const char* kind = word.rfind('-', 0) == 0 ? "option" : chosen.empty() ? "command" : "argument";
   const std::string help =
       chosen.empty() ? "defray --help" : "defray " + scope.get_name() + " --help";
-  return fmt::format("unknown {} '{}'.{} See '{}'.", kind, word,
-                     did_you_mean(word, known_words(scope)), help);
+  std::string hint = did_you_mean(word, known_words(scope));
+  if (hint.empty()) hint = continued(word, known_words(scope));
+  if (is_picture(word)) {
+    hint =
+        " Several pictures? A sequence is one name with #### for its numbers, in quotes: "
+        "'shot.####.exr'.";
+  }
+  return fmt::format("unknown {} '{}'.{} See '{}'.", kind, word, hint, help);
 }
 
 /// "--cats-eye: 'abc' cannot be read as a number. Vignetting: offset of ..."; other errors as they
@@ -83,13 +110,17 @@ std::string explain_value(const CLI::ParseError& error, const CLI::App& app) {
                                : type == "FLOAT" ? "a number"
                                                  : "a whole number"));
   }
+  if (option && message == option->get_name() + " is required") {
+    return fmt::format("{} is missing: {}. See 'defray {} --help'", option->get_name(),
+                       option->get_description(), app.get_subcommands().front()->get_name());
+  }
   if (has("required") && has("missing")) return explain("a value is missing");
   if (has("required but received")) return explain("it is given more than once");
   return message;
 }
 
 int fail_with(ErrorKind kind, const std::string& message) {
-  fmt::print(stderr, "defray: error: {}\n", message);
+  print_error("defray: error: " + message);
   return exit_code(kind);
 }
 
@@ -110,8 +141,8 @@ int run_command(int argc, char** argv) {
   app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
-  for (const auto add :
-       {add_render, add_devices, add_scene, add_compare, add_sheet, add_psf, add_validate}) {
+  for (const auto add : {add_render, add_info, add_devices, add_scene, add_compare, add_sheet,
+                         add_psf, add_validate}) {
     const Run command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), command);
   }
@@ -130,7 +161,7 @@ int run_command(int argc, char** argv) {
     if (!app_of->parsed()) continue;
     refuse_empty_values(*app_of);
     const int code = command();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    if (is_output_lost()) {
       return fail_with(ErrorKind::output, "cannot write to standard output");
     }
     return code;
@@ -144,6 +175,7 @@ int run_command(int argc, char** argv) {
 int run(int argc, char** argv) {
   // OpenCV must not open an OpenCL context of its own beside ours.
   setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
+  open_standard_streams();
   remove_temporary_on_signal();
   try {
     return run_command(argc, argv);
@@ -152,7 +184,7 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail_with(ErrorKind::input, "not enough memory for this picture");
   } catch (const std::system_error& error) {  // fmt's, from a broken standard output
-    return fail_with(ErrorKind::output, error.what());
+    return is_output_lost() ? fail_with(ErrorKind::output, error.what()) : ExitCode::ok;
   } catch (const std::exception& error) {
     return fail_with(ErrorKind::internal, error.what());
   }

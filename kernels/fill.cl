@@ -11,6 +11,8 @@
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
 // mixed        [height][width]    from kernel `mixed`: their colour is two surfaces'
+// pure_around  [cells_y][cells_x] so many pixels around those of a run that begins in the cell none
+//                                 is mixed
 // farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;
 //                                 DEFRAY_NOTHING_BEHIND: none behind them
 // channel0..3  [height][width]
@@ -18,210 +20,140 @@
 // behind_inverse [height][width]  1/depth; negative where nothing was found
 // behind0..3   [height][width]    colour
 // Global size: (runs of DEFRAY_RUN pixels of a row, height).
-#include "colour.clh"
 #include "fill_walk.clh"
-#include "rank.clh"
-
-// What a ray over the picture has found.
-typedef struct {
-  uint source;
-  float distance;  // in pixels; 0: nothing
-  float coc;       // quanta, and
-  float inverse;   // 1/depth: continued to where the ray began
-  float weight;    // of its colour
-} Found;
-
-// CoC and depth of the surface at q, continued back along the ray. Its slant is taken from four
-// pixels further on, if they are still the same surface; the result keeps half the step. Places are
-// whole pixels: the way back is measured along the line from q to that pixel.
-Found continue_back(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                    __global const float* restrict inverse, __global const uint* restrict mixed,
-                    const int2 start, const float2 direction, const int t, const int own) {
-  const int2 back = nearest_px((float)t * direction);
-  const int2 on = nearest_px(4.0f * direction);
-  const int2 beyond = start + back + on;
-  const uint q = pixel_at(p.width, p.height, start + back);
-  Found found = {q, (float)t, (float)coc_of(coc_quanta, q), inverse[q], 0.0f};
-  if (!is_inside(p.width, p.height, beyond)) return found;
-  const uint b = pixel_at(p.width, p.height, beyond);
-  const float slant = (float)(coc_of(coc_quanta, q) - coc_of(coc_quanta, b));
-  const float most = 0.5f * (float)(coc_of(coc_quanta, q) - own);
-  if (mixed[b] || fabs(slant) > 4.0f * DEFRAY_JUMP_QUANTA) return found;
-  const float steps = (float)(back.x * on.x + back.y * on.y) / (float)(on.x * on.x + on.y * on.y);
-  const float change = slant * steps;
-  const float kept = clamp(change, -most, most);
-  const float share = change != 0.0f ? kept / change : 0.0f;
-  found.coc += kept;
-  const float continued = found.inverse + (inverse[q] - inverse[b]) * steps * share;
-  found.inverse = continued > 0.0f ? continued : 0.0f;
-  return found;
-}
 
 float2 direction_of(const DefrayFillParams p, const uint i) {
   return sixteenth(i * (DEFRAY_FILL_DIRECTIONS / p.directions));
 }
 
-// How far from black, for the median: NaN counts as the brightest.
-float brightness(const float4 c) {
-  const float sum = fabs(c.x + c.y + c.z);
-  return isnan(sum) ? INFINITY : sum;
+// 1/depth in front of a run's pixels: of a mixed one, that of the nearest surface around it.
+float16 own_inverse_of_run(const Window* w, const int2 start) {
+  const float16 own = inverse_of_run(w, start);
+  const int16 is_pure = pure_of_run(w, start);
+  if (all_lanes(is_pure)) return own;
+  float16 nearest = own;
+  for (int i = 0; i < 9; ++i) {
+    const float16 inverse = inverse_of_run(w, start + (int2)(i % 3 - 1, i / 3 - 1));
+    nearest = select(nearest, inverse, inverse > nearest);
+  }
+  return select(nearest, own, is_pure);
 }
 
-// Without alpha.
-float sum_of_squares(const float4 c) {
-  const float4 s = c * c;
-  return s.x + s.y + s.z;
+// For which pixels of a run anything was found; the CoC of what is nearest.
+int16 find_nearest(const Found* found, const uint directions, float16* coc) {
+  float16 nearest = 0.0f;
+  int16 is_found = 0;
+  *coc = 0.0f;
+  for (uint i = 0; i < directions; ++i) {
+    const float16 distance = found[i].distance;
+    const int16 is_nearer = (distance != 0.0f) & (~is_found | (distance < nearest));
+    nearest = select(nearest, distance, is_nearer);
+    *coc = select(*coc, found[i].coc, is_nearer);
+    is_found |= is_nearer;
+  }
+  return is_found;
 }
 
-// The found colour's weight: looks at four pixels further on, each four pixels from the last, if
-// they are still the same surface. A small highlight gives its place to the brightest of them,
-// unless it lies so close to the edge that it may well go on behind it.
-Found look_further(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                   __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel),
-                   const int2 start, const float2 direction, Found found) {
-  const int coc = coc_of(coc_quanta, found.source);
-  const float4 colour = colour_at(CHANNELS(channel), found.source);
-  float change = 0.0f, size = sum_of_squares(colour), brightest = -1.0f;
-  uint source = found.source;
-  found.weight = 1.0f / (found.distance * found.distance);
-  for (int i = 1; i <= 4; ++i) {
-    const int2 at = start + nearest_px((found.distance + (float)(4 * i)) * direction);
-    if (!is_inside(p.width, p.height, at)) break;
-    const uint q = pixel_at(p.width, p.height, at);
-    if (mixed[q] || abs(coc_of(coc_quanta, q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
-    const float4 c = colour_at(CHANNELS(channel), q);
-    change += sum_of_squares(c - colour);
-    size += sum_of_squares(c);
-    if (!(brightness(c) > brightest)) continue;
-    brightest = brightness(c);
-    source = q;
+// The upper median of how bright those are that count; equal ones in their order.
+float16 median_of(const Found* found, const int16* counts, const uint directions) {
+  int16 count = 0;
+  for (uint i = 0; i < directions; ++i) count -= counts[i];
+  float16 median = 0.0f;
+  for (uint i = 0; i < directions; ++i) {
+    if (!any_lane(counts[i])) continue;
+    const float16 bright = found[i].bright;
+    int16 rank = 0;
+    for (uint k = 0; k < directions; ++k) {
+      const float16 other = found[k].bright;
+      const int16 is_before = k < i ? other <= bright : other < bright;
+      rank -= counts[k] & is_before;
+    }
+    median = select(median, bright, counts[i] & (rank == count / 2));
   }
-  if (brightest < 0.0f) return found;
-  if (isfinite(change) && isfinite(size)) {
-    const float share = change > 0.0f ? fmin(change / size, 8.0f) : 0.0f;
-    found.weight /= 0.1f + share;
-  }
-  if (found.distance > 4.0f && brightness(colour) > 3.0f * brightest) found.source = source;
-  return found;
+  return median;
 }
 
-// 1/depth in front of a pixel: of a mixed one, that of the nearest surface around it.
-float own_inverse_of(const DefrayFillParams p, __global const float* restrict inverse,
-                     __global const uint* restrict mixed, const int2 at) {
-  const uint pixel = pixel_at(p.width, p.height, at);
-  float own = inverse[pixel];
-  for (int i = 0; i < 9 && mixed[pixel]; ++i) {
-    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
-    if (inverse[q] > own) own = inverse[q];
-  }
-  return own;
-}
+// What lies behind a run's pixels.
+typedef struct {
+  int16 is_there, coc;
+  float16 inverse;
+  Colours colours;
+} Filled;
 
-// Nothing behind the pixels of a run.
-void clear_run(const DefrayFillParams p, __global const int* restrict coc_quanta, const int2 start,
-               __global int* restrict behind_coc, __global float* restrict behind_inverse,
-               WRITTEN_CHANNELS(behind)) {
-  for (int i = 0; i < run_length(p.width, start); ++i) {
-    const uint pixel = pixel_at(p.width, p.height, start + (int2)(i, 0));
-    behind_inverse[pixel] = -1.0f;
-    behind_coc[pixel] = coc_quanta[pixel];
-    set_colour(CHANNELS(behind), pixel, (float4)(0.0f));
+// The mean of what was found on the surface of the nearest alone: others' colours say nothing about
+// its highlights.
+Filled fill_run(const Found* found, const uint directions, const int16 own,
+                const float16 own_inverse) {
+  Filled behind;
+  float16 surface;
+  behind.is_there = find_nearest(found, directions, &surface);
+  const float16 same = DEFRAY_JUMP_QUANTA + 0.125f * (surface - convert_float16(own));
+  int16 counts[DEFRAY_FILL_DIRECTIONS];
+  for (uint i = 0; i < directions; ++i) {
+    counts[i] = (found[i].distance != 0.0f) & (fabs(found[i].coc - surface) <= same);
   }
-}
-
-// What the rays of a run's pixels in one direction have found.
-void look_from_run(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                   __global const float* restrict inverse, __global const uint* restrict mixed,
-                   CHANNEL_PARAMETERS(channel), const int2 start, const float2 direction,
-                   const int16 own, const int farthest, Found* found) {
-  int steps[RUN], owns[RUN];
-  look_behind(p, coc_quanta, mixed, start, direction, own, farthest, steps);
-  vstore16(own, 0, owns);
-  for (int i = 0; i < RUN; ++i) {
-    found[i].distance = 0.0f;
-    if (steps[i] == 0) continue;
-    const int2 at = start + (int2)(i, 0);
-    const Found f = continue_back(p, coc_quanta, inverse, mixed, at, direction, steps[i], owns[i]);
-    found[i] = look_further(p, coc_quanta, mixed, CHANNELS(channel), at, direction, f);
-  }
-}
-
-// What lies behind a pixel, of what its rays have found, RUN apart.
-void fill_pixel(const DefrayFillParams p, __global const float* restrict inverse,
-                __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
-                const int own, const Found* by_direction, __global int* restrict behind_coc,
-                __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind)) {
-  Found found[DEFRAY_FILL_DIRECTIONS];
-  float bright[DEFRAY_FILL_DIRECTIONS];
-  uint count = 0u, nearest = 0u;
-  for (uint i = 0; i < p.directions; ++i) {
-    const Found f = by_direction[i * RUN];
-    if (f.distance == 0.0f) continue;
-    found[count] = f;
-    bright[count] = brightness(colour_at(CHANNELS(channel), f.source));
-    if (f.distance < found[nearest].distance) nearest = count;
-    ++count;
-  }
-  if (count == 0u) return;
-
-  // The surface of the nearest alone: others' colours say nothing about its highlights.
-  const float surface = found[nearest].coc;
-  const float same = DEFRAY_JUMP_QUANTA + 0.125f * (surface - (float)own);
-  uint on_it = 0u;
-  for (uint i = 0; i < count; ++i) {
-    if (fabs(found[i].coc - surface) > same) continue;
-    found[on_it] = found[i];
-    bright[on_it] = bright[i];
-    ++on_it;
-  }
-  count = on_it;
-
-  float median = 0.0f;
-  for (uint i = 0; i < count; ++i) {
-    if (rank_of(bright, count, i) == count / 2u) median = bright[i];
-  }
-  float weights = 0.0f, coc = 0.0f, inverse_sum = 0.0f, colour_weights = 0.0f;
-  float4 colour = 0.0f;
-  for (uint i = 0; i < count; ++i) {
+  const float16 brightest = 10.0f * median_of(found, counts, directions), none = 0.0f;
+  float16 weights = 0.0f, coc = 0.0f, inverse = 0.0f, colour_weights = 0.0f;
+  Colours sum = {0.0f, 0.0f, 0.0f, 0.0f};
+  for (uint i = 0; i < directions; ++i) {
+    if (!any_lane(counts[i])) continue;
     const Found f = found[i];
-    const float weight = 1.0f / (f.distance * f.distance);
+    const float16 weight = select(none, 1.0f / (f.distance * f.distance), counts[i]);
     weights += weight;
-    coc += weight * f.coc;
-    inverse_sum += weight * f.inverse;
-    if (bright[i] > 10.0f * median) continue;
-    colour_weights += f.weight;
-    colour += f.weight * colour_at(CHANNELS(channel), f.source);
+    coc += select(none, weight * f.coc, counts[i]);
+    inverse += select(none, weight * f.inverse, counts[i]);
+    const int16 shows = counts[i] & ~(f.bright > brightest);
+    colour_weights += select(none, f.weight, shows);
+    sum.c0 += select(none, f.weight * f.colours.c0, shows);
+    sum.c1 += select(none, f.weight * f.colours.c1, shows);
+    sum.c2 += select(none, f.weight * f.colours.c2, shows);
+    sum.c3 += select(none, f.weight * f.colours.c3, shows);
   }
-  const uint pixel = pixel_at(p.width, p.height, at);
-  behind_coc[pixel] = convert_int_rte(coc / weights);
-  const float mean = inverse_sum / weights;
-  const float most = own_inverse_of(p, inverse, mixed, at) * 0.99999f;
-  behind_inverse[pixel] = mean < most ? mean : most;
-  set_colour(CHANNELS(behind), pixel, colour / colour_weights);
+  behind.coc = convert_int16_rte(select(none, coc / weights, behind.is_there));
+  const float16 mean = inverse / weights, most = own_inverse * 0.99999f;
+  behind.inverse = select(most, mean, mean < most);
+  behind.colours.c0 = sum.c0 / colour_weights;
+  behind.colours.c1 = sum.c1 / colour_weights;
+  behind.colours.c2 = sum.c2 / colour_weights;
+  behind.colours.c3 = sum.c3 / colour_weights;
+  return behind;
+}
+
+// Writes what lies behind a run's pixels: where nothing does, their own CoC and no colour.
+void write_behind(const Window* w, const int2 start, const Filled* b,
+                  __global int* restrict behind_coc, __global float* restrict behind_inverse,
+                  WRITTEN_CHANNELS(behind)) {
+  const int16 own = ints_of_run(w->width, w->height, w->coc_quanta, start);
+  const int16 coc = (b->coc & b->is_there) | (own & ~b->is_there);
+  const float16 none = 0.0f, nothing = -1.0f;
+  store_ints(w->width, behind_coc, start, coc);
+  store_floats(w->width, behind_inverse, start, select(nothing, b->inverse, b->is_there));
+  store_floats(w->width, behind0, start, select(none, b->colours.c0, b->is_there));
+  store_floats(w->width, behind1, start, select(none, b->colours.c1, b->is_there));
+  store_floats(w->width, behind2, start, select(none, b->colours.c2, b->is_there));
+  store_floats(w->width, behind3, start, select(none, b->colours.c3, b->is_there));
 }
 
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
                    __global const float* restrict inverse, __global const uint* restrict mixed,
+                   __global const uchar* restrict pure_around,
                    __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
                    __global int* restrict behind_coc, __global float* restrict behind_inverse,
                    WRITTEN_CHANNELS(behind)) {
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
-  clear_run(p, coc_quanta, start, behind_coc, behind_inverse, CHANNELS(behind));
+  const Window w = {p.width,     p.height, coc_quanta, inverse,  mixed,
+                    pure_around, channel0, channel1,   channel2, channel3};
   const uint tile = (uint)start.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)start.x / DEFRAY_FILL_TILE;
-  if (farthest[tile] == DEFRAY_NOTHING_BEHIND) return;
-
-  const int16 own = own_of_run(p, coc_quanta, mixed, start);
-  // Direction by direction: neighbours find what lies close together in memory.
-  Found found[DEFRAY_FILL_DIRECTIONS * RUN];
-  for (uint i = 0; i < p.directions; ++i) {
-    look_from_run(p, coc_quanta, inverse, mixed, CHANNELS(channel), start, direction_of(p, i), own,
-                  farthest[tile], found + i * RUN);
+  Filled behind;
+  behind.is_there = 0;
+  if (farthest[tile] != DEFRAY_NOTHING_BEHIND) {
+    const int16 own = own_of_run(&w, start);
+    Found found[DEFRAY_FILL_DIRECTIONS];
+    for (uint i = 0; i < p.directions; ++i) {
+      look_behind(&w, start, direction_of(p, i), own, farthest[tile], found + i);
+    }
+    behind = fill_run(found, p.directions, own, own_inverse_of_run(&w, start));
   }
-  int owns[RUN];
-  vstore16(own, 0, owns);
-  for (int i = 0; i < run_length(p.width, start); ++i) {
-    fill_pixel(p, inverse, mixed, CHANNELS(channel), start + (int2)(i, 0), owns[i], found + i,
-               behind_coc, behind_inverse, CHANNELS(behind));
-  }
+  write_behind(&w, start, &behind, behind_coc, behind_inverse, CHANNELS(behind));
 }

@@ -71,7 +71,7 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
   const uint first = pixel_at(p.width, p.height, start);
-  store_run(p.width, source, start, (uint16)(first) + as_uint16(RUN_LANES));
+  store_ints(p.width, (__global int*)source, start, (int16)((int)first) + RUN_LANES);
   const int16 level = is_level(p, coc_quanta, start);
   // Not all_lanes: where Oclgrind looks for uninitialised reads, halves of vectors end it.
   if (all(level)) return;
@@ -96,5 +96,5 @@ __kernel void mixed(const DefrayFrameParams p, __global const int* restrict coc_
   }
   // The sign's bit; of comparisons between vectors Oclgrind keeps other bits.
   const uint16 is_mixed = as_uint16(DEFRAY_JUMP_QUANTA - largest) >> 31u;
-  store_run(p.width, mixed, start, is_mixed);
+  store_ints(p.width, (__global int*)mixed, start, as_int16(is_mixed));
 }

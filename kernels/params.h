@@ -40,6 +40,8 @@
 #define DEFRAY_TAME_QUANTA (1 << 28)
 /// Side of the square tiles in which `fill` may have something to do, in pixels: whole runs.
 #define DEFRAY_FILL_TILE 16
+/// Side of the square cells that say how far around a run no pixel is mixed, in pixels.
+#define DEFRAY_FILL_CELL 4
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
 /// Most directions in which `fill` looks for what goes on behind.
@@ -166,20 +168,20 @@ typedef struct {
   DEFRAY_UINT light_tiles_x;
 } DefrayRaysParams;
 
-/// A whole frame: `repair`, `mixed`, `split`.
+/// A whole frame: `repair`, `mixed`.
 typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;
 } DefrayFrameParams;
 
-/// Two surfaces as the layers of one frame: `assemble`.
+/// Mixed pixels taken apart: `split`.
 typedef struct {
   DEFRAY_UINT width;
   DEFRAY_UINT height;     ///< Rows of the window.
   DEFRAY_UINT first_row;  ///< Of the window, in the frame.
   DEFRAY_UINT frame_height;
   DEFRAY_UINT margin;  ///< Columns and rows around the picture, which were not seen.
-} DefrayAssembleParams;
+} DefraySplitParams;
 
 /// What lies behind: `fill`.
 typedef struct {
@@ -280,7 +282,7 @@ typedef struct {
 static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);
-static_assert(sizeof(DefrayAssembleParams) == 20);
+static_assert(sizeof(DefraySplitParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayPatternShift) == 12);

@@ -101,8 +101,7 @@ void add_match(const DefrayPatternsParams p, const DefrayPatternShift shift,
 void move_row(const DefrayPatternsParams p, __global float* channel_behind, const int2 start,
               const int16 is_moved, const float16 by) {
   const float16 old = floats_at(channel_behind, itself(p, start).places), now = old + by;
-  store_run(p.width, (__global uint*)channel_behind, start,
-            as_uint16(select(old, now, is_moved & isfinite(now))));
+  store_floats(p.width, channel_behind, start, select(old, now, is_moved & isfinite(now)));
 }
 
 // Moves a row's colours towards its matches' mean; `v` is the variance around each pixel.

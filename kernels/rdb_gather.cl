@@ -29,9 +29,8 @@
 
 // One whole surface a pixel, all of it seen, no rim, nobody asks for winners. Inlined for three and
 // for four channels: a quarter less to load and add.
-__attribute__((always_inline)) void gather_plain(const DefrayRaysParams p, const Rays* r,
-                                                 const Runs* runs, const bool has_fourth,
-                                                 Strip* s) {
+INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* runs,
+                          const bool has_fourth, Strip* s) {
   const size_t stride = p.stride;
   for (uint k = 0; k < p.cell_count; ++k) {
     __global const int* first = r->first + k * (DEFRAY_RAY_BINS + 1);

@@ -28,7 +28,7 @@ Squares squares_of(const DefraySoftenParams p, const int16 own_coc, const int16 
   const int16 reach = convert_int16(s.half_side + 0.5f);
   // Wide squares are sampled with a stride.
   s.stride = max((int16)(1), (2 * reach + DEFRAY_SOFTEN_TAPS) / DEFRAY_SOFTEN_TAPS);
-  s.taps = min(reach / s.stride, (int16)(DEFRAY_SOFTEN_TAPS / 2));
+  s.taps = reach / s.stride;                       // at most half of DEFRAY_SOFTEN_TAPS
   s.alike = 128.0f * fmax(side, (float16)(1.0f));  // half a cell, in quanta
   s.is_active = (side > 1.0f) & (own_share != 0);
   return s;

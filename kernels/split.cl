@@ -1,4 +1,5 @@
-// split: a mixed pixel's colour taken apart into the surface in front and the one behind it.
+// split: mixed pixels' colours taken apart into the surface in front and the one behind it, and all
+// of them as the two layers of one frame.
 //
 // With F the colour of the surface in front (pure pixels nearby), B that behind it (from `fill`, or
 // from pure pixels if the depth sample saw another one), the pixel's colour C = a F + (1 - a) B has
@@ -7,14 +8,14 @@
 // The edge pixels of what is in focus stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
-// behind_inverse  [height][width]  1/depth behind; negative: nothing there. In and out.
-// behind_coc      [height][width]  in and out
-// behind0..3      [height][width]  colour, in and out
-// behind_flags    [height][width]  coverage of the fragment behind
-// front_coc       [height][width]
-// front_inverse   [height][width]
-// front0..3       [height][width]  colour
-// front_coverage  [height][width]  2^-16 of the pixel
+// behind_coc      [height][width]     from fill: what lies behind
+// behind_inverse  [height][width]     1/depth; negative: nothing there
+// behind0..3      [height][width]     colour
+// layer_coc       [height][2][width]  what is in front, and what lies behind
+// layer_depth     [height][2][width]  DEFRAY_EMPTY's bits: nothing there
+// layer_coverage  [height][2][width]  2^-16 of the pixel, and flags; 0: nothing there. What lies in
+//                                     the margin was not seen
+// layer0..3       [height][2][width]  colour
 // Global size: (width, height).
 #include "colour.clh"
 #include "frame.clh"
@@ -23,6 +24,14 @@
 #define LEAST_COVERAGE 0.03f
 #define MOST_OF_BEHIND 0.75f
 #define LEAST_OF_FRONT 0.25f
+
+// A surface in one pixel.
+typedef struct {
+  int coc;
+  float inverse;  // 1/depth; negative: there is none
+  uint coverage;
+  float4 colour;
+} Surface;
 
 // A surface, from the pixels around.
 typedef struct {
@@ -33,7 +42,7 @@ typedef struct {
 
 // Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
 // depth.
-Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_quanta,
                    __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
                    const int low, const int high) {
   Nearby found = {0.0f, 0u, false};
@@ -55,7 +64,7 @@ Nearby pure_nearby(const DefrayFrameParams p, __global const int* restrict coc_q
 }
 
 // Of a surface in front that is too thin for pure pixels, the one least like what lies behind.
-Nearby thin_front(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
                   CHANNEL_PARAMETERS(channel), const int2 at, const int middle,
                   const float4 behind) {
   Nearby front = {0.0f, 0u, false};
@@ -107,25 +116,14 @@ float4 rest_of(const float4 c, const float4 other, const float others_share) {
   return rest < least ? least : rest;
 }
 
-__kernel void split(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-                    __global const float* restrict inverse, __global const uint* restrict mixed,
-                    CHANNEL_PARAMETERS(channel), __global int* restrict behind_coc,
-                    __global float* restrict behind_inverse, WRITTEN_CHANNELS(behind),
-                    __global uint* restrict behind_flags, __global int* restrict front_coc,
-                    __global float* restrict front_inverse, WRITTEN_CHANNELS(front),
-                    __global uint* restrict front_coverage) {
-  const int2 at = work_item();
-  if (!is_inside(p.width, p.height, at)) return;
+// A mixed pixel: both surfaces with their shares of it, where it can be taken apart.
+void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
+          __global const float* restrict inverse, __global const uint* restrict mixed,
+          CHANNEL_PARAMETERS(channel), const int2 at, Surface* front, Surface* behind) {
   const uint pixel = pixel_at(p.width, p.height, at);
-  const float4 c = colour_at(CHANNELS(channel), pixel);
-  front_coc[pixel] = coc_quanta[pixel];
-  front_inverse[pixel] = inverse[pixel];
-  set_colour(CHANNELS(front), pixel, c);
-  front_coverage[pixel] = DEFRAY_WHOLE;
-  behind_flags[pixel] = DEFRAY_WHOLE | DEFRAY_SYNTHESISED;
-  if (!mixed[pixel] || behind_inverse[pixel] < 0.0f) return;
-
-  int nearest = coc_of(coc_quanta, pixel), farthest = nearest;
+  const float4 c = front->colour;
+  const int own = coc_of(coc_quanta, pixel);
+  int nearest = own, farthest = own;
   for (int i = 0; i < 9; ++i) {
     const int coc =
         coc_of(coc_quanta, pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1)));
@@ -133,16 +131,15 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
     farthest = max(farthest, coc);
   }
   const int middle = nearest + (farthest - nearest) / 2;
-  const bool saw_front = coc_of(coc_quanta, pixel) < middle;
-  float4 b = (float4)(behind0[pixel], behind1[pixel], behind2[pixel], behind3[pixel]);
+  const bool saw_front = own < middle;
+  float4 b = behind->colour;
   Nearby f =
       pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, -DEFRAY_TAME_QUANTA, middle - 1);
   if (!f.is_found) {
     f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b);
   }
   // Where `fill` found another surface than the one that was seen there are three.
-  const int own = coc_of(coc_quanta, pixel);
-  if (!saw_front && abs(coc_of(behind_coc, pixel) - own) > DEFRAY_JUMP_QUANTA) {
+  if (!saw_front && abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA) {
     const Nearby seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
                                     own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     if (seen.is_found) b = seen.colour;
@@ -152,20 +149,52 @@ __kernel void split(const DefrayFrameParams p, __global const int* restrict coc_
   if (saw_front) {
     if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
-    const uint kept = stored(fmax(share, LEAST_OF_FRONT));
-    set_colour(CHANNELS(front), pixel, rest_of(c, b, 1.0f - (float)kept * 0x1p-16f));
-    front_coverage[pixel] = kept;
+    front->coverage = stored(fmax(share, LEAST_OF_FRONT));
+    front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);
   } else if (share < LEAST_COVERAGE) {
-    behind_inverse[pixel] = -1.0f;
+    behind->inverse = -1.0f;
   } else {
     const uint kept = stored(fmin(share, MOST_OF_BEHIND));
-    set_colour(CHANNELS(front), pixel, f.colour);
-    front_coc[pixel] = coc_quanta[f.source];
-    front_inverse[pixel] = inverse[f.source];
-    front_coverage[pixel] = kept;
-    set_colour(CHANNELS(behind), pixel, rest_of(c, f.colour, (float)kept * 0x1p-16f));
-    behind_coc[pixel] = coc_quanta[pixel];
-    behind_inverse[pixel] = inverse[pixel];
-    behind_flags[pixel] = DEFRAY_WHOLE;
+    const Surface seen = {front->coc, front->inverse, DEFRAY_WHOLE,
+                          rest_of(c, f.colour, (float)kept * 0x1p-16f)};
+    const Surface before = {coc_quanta[f.source], inverse[f.source], kept, f.colour};
+    *behind = seen;
+    *front = before;
   }
+}
+
+void set_layer(const Surface s, const bool is_in_margin, const size_t at,
+               __global int* restrict layer_coc, __global float* restrict layer_depth,
+               __global uint* restrict layer_coverage, WRITTEN_CHANNELS(layer)) {
+  const bool is_nothing = s.inverse < 0.0f;
+  const float z = s.inverse == 0.0f ? INFINITY : 1.0f / s.inverse;
+  layer_coc[at] = s.coc;
+  layer_depth[at] = is_nothing ? as_float(DEFRAY_EMPTY) : z;
+  layer_coverage[at] = is_nothing ? 0u : s.coverage | (is_in_margin ? DEFRAY_SYNTHESISED : 0u);
+  set_colour(CHANNELS(layer), at, s.colour);
+}
+
+__kernel void split(const DefraySplitParams p, __global const int* restrict coc_quanta,
+                    __global const float* restrict inverse, __global const uint* restrict mixed,
+                    CHANNEL_PARAMETERS(channel), __global const int* restrict behind_coc,
+                    __global const float* restrict behind_inverse, CHANNEL_PARAMETERS(behind),
+                    __global int* restrict layer_coc, __global float* restrict layer_depth,
+                    __global uint* restrict layer_coverage, WRITTEN_CHANNELS(layer)) {
+  const int2 at = work_item();
+  if (!is_inside(p.width, p.height, at)) return;
+  const uint pixel = pixel_at(p.width, p.height, at);
+  Surface front = {coc_quanta[pixel], inverse[pixel], DEFRAY_WHOLE,
+                   colour_at(CHANNELS(channel), pixel)};
+  Surface behind = {behind_coc[pixel], behind_inverse[pixel], DEFRAY_WHOLE | DEFRAY_SYNTHESISED,
+                    colour_at(CHANNELS(behind), pixel)};
+  if (mixed[pixel] && behind.inverse >= 0.0f) {
+    part(p, coc_quanta, inverse, mixed, CHANNELS(channel), at, &front, &behind);
+  }
+  const uint x = at.x, y = p.first_row + at.y;
+  const bool is_in_margin =
+      x < p.margin || x + p.margin >= p.width || y < p.margin || y + p.margin >= p.frame_height;
+  const size_t to = (size_t)at.y * 2u * p.width + at.x;
+  set_layer(front, is_in_margin, to, layer_coc, layer_depth, layer_coverage, CHANNELS(layer));
+  set_layer(behind, is_in_margin, to + p.width, layer_coc, layer_depth, layer_coverage,
+            CHANNELS(layer));
 }

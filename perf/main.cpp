@@ -11,6 +11,7 @@
 #include "exit_code.h"
 #include "experiments.h"
 #include "image/safe_output.h"
+#include "keep_memory.h"
 #include "report.h"
 
 namespace defray::perf {
@@ -116,6 +117,7 @@ const std::map<std::string, Experiment>& experiments() {
       {"figure7", {"Shinya's figure 7: time against cells a side", figure7}},
       {"eye", {"Glatzel & Wilhelm: miniatures, artefacts, the effect's cost", eye}},
       {"tradeoff", {"Error against time for every method on three scenes", tradeoff}},
+      {"roofline", {"Each kernel's time beside the machine's memory and arithmetic", roofline}},
       {"truth", {"What the stages around the RDB gain and cost, and what is left", truth}}};
   return all;
 }
@@ -123,6 +125,7 @@ const std::map<std::string, Experiment>& experiments() {
 }  // namespace defray::perf
 
 int main(int argc, char** argv) {
+  defray::cli::keep_memory();
   setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
   try {
     return defray::perf::parse_and_run(argc, argv);

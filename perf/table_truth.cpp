@@ -1,5 +1,8 @@
-// The tables of the experiment `truth`, and the papers' claims: figures that experiments measure.
+// The tables of the experiments `truth` and `roofline`, and the papers' claims: figures that
+// experiments measure.
 #include <algorithm>
+#include <array>
+#include <map>
 
 #include "base/text.h"
 #include "experiments.h"
@@ -42,6 +45,19 @@ Figures measure_motion(TableBench& b) {
   Section section;
   add_motion(b.bench(), section);
   return {section.tables[0], {}};
+}
+
+Figures measure_roofline(TableBench& b) {
+  const Section section = experiments().at("roofline").run(b.bench());
+  Table table{"", "", {"kernel", "fence bg", "spheres f2"}, {}};
+  std::map<std::string, std::array<std::string, 2>> cells;
+  for (std::size_t scene = 0; scene < 2; ++scene) {
+    for (const auto& row : section.tables[scene].rows) {
+      cells[row[0]][scene] = fmt::format("{} (× {})", row[1], row[4]);
+    }
+  }
+  for (const auto& [kernel, of] : cells) table.rows.push_back({"`" + kernel + "`", of[0], of[1]});
+  return {table, section.findings};
 }
 
 Figures measure_papers(TableBench& b) {

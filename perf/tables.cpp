@@ -16,6 +16,7 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"stages", {"what the stages around the RDB gain and cost", measure_stages}},
       {"left", {"what is left of the error", measure_left}},
       {"motion", {"error of the change from frame to frame", measure_motion}},
+      {"roofline", {"kernels beside the machine's memory and arithmetic", measure_roofline}},
       {"papers", {"the papers' claims beside our figures", measure_papers}},
       {"arithmetic", {"relaxed builds of the kernels", measure_arithmetic}},
       {"validate", {"kernels against twins on every device", measure_validation}},

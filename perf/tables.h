@@ -40,6 +40,7 @@ Figures measure_methods(TableBench& bench);     ///< All methods on three built-
 Figures measure_stages(TableBench& bench);      ///< Gain and cost of each stage of the RDB.
 Figures measure_left(TableBench& bench);        ///< What is left of the default's error.
 Figures measure_motion(TableBench& bench);      ///< From frame to frame.
+Figures measure_roofline(TableBench& bench);    ///< Kernels beside the machine's limits.
 Figures measure_papers(TableBench& bench);      ///< The papers' claims beside our figures.
 Figures measure_arithmetic(TableBench& bench);  ///< Other builds of the kernels.
 Figures measure_validation(TableBench& bench);  ///< Kernels against twins, on every device.

@@ -92,7 +92,8 @@ std::vector<T> interleaved(const Values<T>& front, const Values<T>& behind, int 
   return rows;
 }
 
-/// As Backend::assemble, but depths keep their last bit: they need not go through 1/depth.
+/// As the layers of Backend::split, but depths keep their last bit: they need not go through
+/// 1/depth.
 Frame layered(const Frame& front, const Frame& behind) {
   Frame f = front.without_planes();
   f.layers = 2;
@@ -144,7 +145,7 @@ Frame split_surfaces(const Bench& bench, const Wide& w) {
     for (std::size_t c = 0; c < 3; ++c) behind.channels[c].edit()[i] = own.channels[c][i];
   }
   behind.inverse = inverse_of(behind.depth.host());
-  return bench.backend.assemble(bench.backend.split(with_inverse(s), w.mixed, std::move(behind)));
+  return bench.backend.split(with_inverse(s), w.mixed, behind);
 }
 
 }  // namespace defray::perf

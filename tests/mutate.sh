@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Puts random faults into kernels and host code, one at a time, beside the work tree, and says which
 # of them the tests let pass: mutate.sh [--count N] [--seed S] [--in FOLDER]; more: --help.
-export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev lld llvm python3"
+export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev lld llvm oclgrind python3"
 source "$(dirname "${BASH_SOURCE[0]}")/../cli/setup.sh"
 folder=$project/build/tests
 case " $* " in *" --help "* | *" -h "*) exec python3 "$project/tests/mutation/mutate.py" "$@" ;; esac

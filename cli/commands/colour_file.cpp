@@ -5,16 +5,53 @@
 #include "base/error.h"
 #include "image/channels.h"
 #include "image/ldr.h"
+#include "image/output.h"
 #include "image/safe_output.h"
+#include "options/parse.h"
+#include "options/words.h"
 
 namespace defray::cli {
 
 ColourFile read_colour_file(const std::string& path) {
   const ImageFile file = ImageFile::read(path);
   const ColourChoice choice = choose_colour(path, file.parts(), {});
-  ColourFile colour{path, {}, file.parts()[static_cast<std::size_t>(choice.part)].data};
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
+  ColourFile colour{path, {}, part.data, part.display};
   for (const int c : choice.channels) colour.planes.push_back(file.plane(choice.part, c));
+  if (colour.planes.size() <= 2)
+    colour.planes.insert(colour.planes.begin(), 2, colour.planes.front());
   return colour;
+}
+
+void set_region(Region& region, const std::string& windows, const std::string& crop) {
+  region.overlap_only = choice<bool>("--windows", windows, {{"union", false}, {"overlap", true}});
+  if (!crop.empty()) region.crop = parse_window("--crop", crop);
+}
+
+void bring_together(const std::vector<ColourFile*>& pictures, const Region& region) {
+  const ColourFile& first = *pictures.front();
+  Window all = first.data;
+  for (const ColourFile* picture : pictures) {
+    if (picture->display != first.display) {
+      fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same",
+           first.path, to_string(first.display), picture->path, to_string(picture->display));
+    }
+    all = region.overlap_only ? intersection(all, picture->data) : hull(all, picture->data);
+  }
+  if (region.crop) {
+    Window crop = *region.crop;
+    crop.x += first.display.x;
+    crop.y += first.display.y;
+    all = intersection(all, crop);
+  }
+  if (all.width <= 0 || all.height <= 0) {
+    fail(ErrorKind::input, "{}: nothing is left to look at: {}", first.path,
+         region.crop ? "--crop lies outside" : "the data windows do not overlap");
+  }
+  for (ColourFile* picture : pictures) {
+    picture->planes = to_display_window(picture->planes, picture->data, all);
+    picture->data = all;
+  }
 }
 
 void require_same_size(const ColourFile& a, const ColourFile& b) {

@@ -1,8 +1,10 @@
 #pragma once
 // What compare and sheet share: pictures of one size.
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/window.h"
 #include "image/image_file.h"
 
 namespace defray::cli {
@@ -11,11 +13,24 @@ namespace defray::cli {
 struct ColourFile {
   std::string path;
   std::vector<Plane> planes;
-  Window data;
+  Window data, display;
 };
 
 /// Throws Error(input) as ImageFile::read and choose_colour do.
 ColourFile read_colour_file(const std::string& path);
+
+/// What of pictures is looked at.
+struct Region {
+  bool overlap_only = false;   ///< Of data windows; without, all of them, 0 where one has nothing.
+  std::optional<Window> crop;  ///< From the display window's left upper corner.
+};
+
+/// "union", "overlap", "320x200+10+20" -> what they say. Throws Error(usage).
+void set_region(Region& region, const std::string& windows, const std::string& crop);
+
+/// Gives all pictures one data window. Throws Error(input) where their display windows differ, or
+/// nothing is left.
+void bring_together(const std::vector<ColourFile*>& pictures, const Region& region);
 
 /// Throws Error(input) unless the data windows are the same.
 void require_same_size(const ColourFile& a, const ColourFile& b);

@@ -1,6 +1,7 @@
 // defray compare: how far two pictures are apart.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "exit_code.h"
 #include "image/channels.h"
 #include "image/display.h"
+#include "image/output.h"
 #include "lens/camera.h"
 #include "lens/depth.h"
 #include "measure/edge_band.h"
@@ -26,6 +28,7 @@ struct CompareOptions {
   std::string a, b;
   std::optional<double> min_psnr, min_ssim, max_error;
   std::string depth, depth_channel, camera, focus_setting;
+  std::string windows = "union", crop, mask;
   double edge_step = 0.1;
   std::string sheet;
   double amplify = 4;
@@ -53,7 +56,7 @@ void validate(const CompareOptions& o) {
   if (!(o.amplify > 0) || !std::isfinite(o.amplify)) {
     fail(ErrorKind::usage, "--amplify is {}: it must be a finite number above 0", o.amplify);
   }
-  if (!o.sheet.empty()) check_sheet(o.sheet, {o.a, o.b, o.depth, o.camera});
+  if (!o.sheet.empty()) check_sheet(o.sheet, {o.a, o.b, o.depth, o.camera, o.mask});
 }
 
 /// The edge band of the pinhole frame that `picture` was rendered from.
@@ -61,13 +64,42 @@ std::vector<std::uint8_t> read_band(const CompareOptions& o, const ColourFile& p
   const ImageFile file = ImageFile::read(o.depth, Content::data);
   const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
-  require_same_size({o.depth, {}, part.data}, picture);
-  const Lens lens = make_lens(read_camera_json(o.camera, o.focus_setting, 1), 1, LensModel::cg, 0);
+  require_same_size({o.depth, {}, part.data, part.display}, picture);
+  const Lens lens =
+      make_lens(read_camera_json(o.camera, o.focus_setting, 1), 1, LensModel::cg, 0, part.display);
   Plane depth = file.plane(name.part, name.channel);
   const int width = part.display.width;
   convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);
   return edge_band(depth, part.data.width, reference::TwinBackend().coc(lens, width, depth).host(),
                    o.edge_step);
+}
+
+/// 1 where the mask's first channel is above a half.
+std::vector<std::uint8_t> read_mask(const CompareOptions& o, const Window& data) {
+  const ImageFile file = ImageFile::read(o.mask, Content::data);
+  const PartInfo& part = file.parts().front();
+  const Plane values = to_display_window({file.plane(0, 0)}, part.data, data).front();
+  std::vector<std::uint8_t> mask(values.size());
+  std::transform(values.begin(), values.end(), mask.begin(), [](float v) { return v > 0.5f; });
+  if (std::count(mask.begin(), mask.end(), 1) == 0) {
+    fail(ErrorKind::input, "{}: no pixel of the mask is above a half where the pictures are",
+         o.mask);
+  }
+  return mask;
+}
+
+/// Looks at the mask's pixels alone: outside, both pictures are alike.
+Comparison compare_where(const ColourFile& a, const ColourFile& b,
+                         const std::vector<std::uint8_t>& mask) {
+  std::vector<Plane> planes = b.planes;
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      if (!mask[i]) planes[c][i] = a.planes[c][i];
+    }
+  }
+  Comparison found = compare(a.planes, planes, a.data.width);
+  static_cast<Errors&>(found) = errors_where(a.planes, b.planes, mask, 1);
+  return found;
 }
 
 Json errors_json(const Errors& e) {
@@ -137,13 +169,17 @@ bool misses_a_bound(const CompareOptions& o, const Comparison& c) {
 int run(const CompareOptions& o) {
   validate(o);
   ColourFile a = read_colour_file(o.a), b = read_colour_file(o.b);
-  require_same_size(a, b);
+  Region region;
+  set_region(region, o.windows, o.crop);
   std::optional<BandErrors> band;
+  if (!o.depth.empty()) require_same_size(a, b);
+  bring_together({&a, &b}, region);
   if (!o.depth.empty()) {
     const std::vector<std::uint8_t> mask = read_band(o, a);
     band = {errors_where(a.planes, b.planes, mask, 1), errors_where(a.planes, b.planes, mask, 0)};
   }
-  const Comparison comparison = compare(a.planes, b.planes, a.data.width);
+  const Comparison comparison = o.mask.empty() ? compare(a.planes, b.planes, a.data.width)
+                                               : compare_where(a, b, read_mask(o, a.data));
   if (o.json) {
     print_json(comparison, band);
   } else {
@@ -185,6 +221,15 @@ Run add_compare(CLI::App& app) {
       ->add_option("--edge-step", o->edge_step,
                    "An edge is where neighbours' depths differ by more than this share")
       ->needs(depth);
+  command->add_option(
+      "--windows", o->windows,
+      "Where data windows differ: union, 0 where a picture has nothing, or overlap");
+  auto* crop = command->add_option("--crop", o->crop,
+                                   "Only this part, 320x200+100+50, of the display window");
+  command->add_option("--mask", o->mask,
+                      "PSNR and RMS where this picture's first channel is above a half; SSIM and "
+                      "energy with all outside it alike");
+  depth->excludes(crop);
   auto* sheet = command->add_option("--sheet", o->sheet,
                                     "Write A, B and their difference side by side, PNG or JPEG");
   command->add_option("--amplify", o->amplify, "The sheet's difference is this many times as dark")

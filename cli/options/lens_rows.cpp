@@ -5,28 +5,54 @@ namespace {
 
 /// False where options win over everything that a camera can say.
 bool is_camera_heard(const Given& given) {
-  const bool has_optics = given("--focal-length") &&
-                          (given("--fstop") || given("--aperture-diameter")) &&
-                          (given("--sensor-width") || given("--pixel-scale"));
-  return !(given("--focus") && (has_optics || given("--eye")));
+  const bool has_focus = given("--focus") || given("--focus-at") || given("--focus-range");
+  return !(has_focus && (has_optics(given) || given("--eye")));
 }
 
 }  // namespace
 
-std::vector<OptionRow> lens_rows(CameraValues& v, const std::string& unit) {
+bool has_optics(const Given& given) {
+  return given("--focal-length") && (given("--fstop") || given("--aperture-diameter")) &&
+         (given("--sensor-width") || given("--sensor-height") || given("--fov") ||
+          given("--pixel-scale"));
+}
+
+OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
+                       std::string default_text) {
+  if (!animated) return value(camera.*field, std::move(default_text));
+  const auto read = std::make_shared<std::string>();
+  return {[read](CLI::App& c, const std::string& name) {
+            return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
+          },
+          [read, &camera, field, animated](const std::string& name) {
+            Curve curve(name, *read);
+            if (curve.is_constant()) {
+              camera.*field = curve.at(0);
+            } else {
+              animated->push_back({field, name, std::move(curve)});
+            }
+          },
+          std::move(default_text)};
+}
+
+std::vector<OptionRow> lens_rows(CameraValues& v, const std::string& unit, AnimatedLens* animated) {
   return {
       {"--focus",
-       value(v.focus_distance_units),
+       lens_value(v, &CameraValues::focus_distance_units, animated),
        "Focus distance, planar, " + unit + "; inf is allowed",
        {.field = "focus_distance_units"}},
-      {"--fstop", value(v.fstop), "f-number"},
+      {"--fstop", lens_value(v, &CameraValues::fstop, animated), "f-number"},
       {"--aperture-diameter",
-       value(v.aperture_diameter_mm),
+       lens_value(v, &CameraValues::aperture_diameter_mm, animated),
        "mm, instead of --fstop; 0: pinhole",
        {.field = "aperture_diameter_mm"}},
-      {"--focal-length", value(v.focal_length_mm), "mm", {.field = "focal_length_mm"}},
+      {"--focal-length",
+       lens_value(v, &CameraValues::focal_length_mm, animated),
+       "mm",
+       {.field = "focal_length_mm"}},
       {"--sensor-width",
-       value(v.sensor_width_mm, fmt::format("{}", Lens().sensor_width_mm)),
+       lens_value(v, &CameraValues::sensor_width_mm, animated,
+                  fmt::format("{}", Lens().sensor_width_mm)),
        "mm across the display window",
        {.field = "sensor_width_mm"}},
   };

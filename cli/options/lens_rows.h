@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lens/camera.h"
+#include "options/curve.h"
 #include "options/option_table.h"
 
 namespace defray::cli {
@@ -11,8 +12,17 @@ namespace defray::cli {
 /// What --camera is for the image's own metadata; no file is called so.
 inline const std::string from_metadata = "from-metadata";
 
+/// A value of the lens; one that changes over a sequence goes to `animated` instead. Null: none
+/// may.
+OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
+                       std::string default_text = "");
+
 /// Focus, aperture, focal length, sensor; `unit` is that of the focus distance.
-std::vector<OptionRow> lens_rows(CameraValues& camera, const std::string& unit);
+std::vector<OptionRow> lens_rows(CameraValues& camera, const std::string& unit,
+                                 AnimatedLens* animated = nullptr);
+
+/// Whether these say everything that a lens's optics have.
+bool has_optics(const Given& given);
 
 /// --camera and --focus-setting. `others` says what else --camera can be than a file.
 std::vector<OptionRow> camera_rows(std::string& file, std::string& focus_setting,

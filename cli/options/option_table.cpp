@@ -68,6 +68,18 @@ void OptionTable::set() const {
   }
 }
 
+std::vector<std::pair<std::string, std::string>> OptionTable::given() const {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const Entry& entry : entries_) {
+    if (!entry.is_given()) continue;
+    const bool is_option = !entry.option->get_positional();
+    const bool is_flag = entry.option->get_items_expected_max() == 0;
+    all.emplace_back(is_option ? entry.name() : "",
+                     is_flag ? "" : join(entry.option->results(), ","));
+  }
+  return all;
+}
+
 void OptionTable::refuse_idle(const Setup& setup) const {
   for (const Entry& entry : entries_) {
     if (!entry.is_given()) continue;

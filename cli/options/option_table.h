@@ -64,6 +64,9 @@ class OptionTable {
   /// Sets what was given, in the order of the rows.
   void set() const;
 
+  /// What was given, name and values, in the order of the rows; positional names are empty.
+  std::vector<std::pair<std::string, std::string>> given() const;
+
   /// Throws Error(usage) when an option was given that can change nothing.
   void refuse_idle(const Setup& setup = {}) const;
 

@@ -14,13 +14,26 @@ namespace {
 const WordTable<double> metres_in{{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
                                   {"km", 1000}, {"ft", 0.3048}, {"in", 0.0254}};
 
+/// "meters" -> "m"; what is no unit's long name as it is.
+std::string short_name(const std::string& text) {
+  static const WordTable<std::string> names{
+      {"metre", "m"}, {"centimetre", "cm"}, {"millimetre", "mm"}, {"kilometre", "km"},
+      {"meter", "m"}, {"centimeter", "cm"}, {"millimeter", "mm"}, {"kilometer", "km"},
+      {"foot", "ft"}, {"feet", "ft"},       {"inch", "in"},       {"inches", "in"}};
+  const std::string lower = lower_case(text);
+  for (const auto& [name, unit] : names) {
+    if (lower == name || lower == name + "s") return unit;
+  }
+  return lower;
+}
+
 }  // namespace
 
 double parse_unit(const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) {
-    return choice("--unit", text, metres_in);
+    return choice("--unit", short_name(text), metres_in);
   }
   if (!(number > 0) || std::isinf(number)) {
     fail(ErrorKind::usage, "--unit: the scene unit is {} m: it must be a finite number above 0",
@@ -44,6 +57,29 @@ double parse_background(const std::string& text) {
     fail(ErrorKind::usage, "--background '{}' is neither a number nor none", text);
   }
   return number;
+}
+
+Window parse_window(const std::string& option, const std::string& text) {
+  static const std::regex form(R"(([1-9]\d{0,5})x([1-9]\d{0,5})\+(\d{1,6})\+(\d{1,6}))");
+  std::smatch match;
+  if (!std::regex_match(text, match, form)) {
+    fail(ErrorKind::usage,
+         "{} '{}': write it as 3840x2160+100+50, width and height, then x and y of the left upper "
+         "pixel",
+         option, text);
+  }
+  return {std::stoi(match[3]), std::stoi(match[4]), std::stoi(match[1]), std::stoi(match[2])};
+}
+
+PixelPlace parse_place(const std::string& option, const std::string& text) {
+  static const std::regex form(R"((\d{1,6}),(\d{1,6}))");
+  std::smatch match;
+  if (!std::regex_match(text, match, form)) {
+    fail(ErrorKind::usage,
+         "{} '{}': write it as 640,360, a pixel of the display window from its left upper corner",
+         option, text);
+  }
+  return {std::stoi(match[1]), std::stoi(match[2])};
 }
 
 std::vector<WorkGroup> parse_work_groups(const std::string& text) {

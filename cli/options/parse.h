@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "defray/io.h"
+
 namespace defray::cli {
 
 /// "cm" or "0.01" -> 0.01, metres in a scene unit. Throws Error(usage).
@@ -16,6 +18,12 @@ std::string unit_of(double metres);
 /// The stored depth that says "background"; infinity, and so no other, for "none". Throws
 /// Error(usage).
 double parse_background(const std::string& text);
+
+/// "3840x2160+100+50" -> width, height, x and y. Throws Error(usage).
+Window parse_window(const std::string& option, const std::string& text);
+
+/// "640,360" -> that pixel. Throws Error(usage).
+PixelPlace parse_place(const std::string& option, const std::string& text);
 
 /// A work-group for one kernel, or for all that no other names.
 struct WorkGroup {

@@ -8,32 +8,41 @@ namespace {
 const WordTable<DepthKind> depth_words{{"z", DepthKind::z},
                                        {"distance", DepthKind::distance},
                                        {"inverse", DepthKind::inverse},
-                                       {"normalized", DepthKind::normalized}};
+                                       {"normalized", DepthKind::normalized},
+                                       {"negative-z", DepthKind::negative_z},
+                                       {"zbuffer", DepthKind::zbuffer}};
+const WordTable<Bits> bits_words{
+    {"8", Bits::eight}, {"16", Bits::sixteen}, {"half", Bits::half}, {"float", Bits::single}};
+const WordTable<Grow> grow_words{
+    {"none", Grow::none}, {"display", Grow::display}, {"full", Grow::full}};
 const WordTable<Nonfinite> nonfinite_words{
     {"error", Nonfinite::error}, {"zero", Nonfinite::zero}, {"keep", Nonfinite::keep}};
 const Scope of_depth{.methods = lens_methods};
 
 std::vector<OptionRow> depth_rows(RenderSettings& s) {
   DepthSettings& d = s.depth;
-  const Needs normalized{[&d](const Given&) { return d.kind == DepthKind::normalized; },
-                         "goes with --depth-kind normalized only"};
+  const Needs range{[&d](const Given&) {
+                      return d.kind == DepthKind::normalized || d.kind == DepthKind::zbuffer;
+                    },
+                    "goes with --depth-kind normalized or zbuffer only"};
   return {
       {"--depth-kind",
        word(d.kind, depth_words),
-       "z: planar; distance: along the ray; inverse: 1/z; normalized: 0 near, 1 far",
+       "z: planar; distance: along the ray; inverse: 1/z; normalized: 0 near, 1 far; negative-z: "
+       "-z of camera space; zbuffer: as a GPU stores it, 0 near, 1 far, linear in 1/z",
        {.field = "depth.kind", .scope = of_depth}},
       {"--near",
        with_default(value(d.near_units), ""),
-       "Depth of 0, scene units (normalized)",
-       {.field = "near_units", .scope = of_depth, .needs = normalized}},
+       "Depth of 0, scene units (normalized, where it may be 0; zbuffer)",
+       {.field = "near_units", .scope = of_depth, .needs = range}},
       {"--far",
        with_default(value(d.far_units), ""),
-       "Depth of 1, scene units (normalized)",
-       {.field = "far_units", .scope = of_depth, .needs = normalized}},
+       "Depth of 1, scene units (normalized; zbuffer, where it may be inf)",
+       {.field = "far_units", .scope = of_depth, .needs = range}},
       {"--invert",
        flag(d.invert),
-       "1 is near, 0 is far (normalized)",
-       {.scope = of_depth, .needs = normalized}},
+       "1 is near, 0 is far (normalized; zbuffer: reversed)",
+       {.scope = of_depth, .needs = range}},
       {"--unit",
        parsed<std::string>([&s](const auto& text) { s.metres_per_unit = parse_unit(text); },
                            unit_of(s.metres_per_unit)),
@@ -50,15 +59,17 @@ std::vector<OptionRow> depth_rows(RenderSettings& s) {
 }  // namespace
 
 OptionGroup main_options(RenderCommand& job) {
-  return {"",
-          {{"input",
-            value(job.paths.input),
-            "Colour, and depth unless --depth is given; #### or %04d: frames",
-            {.is_required = true}},
-           {"-o,--output",
-            value(job.paths.output),
-            "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded)",
-            {.field = "output", .is_required = true}}}};
+  return {
+      "",
+      {{"input",
+        value(job.paths.input),
+        "Colour, and depth unless --depth is given; #### or %04d: frames; -: standard input",
+        {.is_required = true}},
+       {"-o,--output",
+        value(job.paths.output),
+        "EXR, TIFF, HDR (linear), PNG, JPEG (sRGB-encoded); -: standard output, EXR or as a PNG "
+        "input",
+        {.field = "output", .is_required = true}}}};
 }
 
 OptionGroup file_options(RenderCommand& job) {
@@ -83,9 +94,33 @@ OptionGroup file_options(RenderCommand& job) {
         "Of what is written: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (EXR), none, "
         "lzw, zip, packbits (TIFF); pxr24, b44 and dwa lose a little",
         {.field = "compression"}},
+       {"--bits",
+        with_default(word<Bits>([&job](Bits bits) { job.settings.bits = bits; }, bits_words, ""),
+                     "the input's; 8 from floats to PNG"),
+        "Of a channel of the output: 8, 16 (PNG, TIFF), half (EXR), float (EXR, TIFF)",
+        {.field = "bits"}},
+       {"--grow",
+        word<Grow>([&job](Grow grow) { job.settings.grow = grow; }, grow_words,
+                   "display where alpha is below 1 somewhere, else none"),
+        "How far a data window grows by the blur of what lies in it: not at all, up to the display "
+        "window, beyond",
+        {.scope = of_depth}},
+       {"--full-size",
+        parsed<std::string>([&job](const auto& text) {
+          job.settings.full_size = parse_window("--full-size", text);
+        }),
+        "The picture is cut out of a frame of this size, 3840x2160+100+50: what the lens's field "
+        "of "
+        "view spans",
+        {.field = "full_size", .scope = of_depth}},
+       {"--mkdir",
+        flag(job.make_folders),
+        "Make the outputs' folders where there are none",
+        {.field = "make_folders"}},
+       {"--no-pattern", flag(job.no_pattern), "No name is a pattern: #, @ and %d are letters"},
        {"--frames", with_default(value(job.frames), "every file that matches"),
         "1-8, 1-10x2, 1,5,9-12"},
-       {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose output exists"},
+       {"--skip-existing", flag(job.skip_existing), "Leave frames alone whose outputs all exist"},
        {"--skip-bad-frames", flag(job.skip_bad_frames),
         "Report a frame that fails, go on, exit with 1 at the end"},
        {"--no-overlap", flag(job.no_overlap),
@@ -124,7 +159,10 @@ OptionGroup terminal_options(RenderCommand& job) {
              .needs = {[&job](const Given&) { return !job.json && !job.quiet; },
                        "goes without --json, which has it all, and without --quiet"}}},
            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
-           {"--show", flag(job.show), "Show the last picture until a key is pressed"}}};
+           {"--show", flag(job.show),
+            "Show the last picture in a window; keys and mouse change focus and f-number, q ends "
+            "and prints "
+            "the command"}}};
 }
 
 }  // namespace defray::cli

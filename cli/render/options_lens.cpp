@@ -1,6 +1,8 @@
 // The lens of defray render.
 #include <cmath>
+#include <limits>
 
+#include "image/sequence.h"
 #include "options/lens_rows.h"
 #include "render/render_command.h"
 
@@ -11,10 +13,7 @@ const WordTable<Eye> eye_words{{"retina", Eye::retina}, {"display", Eye::display
 const WordTable<LensModel> model_words{{"cg", LensModel::cg}, {"breathing", LensModel::breathing}};
 
 /// An eye says aperture, focal length and pixel scale.
-bool is_eye_heard(const Given& given) {
-  return !(given("--focal-length") && (given("--fstop") || given("--aperture-diameter")) &&
-           (given("--sensor-width") || given("--pixel-scale")));
-}
+bool is_eye_heard(const Given& given) { return !has_optics(given); }
 
 double above_zero(const char* option, double value) {
   if (value > 0 && !std::isinf(value)) return value;
@@ -49,18 +48,80 @@ CameraValues eye_of(const EyeOptions& e) {
   return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
 }
 
+const WordTable<SensorFit> fit_words{{"auto", SensorFit::longer},
+                                     {"horizontal", SensorFit::horizontal},
+                                     {"vertical", SensorFit::vertical}};
+
+std::vector<OptionRow> sensor_rows(RenderCommand& job) {
+  CameraValues& v = job.settings.camera;
+  return {
+      {"--sensor-height",
+       lens_value(v, &CameraValues::sensor_height_mm, &job.animated),
+       "mm over the display window, instead of --sensor-width",
+       {.field = "sensor_height_mm"}},
+      {"--fov",
+       lens_value(v, &CameraValues::fov_deg, &job.animated),
+       "Degrees that the picture spans, instead of a sensor",
+       {.field = "fov_deg"}},
+      {"--sensor-fit",
+       word<SensorFit>([&v](SensorFit fit) { v.fit = fit; }, fit_words, ""),
+       "Which side the sensor or --fov spans: horizontal (default), vertical, or auto, the longer "
+       "(with --sensor-width on either, as Blender has it)",
+       {.field = "fit"}},
+      {"--pixel-scale",
+       lens_value(v, &CameraValues::pixels_per_metre, &job.animated),
+       "Pixels per metre of image plane, instead of --sensor-width",
+       {.field = "pixels_per_metre"}},
+  };
+}
+
+/// "2,4.5" -> what is kept sharp.
+void set_range(CameraValues& camera, const std::string& text) {
+  const std::vector<std::string> ends = split(text, ',');
+  if (ends.size() != 2) {
+    fail(ErrorKind::usage, "--focus-range '{}': write its two ends as 2,4.5", text);
+  }
+  camera.focus_distance_units = Curve("--focus-range", ends[0]).at(0);
+  camera.focus_end_units = Curve("--focus-range", ends[1]).at(0);
+}
+
+std::vector<OptionRow> focus_rows(RenderCommand& job) {
+  const auto alone = [](const Given& given) {
+    return 1 == given("--focus") + given("--focus-at") + given("--focus-range");
+  };
+  const Needs no_other{alone,
+                       "says what --focus does: give one of --focus, --focus-at, --focus-range"};
+  return {
+      {"--focus-at",
+       parsed<std::string>([&job](const std::string& text) {
+         job.settings.focus_at = parse_place("--focus-at", text);
+       }),
+       "Pixel x,y of the display window whose depth is the focus, the median of 5x5, frame by "
+       "frame",
+       {.field = "focus_at", .needs = no_other}},
+      {"--focus-frame",
+       value(job.focus_frame),
+       "Take --focus-at's depth from this frame, for all",
+       {.needs = {[](const Given& given) { return given("--focus-at"); }, "goes with --focus-at"}}},
+      {"--focus-range",
+       parsed<std::string>(
+           [&job](const std::string& text) { set_range(job.settings.camera, text); }),
+       "near,far, scene units: what is kept sharp; outside, the blur of a focus on the nearer end",
+       {.field = "focus_range", .needs = no_other}},
+  };
+}
+
 }  // namespace
 
 OptionGroup lens_options(RenderCommand& job) {
   RenderSettings& s = job.settings;
-  OptionGroup group{"Lens", lens_rows(s.camera, "scene units"), {.methods = lens_methods}};
+  OptionGroup group{
+      "Lens", lens_rows(s.camera, "scene units", &job.animated), {.methods = lens_methods}};
   const auto add = [&](std::vector<OptionRow> rows) {
     group.rows.insert(group.rows.end(), rows.begin(), rows.end());
   };
-  add({{"--pixel-scale",
-        value(s.camera.pixels_per_metre),
-        "Pixels per metre of image plane, instead of --sensor-width",
-        {.field = "pixels_per_metre"}}});
+  add(sensor_rows(job));
+  add(focus_rows(job));
   add(eye_rows(job.eye));
   add({{"--scale",
         value(s.camera.perceived_scale),
@@ -85,15 +146,53 @@ OptionGroup lens_options(RenderCommand& job) {
   return group;
 }
 
-void finish_lens(RenderCommand& job) {
-  RenderSettings& s = job.settings;
-  s.camera_from_metadata = job.camera == from_metadata;
-  const CameraValues typed = s.camera;
-  const bool has_file = !job.camera.empty() && !s.camera_from_metadata;
-  s.camera = has_file ? read_camera_json(job.camera, job.focus_setting, s.metres_per_unit)
-                      : CameraValues{};
-  s.camera = s.camera.overridden_by(eye_of(job.eye)).overridden_by(typed);
-  if (!s.camera_from_metadata) make_lens(s.camera, s.metres_per_unit, s.model, s.max_coc_px);
+namespace {
+
+/// The camera file of a frame, under the eye; empty where there is none.
+CameraValues camera_at(const RenderCommand& job, std::optional<int> frame) {
+  const bool has_file = !job.camera.empty() && job.camera != from_metadata;
+  if (!has_file) return eye_of(job.eye);
+  const std::string path = frame ? frame_path(job.camera, *frame) : job.camera;
+  return read_camera_json(path, job.focus_setting, job.settings.metres_per_unit)
+      .overridden_by(eye_of(job.eye));
+}
+
+/// Throws what is wrong with a lens of which the picture tells no part.
+void check_lens(const RenderSettings& s) {
+  if (s.camera_from_metadata) return;
+  CameraValues camera = s.camera;
+  if (s.focus_at) {
+    camera.focus_distance_units = std::numeric_limits<double>::infinity();
+    camera.perceived_distance_m.reset();
+  }
+  make_lens(camera, s.metres_per_unit, s.model, s.max_coc_px);
+}
+
+}  // namespace
+
+RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
+  RenderSettings s = job.settings;
+  if (s.method.method == Method::tiltshift) return s;
+  for (const AnimatedField& value : job.animated) {
+    if (!frame) {
+      fail(ErrorKind::usage, "{} changes over frames, the input {} has none", value.option,
+           job.paths.input);
+    }
+    s.camera.*value.field = value.curve.at(*frame);
+  }
+  s.camera = camera_at(job, frame).overridden_by(s.camera);
+  return s;
+}
+
+void check_lens(const RenderCommand& job, const std::vector<std::optional<int>>& frames) {
+  if (job.settings.method.method == Method::tiltshift) return;
+  // A camera file a frame may be missing, or wrong: that frame's error.
+  const bool is_of_frames = frames.front() && has_frame_pattern(job.camera);
+  const bool is_constant = job.animated.empty();
+  for (const std::optional<int>& frame : frames) {
+    if (!is_of_frames) check_lens(settings_at(job, frame));
+    if (is_constant) break;
+  }
 }
 
 }  // namespace defray::cli

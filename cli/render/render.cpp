@@ -1,10 +1,14 @@
 // defray render: one picture or a sequence through the lens.
+#include <filesystem>
+
 #include "commands.h"
 #include "defray/defray.h"
 #include "exit_code.h"
+#include "image/safe_output.h"
 #include "image/sequence.h"
 #include "render/render_command.h"
 #include "render/sequence_run.h"
+#include "standard_streams.h"
 
 namespace defray::cli {
 namespace {
@@ -20,17 +24,29 @@ Examples:
   defray render vray.exr -o out.exr --depth-kind normalized --invert --near 0.5 --far 40 \
       --focus 3 --fstop 4 --focal-length 50)";
 
+/// Whether a name stands for numbered files. Beside a single picture an @ is a letter: hero@2x.png.
+bool is_pattern(const RenderCommand& job, const std::string& name, bool is_sequence) {
+  if (job.no_pattern || name.empty() || !has_frame_pattern(name)) return false;
+  return is_sequence || name.find_first_of("#%", name.rfind('/') + 1) != std::string::npos;
+}
+
 /// The frames to render; a single empty one for a picture without a pattern.
 std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   const FramePaths& p = job.paths;
-  const bool is_sequence = has_frame_pattern(p.input);
+  const bool is_sequence = is_pattern(job, p.input, true);
   if (!is_sequence) {
     if (!job.frames.empty()) {
       fail(ErrorKind::usage, "--frames needs a pattern in the input name, such as shot.####.exr");
     }
+    if (job.focus_frame) {
+      fail(ErrorKind::usage, "--focus-frame needs a pattern in the input name: {} is one picture",
+           p.input);
+    }
     for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
-      if (!name.empty() && has_frame_pattern(name)) {
-        fail(ErrorKind::usage, "{}: has a frame pattern, the input {} has none", name, p.input);
+      if (is_pattern(job, name, false)) {
+        fail(ErrorKind::usage,
+             "{}: has a frame pattern, the input {} has none; --no-pattern takes it as a name",
+             name, p.input);
       }
     }
     return {std::nullopt};
@@ -46,13 +62,38 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   return {numbers.begin(), numbers.end()};
 }
 
+/// Folders of the outputs, where they are to be made.
+void make_folders(const RenderCommand& job) {
+  if (!job.make_folders) return;
+  const FramePaths& p = job.paths;
+  for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
+    const std::string folder = std::filesystem::path(name).parent_path().string();
+    if (!folder.empty()) create_folder(folder);
+  }
+}
+
+/// The focus of --focus-frame, for all frames.
+void take_focus_of_frame(RenderCommand& job) {
+  if (!job.focus_frame) return;
+  job.settings.camera.focus_distance_units =
+      inspect_file(paths_of(job.paths, job.focus_frame), settings_at(job, job.focus_frame))
+          .lens.focus_distance_units;
+  job.settings.focus_at.reset();
+}
+
 int run(const OptionTable& options, RenderCommand& job) {
   options.set();
+  job.given = options.given();
+  PictureStreams streams(job.paths.input, job.paths.output);
   const auto frames = frames_of(job);
   options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
   finish(job);
+  check_lens(job, frames);
+  make_folders(job);
+  take_focus_of_frame(job);
   SequenceRun sequence(job, frames);
   const std::size_t failed = sequence.render();
+  streams.finish();
   if (job.show) sequence.show_last();
   if (failed > 0) {
     fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());

@@ -3,6 +3,7 @@
 #include "lens/depth.h"
 #include "lens/lens_grid.h"
 #include "methods/tiltshift.h"
+#include "options/lens_rows.h"
 
 namespace defray::cli {
 std::size_t RenderCommand::memory_bytes() const {
@@ -37,7 +38,7 @@ void finish(RenderCommand& job) {
   validate(m.gather);
   validate(s.tiltshift);
   validate(s.depth);
-  if (m.method != Method::tiltshift) finish_lens(job);
+  s.camera_from_metadata = job.camera == from_metadata;
 }
 
 }  // namespace defray::cli

@@ -3,11 +3,13 @@
 // file (options_*.cpp).
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "defray/device.h"
 #include "defray/io.h"
 #include "lens/camera.h"
+#include "options/curve.h"
 #include "options/math_words.h"
 #include "options/option_table.h"
 #include "options/parse.h"
@@ -29,6 +31,10 @@ struct RenderCommand {
   ChainSettings chain;  ///< Of rdb, unless it is literal.
   EyeOptions eye;
   std::string camera, focus_setting;  ///< Of a camera file, or "from-metadata".
+  AnimatedLens animated;
+  std::optional<int> focus_frame;  ///< Of settings.focus_at; without one, each its own.
+  bool make_folders = false, no_pattern = false;
+  std::vector<std::pair<std::string, std::string>> given;  ///< The options, as typed.
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
   std::string device;
   Math math = Math::strict;
@@ -63,12 +69,15 @@ OptionGroup terminal_options(RenderCommand& job);
 /// All of them, in the order of --help and of their setting.
 std::vector<OptionGroup> render_options(RenderCommand& job);
 
-/// What follows from the options together: memory, stages, lens. Throws Error(usage) on values and
-/// combinations that are not allowed, Error(input) for a camera file.
+/// What follows from the options together: memory, stages. Throws Error(usage) on values and
+/// combinations that are not allowed.
 void finish(RenderCommand& job);
 
-/// Its part of the lens: typed values win over the eye's, those over the camera file's or the
-/// metadata's.
-void finish_lens(RenderCommand& job);
+/// The settings of a frame: typed values win over the eye's, those over the camera file's or the
+/// metadata's. Throws Error(usage), and Error(input) for a camera file.
+RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame);
+
+/// Throws Error as settings_at does, for what is wrong before any frame is read.
+void check_lens(const RenderCommand& job, const std::vector<std::optional<int>>& frames);
 
 }  // namespace defray::cli

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
+#include "options/option_table.h"
 
 namespace defray::cli {
 namespace {
@@ -66,8 +67,15 @@ nlohmann::ordered_json chain_json(const ChainReport& d) {
           {"stages_bytes", bytes},        {"tiles", tiles}};
 }
 
+/// The library's notes, with options for the settings in them.
+std::vector<std::string> own_notes(const FrameReport& r) {
+  std::vector<std::string> notes;
+  for (const std::string& note : r.notes) notes.push_back(with_field_names(note, option_of_field));
+  return notes;
+}
+
 std::vector<std::string> notes_of(const FrameReport& r) {
-  std::vector<std::string> notes = r.notes;
+  std::vector<std::string> notes = own_notes(r);
   if (r.nonfinite > 0) {
     notes.push_back(fmt::format("{} NaN or Inf colour values {}", r.nonfinite,
                                 r.nonfinite_kept ? "kept" : "set to 0"));
@@ -125,7 +133,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},
                  {"nonfinite_values", r.nonfinite},
-                 {"notes", r.notes},
+                 {"notes", own_notes(r)},
                  {"read_s", r.read_seconds},
                  {"render_s", r.render_seconds},
                  {"write_s", r.write_seconds}});
@@ -184,7 +192,6 @@ void print_json_line(const FrameOutcome& o, const std::string& device) {
   }
   // Names come from files: bytes that are no UTF-8 are replaced, not fatal.
   fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  std::fflush(stdout);
 }
 
 }  // namespace defray::cli

@@ -1,13 +1,15 @@
 #include "render/sequence_run.h"
 
 #include <filesystem>
+#include <system_error>
 
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
+#include "render/show_session.h"
+#include "standard_streams.h"
 
 namespace defray::cli {
-namespace {
 
 FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   if (!frame) return paths;
@@ -16,6 +18,16 @@ FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
     if (!path->empty()) *path = frame_path(*path, *frame);
   }
   return paths;
+}
+
+namespace {
+
+/// Whether all that a frame is asked for is there.
+bool exists(const FramePaths& paths) {
+  for (const std::string& path : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
+    if (!path.empty() && !std::filesystem::exists(path)) return false;
+  }
+  return true;
 }
 
 Device open_device(const RenderCommand& job) {
@@ -52,12 +64,16 @@ void SequenceRun::Work::attempt(const Step& step) {
 
 SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
   Work work{{frame, paths_of(job_.paths, frame), "ok", "", {}}, nullptr, {}, {}};
-  if (job_.skip_existing && std::filesystem::exists(work.outcome.paths.output)) {
+  if (job_.skip_existing && exists(work.outcome.paths)) {
     work.outcome.status = "skipped";
     return work;
   }
-  work.file = std::make_unique<FileRender>(work.outcome.paths, job_.settings);
-  work.attempt([&] { work.file->read(); });
+  try {
+    work.file = std::make_unique<FileRender>(work.outcome.paths, settings_at(job_, frame));
+    work.file->read();
+  } catch (const Error& error) {
+    work.error = error;
+  }
   return work;
 }
 
@@ -121,18 +137,25 @@ void SequenceRun::show_last() {
     return;
   }
   bar_.clear();
-  show("defray: " + job_.paths.output, to_display_window(last_, last_data_, last_display_),
-       last_display_.width, last_display_.height);
+  ShowSession session(job_, frames_, *device_);
+  session.run(to_display_window(last_, last_data_, last_display_));
+  fmt::print(job_.quiet || job_.json ? stderr : stdout, "{}\n", session.command());
 }
 
 void SequenceRun::report(const FrameOutcome& outcome) {
   bar_.clear();
-  if (job_.json) {
-    print_json_line(outcome, device_->name());
-  } else if (!job_.quiet) {
-    print_text(outcome, device_->name());
-    if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
-    std::fflush(stdout);  // a log shows each frame as it is done
+  if (is_mute_) return;
+  try {
+    if (job_.json) {
+      print_json_line(outcome, device_->name());
+    } else if (!job_.quiet) {
+      print_text(outcome, device_->name());
+      if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
+    }
+    is_mute_ = !flush_output();         // a log shows each frame as it is done
+  } catch (const std::system_error&) {  // fmt's: the pictures are what counts
+    is_mute_ = true;
+    flush_output();
   }
 }
 

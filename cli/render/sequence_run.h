@@ -13,6 +13,9 @@
 
 namespace defray::cli {
 
+/// The files of a frame; those of a picture as they are.
+FramePaths paths_of(FramePaths paths, std::optional<int> frame);
+
 class SequenceRun {
  public:
   /// Opens the device. A single frame without a number is a picture. Throws Error.
@@ -46,6 +49,7 @@ class SequenceRun {
   ProgressBar bar_;
   std::optional<Device> device_;  ///< Opened while the first frame is read.
   std::size_t failed_ = 0;
+  bool is_mute_ = false;  ///< Standard output takes no more.
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };

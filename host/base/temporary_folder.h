@@ -4,7 +4,8 @@
 
 namespace defray {
 
-/// Removed, with what is in it, at the end.
+/// Removed, with what is in it, at the end; where the process is killed first, by the next of this
+/// name.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 #include <span>
 
+#include "base/parallel.h"
 #include "lens/coc.h"
 #include "rdb/rdb_plan.h"
 
@@ -28,18 +28,19 @@ int margin_of(const Frame& f, Border border, ChainReport& report) {
   return report.border_px;
 }
 
-/// `plane` with its edge repeated around it.
-template <typename T>
-std::vector<T> repeated(std::span<const T> plane, int width, int height, int margin) {
-  std::vector<T> out;
-  out.reserve((size(width) + 2 * size(margin)) * (size(height) + 2 * size(margin)));
-  for (int y = -margin; y < height + margin; ++y) {
-    const T* row = &plane[size(std::clamp(y, 0, height - 1)) * size(width)];
-    out.insert(out.end(), size(margin), row[0]);
-    out.insert(out.end(), row, row + width);
-    out.insert(out.end(), size(margin), row[width - 1]);
-  }
-  return out;
+/// Rows of `to`, a plane of the extended frame, from the picture's: value(pixel of it).
+template <typename T, typename Value>
+void repeat_rows(const Frame& e, Values<T>& to, Rows rows, const Value& value) {
+  if (to.empty()) to = Values<T>::room(e.pixels());
+  const std::span<T> out = to.edit();
+  parallel_for(rows.count(), [&](int row) {
+    const int y = rows.y + row;
+    T* const line = &out[e.index(0, y)];
+    const std::size_t first = picture_pixel(e, 0, y), width = size(e.width - 2 * e.margin);
+    std::fill_n(line, e.margin, value(first));
+    for (std::size_t x = 0; x < width; ++x) line[size(e.margin) + x] = value(first + x);
+    std::fill_n(line + size(e.margin) + width, e.margin, value(first + width - 1));
+  });
 }
 
 /// A line of front fragments from the frame's edge inwards, and outwards at negative places.
@@ -71,6 +72,12 @@ void continue_line(const Line& line, int surface, int margin, std::span<float> p
   }
 }
 
+void clear_margin(const Frame& e, Rows rows, std::span<float> plane) {
+  for (std::size_t i = e.index(0, rows.y); i < e.index(0, rows.end); ++i) {
+    if (e.is_in_margin(i)) plane[i] = 0;
+  }
+}
+
 }  // namespace
 
 void continue_colours(Frame& f) {
@@ -85,17 +92,29 @@ void continue_colours(Frame& f) {
     const int surface = line.surface(std::min(length, m));
     for (const std::span<float> plane : channels) continue_line(line, surface, m, plane);
   };
-  for (int y = m; y < f.height - m; ++y) {
+  const Rows wanted = f.wanted_rows();
+  const int top = m, bottom = f.height - m;  // of the picture
+  for (int y = std::max(wanted.y, top); y < std::min(wanted.end, bottom); ++y) {
     go_on(m, y, 1, 0, f.width - 2 * m);
     go_on(f.width - m - 1, y, -1, 0, f.width - 2 * m);
   }
-  for (int x = 0; x < f.width; ++x) {
-    go_on(x, m, 0, 1, f.height - 2 * m);
-    go_on(x, f.height - m - 1, 0, -1, f.height - 2 * m);
+  for (int x = 0; x < f.width && wanted.y == 0; ++x) go_on(x, top, 0, 1, bottom - top);
+  for (int x = 0; x < f.width && wanted.end == f.height; ++x) {
+    go_on(x, bottom - 1, 0, -1, bottom - top);
   }
 }
 
-Frame extended(const Frame& f, Border border, bool wants_data, ChainReport& report) {
+int rows_to_continue(const Frame& f) { return std::min(2 * f.margin, f.height - f.margin); }
+
+std::size_t picture_pixel(const Frame& e, int x, int y) {
+  const int width = e.width - 2 * e.margin, height = e.height - 2 * e.margin;
+  return size(std::clamp(y - e.margin, 0, height - 1)) * size(width) +
+         size(std::clamp(x - e.margin, 0, width - 1));
+}
+
+float inverse_of(float depth) { return std::isinf(depth) ? 0.0f : 1.0f / depth; }
+
+Frame with_margin(const Frame& f, Border border, ChainReport& report) {
   const int margin = margin_of(f, border, report);
   Frame e = f.without_planes();
   e.width += 2 * margin;
@@ -103,22 +122,32 @@ Frame extended(const Frame& f, Border border, bool wants_data, ChainReport& repo
   e.margin = margin;
   e.origin_x -= margin;
   e.origin_y -= margin;
-  e.coc_quanta = repeated(f.coc_quanta.host(), f.width, f.height, margin);
-  Plane inverse = repeated(f.depth.host(), f.width, f.height, margin);
-  for (float& z : inverse) z = std::isinf(z) ? 0.0f : 1.0f / z;
-  e.inverse = std::move(inverse);
-  for (const Values<float>& channel : f.channels) {
-    Plane plane = repeated(channel.host(), f.width, f.height, margin);
-    for (std::size_t i = 0; border == Border::black && i < plane.size(); ++i) {
-      if (e.is_in_margin(i)) plane[i] = 0;
-    }
-    e.channels.emplace_back(std::move(plane));
+  return e;
+}
+
+void repeat_coc(const Frame& f, const Frame& e, Rows rows, Quanta& coc) {
+  const auto own = f.coc_quanta.host();
+  repeat_rows(e, coc, rows, [&](std::size_t pixel) { return own[pixel]; });
+}
+
+void repeat_surfaces(const Frame& f, Border border, bool wants_data, Rows rows, Frame& e) {
+  const auto depth = f.depth.host();
+  repeat_rows(e, e.inverse, rows, [&](std::size_t pixel) { return inverse_of(depth[pixel]); });
+  e.channels.resize(f.channels.size());
+  for (std::size_t c = 0; c < f.channels.size(); ++c) {
+    const auto own = f.channels[c].host();
+    repeat_rows(e, e.channels[c], rows, [&](std::size_t pixel) { return own[pixel]; });
+    if (border == Border::black) clear_margin(e, rows, e.channels[c].edit());
   }
-  if (wants_data) {
-    std::vector<std::uint32_t> own(f.pixels());
-    std::iota(own.begin(), own.end(), 0u);
-    e.data_of = repeated(std::span<const std::uint32_t>(own), f.width, f.height, margin);
-  }
+  if (!wants_data) return;
+  repeat_rows(e, e.data_of, rows,
+              [](std::size_t pixel) { return static_cast<std::uint32_t>(pixel); });
+}
+
+Frame extended(const Frame& f, Border border, bool wants_data, ChainReport& report) {
+  Frame e = with_margin(f, border, report);
+  repeat_coc(f, e, {0, e.height}, e.coc_quanta);
+  repeat_surfaces(f, border, wants_data, {0, e.height}, e);
   return e;
 }
 

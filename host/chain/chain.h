@@ -23,10 +23,10 @@ struct MethodResult {
   std::vector<std::uint32_t> nearest = {};
   /// Of the chain.
   TileClasses tiles = {};
-  ChainReport report = {};
+  std::optional<ChainReport> report = {};
 };
 
-/// `frame` has coc_quanta, depth and channels; `seed` is for what is random. Throws Error(usage)
+/// `frame` has coc_quanta, depth and channels. Throws Error(usage)
 /// for settings out of range.
 MethodResult run_chain(const Frame& frame, const ChainSettings& settings, Backend& backend,
                        bool wants_nearest = false, const Progress& progress = {});

@@ -80,8 +80,8 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Backen
   out.confidence = at_full_size(out.confidence, f.width, f.height);
   out.tiles.double_size(f.width, f.height);
   if (wants_nearest) out.nearest = nearest_at_full_size(f, half, out.nearest);
-  out.report.stages.insert(out.report.stages.begin(), {"half size", halving, 0});
-  out.report.stages.push_back({"full size", watch.lap(), 0});
+  out.report->stages.insert(out.report->stages.begin(), {"half size", halving, 0});
+  out.report->stages.push_back({"full size", watch.lap(), 0});
   return std::move(made.result);
 }
 

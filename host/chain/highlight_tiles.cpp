@@ -48,12 +48,15 @@ Values<float> darkest_around(const Frame& f, int light_channels) {
       }
     }
   };
-  const Tiles<LightTile> tiles(f.width, f.height, DEFRAY_HIGHLIGHT_TILE, look);
+  constexpr int side = DEFRAY_HIGHLIGHT_TILE;
+  const Rows wanted = f.wanted_rows();
+  const Rows known = wanted.with(highlight_reach(f.coc_range().largest_radius()), f.height);
+  const Tiles<LightTile> tiles(f.width, f.height, known, side, look);
   const float darkest_of_all = tiles.all().darkest;
-  std::vector<float> darkest;
-  for (std::size_t t = 0; t < tiles.count(); ++t) {
-    const int reach = highlight_reach(tiles[t].largest_coc) / DEFRAY_HIGHLIGHT_TILE + 1;
-    darkest.push_back(reach > farthest_tiles ? darkest_of_all : tiles.around(t, reach).darkest);
+  std::vector<float> darkest(tiles.count());
+  for (std::size_t t = tiles.first_of(wanted, side); t < tiles.end_of(wanted, side); ++t) {
+    const int reach = highlight_reach(tiles[t].largest_coc) / side + 1;
+    darkest[t] = reach > farthest_tiles ? darkest_of_all : tiles.around(t, reach).darkest;
   }
   return darkest;
 }

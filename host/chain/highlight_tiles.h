@@ -9,7 +9,7 @@ int highlight_reach(std::int32_t coc_quanta);
 
 /// For each tile of DEFRAY_HIGHLIGHT_TILE pixels a side the least light (largest light channel) of
 /// the seen front fragments that its fragments can look at, or less; infinite where there are none.
-/// [tiles_y][tiles_x].
+/// [tiles_y][tiles_x], of wanted rows.
 Values<float> darkest_around(const Frame& frame, int light_channels);
 
 }  // namespace defray

@@ -45,7 +45,8 @@ void sort_into_tiles(LightSources& lights, int width, int height) {
 
 /// Median alpha around a fragment's disc, where `highlights` looks for the light around it; its own
 /// if all of that is beyond the frame.
-float alpha_around(const Frame& f, const Plane& alpha, std::size_t own, std::int32_t coc) {
+float alpha_around(const Frame& f, std::span<const float> alpha, std::size_t own,
+                   std::int32_t coc) {
   const int x = static_cast<int>(own % size(f.width));
   const int y = static_cast<int>(own / size(f.width) / size(f.layers));
   const float radius = std::fabs(static_cast<float>(coc)) * px_per_quantum;
@@ -86,19 +87,16 @@ std::vector<std::uint32_t> map_cells(const LensPoints& lens) {
   return map;
 }
 
-LightSources take_light(Frame& f, const Values<float>& kept_share, int light_channels,
-                        const ApertureTable& aperture, const LensPoints& lens) {
-  LightSources lights;
-  const auto kept = kept_share.host();
-  if (std::all_of(kept.begin(), kept.end(), [](float k) { return k == 1.0f; })) return lights;
+void take_light(Frame& f, const Values<float>& kept_share, const Values<float>& own_alpha,
+                int light_channels, LightSources& lights) {
+  const auto kept = kept_share.host(), alpha = own_alpha.host();
   const bool has_alpha = f.channels.size() > size(light_channels);
-  const Plane alpha =
-      has_alpha ? Plane(f.channels.back().begin(), f.channels.back().end()) : Plane{};
   std::vector<std::span<float>> channels;
   for (Values<float>& channel : f.channels) channels.push_back(channel.edit());
   const auto coc_quanta = f.coc_quanta.host();
   const auto coverage = f.coverage.host();
-  for (std::size_t i = 0; i < kept.size(); ++i) {
+  const Rows wanted = f.wanted_rows();
+  for (std::size_t i = f.index(0, wanted.y); i < f.index(0, wanted.end); ++i) {
     if (kept[i] == 1.0f) continue;
     const std::size_t row = i / size(f.width);
     const std::int32_t coc = tame(coc_quanta[i]);
@@ -119,11 +117,38 @@ LightSources take_light(Frame& f, const Values<float>& kept_share, int light_cha
     }
     lights.excess.push_back(excess);
   }
-  sort_into_tiles(lights, f.width, f.height);
+}
+
+void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSources& lights) {
   lights.table = aperture.sums;
   lights.share_of_light = 1.0f / static_cast<float>(aperture.total());
   lights.cell_map = map_cells(lens);
-  return lights;
+}
+
+LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
+  LightSources near;
+  const Rows rows = f.wanted_rows().with(reach, f.height);
+  for (std::size_t i = 0; i < all.where.size(); ++i) {
+    if (all.where[i][1] < rows.y || all.where[i][1] >= rows.end) continue;
+    near.where.push_back(all.where[i]);
+    near.excess.push_back(all.excess[i]);
+  }
+  if (near.where.empty()) return near;
+  sort_into_tiles(near, f.width, f.height);
+  near.table = all.table;
+  near.share_of_light = all.share_of_light;
+  near.cell_map = all.cell_map;
+  return near;
+}
+
+LightSources take_light(Frame& f, const Values<float>& kept, int light_channels,
+                        const ApertureTable& aperture, const LensPoints& lens) {
+  LightSources lights;
+  const Values<float>& alpha = f.channels.back();
+  take_light(f, kept, std::vector<float>(alpha.begin(), alpha.end()), light_channels, lights);
+  if (lights.where.empty()) return lights;
+  show_through(aperture, lens, lights);
+  return lights_near(lights, f, f.height);
 }
 
 }  // namespace defray

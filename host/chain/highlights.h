@@ -10,8 +10,19 @@
 
 namespace defray {
 
-/// Takes from the surfaces what `kept` (kernel `highlights`) does not leave them, and of their
-/// alpha what they have more of than their surroundings.
+/// Takes from the surfaces of wanted rows what `kept` (kernel `highlights`) does not leave them,
+/// and of their alpha what they have more of than their surroundings, and adds it to `lights`: not
+/// sorted into tiles. `alpha` is the last channel before anything was taken from it.
+void take_light(Frame& frame, const Values<float>& kept, const Values<float>& alpha,
+                int light_channels, LightSources& lights);
+
+/// The aperture that the lights' discs have.
+void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSources& lights);
+
+/// Those that shine on the frame's wanted rows from `reach` rows away at most, sorted into tiles.
+LightSources lights_near(const LightSources& all, const Frame& frame, int reach);
+
+/// All of it, of a whole frame.
 LightSources take_light(Frame& frame, const Values<float>& kept, int light_channels,
                         const ApertureTable& aperture, const LensPoints& lens);
 

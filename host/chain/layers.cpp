@@ -8,69 +8,77 @@
 namespace defray {
 namespace {
 
-/// Whose data a surface has. One on its pixel's own surface: the pixel's. One in front of it,
-/// which `split` found beside the pixel: that of the nearest pixel on its surface. What was made
-/// up: none.
-std::uint32_t data_of(const Frame& e, const Frame& from, int layer, std::size_t i) {
+float depth_of(float inverse) {
+  return inverse < 0    ? no_fragment()
+         : inverse == 0 ? std::numeric_limits<float>::infinity()
+                        : 1.0f / inverse;
+}
+
+/// Whose data a surface of two layers has. One on its pixel's own surface: the pixel's. One in
+/// front of it, which `split` found beside the pixel: that of the nearest pixel on its surface.
+/// What was made up: none.
+std::uint32_t data_of(const Frame& e, const Frame& two, int x, int y, int layer) {
+  const std::size_t i = two.index(x, y, layer);
   const auto is_on = [&](std::size_t pixel) {
-    return e.inverse[pixel] == from.inverse[i] && e.coc_quanta[pixel] == from.coc_quanta[i];
+    return depth_of(e.inverse[pixel]) == two.depth[i] && e.coc_quanta[pixel] == two.coc_quanta[i];
   };
-  if (layer == 1 && from.coverage[i] >= DEFRAY_SYNTHESISED) return DEFRAY_EMPTY;
-  if (is_on(i)) return e.data_of[i];
-  const int x = static_cast<int>(i % size(e.width)), y = static_cast<int>(i / size(e.width));
+  if (layer == 1 && two.coverage[i] >= DEFRAY_SYNTHESISED) return DEFRAY_EMPTY;
+  if (is_on(e.index(x, y))) return e.data_of[e.index(x, y)];
   constexpr int reach = 3;  // as far as `split` looks
   int least = 2 * reach * reach + 1;
   std::uint32_t data = DEFRAY_EMPTY;
   for (int j = std::max(0, y - reach); j <= std::min(e.height - 1, y + reach); ++j) {
     for (int k = std::max(0, x - reach); k <= std::min(e.width - 1, x + reach); ++k) {
-      const std::size_t pixel = size(j) * size(e.width) + size(k);
       const int distance = (j - y) * (j - y) + (k - x) * (k - x);
-      if (distance >= least || !is_on(pixel)) continue;
+      if (distance >= least || !is_on(e.index(k, j))) continue;
       least = distance;
-      data = e.data_of[pixel];
+      data = e.data_of[e.index(k, j)];
     }
   }
   return data;
 }
 
-void count(const Surfaces& s, ChainReport& report) {
-  const auto front = s.front.inverse.host(), behind = s.behind.inverse.host();
-  const auto front_coverage = s.front.coverage.host(), behind_coverage = s.behind.coverage.host();
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (s.front.is_in_margin(i)) continue;
-    report.split += !(front[i] < 0) && front_coverage[i] < DEFRAY_WHOLE;
-    report.behind += !(behind[i] < 0) && behind_coverage[i] >= DEFRAY_SYNTHESISED;
+void count(const Frame& two, ChainReport& report) {
+  const auto coverage = two.coverage.host();
+  const Rows rows{std::max(two.wanted_rows().y, two.margin),
+                  std::min(two.wanted_rows().end, two.height - two.margin)};
+  for (int y = rows.y; y < rows.end; ++y) {
+    for (int x = two.margin; x < two.width - two.margin; ++x) {
+      const std::uint32_t front = coverage[two.index(x, y, 0)];
+      report.split += front > 0 && front < DEFRAY_WHOLE;
+      report.behind += coverage[two.index(x, y, 1)] >= DEFRAY_SYNTHESISED;
+    }
   }
 }
 
 }  // namespace
 
-Frame whole_pixels(Frame f) {
-  f.depth = std::move(f.inverse);
-  f.inverse = {};
-  for (float& z : f.depth.edit()) {
-    z = z < 0 ? no_fragment() : z == 0 ? std::numeric_limits<float>::infinity() : 1.0f / z;
+void make_whole(Frame& f) {
+  if (f.depth.empty()) f.depth = Values<float>::room(f.pixels());
+  if (f.coverage.empty()) f.coverage = Words::room(f.pixels());
+  const auto inverse = f.inverse.host();
+  const auto depth = f.depth.edit();
+  const auto coverage = f.coverage.edit();
+  const Rows rows = f.wanted_rows();
+  for (std::size_t i = f.index(0, rows.y); i < f.index(0, rows.end); ++i) {
+    depth[i] = depth_of(inverse[i]);
+    coverage[i] = DEFRAY_WHOLE | (f.is_in_margin(i) ? DEFRAY_SYNTHESISED : 0u);
   }
-  std::vector<std::uint32_t> coverage(f.pixels(), DEFRAY_WHOLE);
-  for (std::size_t i = 0; i < coverage.size(); ++i) {
-    if (f.is_in_margin(i)) coverage[i] |= DEFRAY_SYNTHESISED;
-  }
-  f.coverage = std::move(coverage);
-  return f;
 }
 
-Frame two_layers(Backend& backend, const Frame& frame, const Surfaces& s, ChainReport& report) {
-  count(s, report);
-  Frame f = backend.assemble(s);
-  if (frame.data_of.empty()) return f;
-  std::vector<std::uint32_t> data(f.surfaces());
-  for (std::size_t i = 0; i < frame.pixels(); ++i) {
-    const std::size_t front = f.front_of(i);
-    data[front] = data_of(frame, s.front, 0, i);
-    data[front + size(f.width)] = data_of(frame, s.behind, 1, i);
+void describe_layers(const Frame& frame, Frame& layers, ChainReport& report) {
+  count(layers, report);
+  if (frame.data_of.empty()) return;
+  if (layers.data_of.empty()) layers.data_of = Words::room(layers.surfaces());
+  const auto data = layers.data_of.edit();
+  const Rows rows = layers.wanted_rows();
+  for (int y = rows.y; y < rows.end; ++y) {
+    for (int layer = 0; layer < layers.layers; ++layer) {
+      for (int x = 0; x < frame.width; ++x) {
+        data[layers.index(x, y, layer)] = data_of(frame, layers, x, y, layer);
+      }
+    }
   }
-  f.data_of = std::move(data);
-  return f;
 }
 
 }  // namespace defray

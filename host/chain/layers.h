@@ -5,12 +5,13 @@
 
 namespace defray {
 
-/// One surface a pixel, whole; those of the margin were not seen. Depth instead of `inverse`.
-Frame whole_pixels(Frame frame);
+/// One surface a pixel, whole; those of the margin were not seen: depth and coverage of wanted
+/// rows.
+void make_whole(Frame& frame);
 
-/// Two layers, with data_of where `frame` has it. `report` gets how many pixels of the picture were
-/// split and have something made up behind them.
-Frame two_layers(Backend& backend, const Frame& frame, const Surfaces& surfaces,
-                 ChainReport& report);
+/// Gives the layers of `split` data_of where `frame`, which they were made of, has it. `report`
+/// gets how many pixels of the picture were split and have something made up behind them. Of the
+/// layers' wanted rows.
+void describe_layers(const Frame& frame, Frame& layers, ChainReport& report);
 
 }  // namespace defray

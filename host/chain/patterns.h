@@ -20,6 +20,10 @@ struct PatternSettings {
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   int parallel_shifts = 4;                 ///< The best of those parallel to the picture, as many.
   int parallel_reach_x_px = 400, parallel_reach_y_px = 128;  ///< Of these.
+  /// Shifts are looked for in all of a picture of up to so many pixels (4K), in strips of larger
+  /// ones: so many of them, of so many rows (twice as many as shifts are long).
+  std::size_t most_searched = 10'000'000;
+  int strips = 3, strip_rows = 256;
   /// CoC radii that differ by no more are of one surface: rays of two such pixels land within this
   /// distance of each other, through all of the lens.
   std::int32_t tolerance_quanta = 1 << DEFRAY_COC_FRACTION_BITS;
@@ -34,14 +38,14 @@ struct PatternShift {
   bool operator==(const PatternShift&) const = default;
 };
 
-/// The frame's sRGB-encoded colours clipped to 0...1, 8 bits each, r | g << 8 | b << 16, with
-/// DEFRAY_PATTERN_KNOWN for a pure pixel of the picture whose own surface hides nothing.
-std::vector<std::uint32_t> encoded_colours(const Frame& frame, const Frame& behind,
-                                           const Words& mixed);
+/// What is compared. The frame's sRGB-encoded colours clipped to 0...1, 8 bits each, r | g << 8 |
+/// b << 16; DEFRAY_PATTERN_KNOWN for a pure pixel of the picture whose own surface hides nothing
+/// and none of whose channels lies beyond -1...1 or is not a number (a highlight belongs to its
+/// place: copies of it would be new ones, and clipped it matches anything as bright); and
+/// DEFRAY_PATTERN_BEHIND where something lies behind. Of wanted rows; others as `into` has them.
+Words patterns_pixels(const Frame& frame, const Frame& behind, const Words& mixed, Words into = {});
 
-/// DEFRAY_PATTERN_KNOWN taken from pixels with a channel beyond -1...1 or not a number (a highlight
-/// belongs to its place: copies of it would be new ones, and clipped it matches anything as
-/// bright), and DEFRAY_PATTERN_BEHIND added where something lies behind.
+/// The same of colours that are encoded, KNOWN but for their channels.
 Words patterns_pixels(std::vector<std::uint32_t> encoded, const Planes& channels,
                       const std::vector<bool>& is_behind);
 
@@ -67,14 +71,24 @@ inline int parallel_length(float parallel, float inverse, int most) {
   return std::bit_cast<int>(px + no_fraction) - std::bit_cast<int>(no_fraction);
 }
 
-/// Variance V of the known colours around each cell, all three together, (1/255)^2, where it hides
-/// something: [rows of cells][units][DEFRAY_PATTERN_UNIT]. A shift's D is 2 (V - covariance).
-Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings);
+/// Both kinds; none where nothing lies behind in the frame.
+std::vector<PatternShift> find_shifts(const Frame& frame, const Words& pixels,
+                                      const PatternSettings& settings);
 
-/// All of it. `pixels` are patterns_pixels; the smooth colours of `behind` are improved in place.
-/// Other pixels keep theirs.
+/// Rows around a pixel that its matches and their windows lie in, whatever the shifts.
+int pattern_rows_around(const PatternSettings& settings);
+
+/// Variance V of the known colours around each cell, all three together, (1/255)^2, where it hides
+/// something: [rows of cells][units][DEFRAY_PATTERN_UNIT], of wanted rows. A shift's D is
+/// 2 (V - covariance).
+Values<float> patterns_variance(const Frame& frame, const Words& pixels,
+                                const PatternSettings& settings);
+
+/// The smooth colours of `behind`, of wanted rows, are improved in place. `pixels` are
+/// patterns_pixels. Other pixels keep theirs.
 void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixels,
-                         const PatternSettings& settings, Frame& behind);
+                         const std::vector<PatternShift>& shifts, const PatternSettings& settings,
+                         Frame& behind);
 
 /// Weight of the pairs that a match needs: a tenth of a whole window's.
 std::uint32_t least_pairs(int window_cells);

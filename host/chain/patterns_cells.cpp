@@ -9,8 +9,11 @@ namespace defray {
 Words needed_units(const Frame& f, const Words& pixels, int window_cells) {
   const int units = pattern_units(f.width), rows = pattern_rows(f.height);
   const auto words = pixels.host();
+  const Rows wanted = f.wanted_rows();
+  const int first_row = wanted.y / DEFRAY_PATTERN_CELL;
   std::vector<char> hides(size(units) * size(rows));
-  parallel_for(rows, [&](int j) {
+  parallel_for(pattern_rows(wanted.end) - first_row, [&](int row) {
+    const int j = first_row + row;
     for (int y = j * DEFRAY_PATTERN_CELL; y < std::min((j + 1) * DEFRAY_PATTERN_CELL, f.height);
          ++y) {
       for (int x = 0; x < f.width; ++x) {

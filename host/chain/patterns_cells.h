@@ -19,7 +19,7 @@ inline std::size_t pattern_row_words(int width) {
 }
 
 /// 1 for units that the window of a pixel with something behind it holds cells of: the others would
-/// not change the result. [rows of cells][units]
+/// not change the wanted rows of the result. [rows of cells][units]
 Words needed_units(const Frame& frame, const Words& pixels, int window_cells);
 
 }  // namespace defray

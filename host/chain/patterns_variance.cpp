@@ -17,18 +17,25 @@ void add(Sums& sum, const Sums& more, std::uint32_t weight) {
 }
 
 struct Cells {
-  int columns, rows;
+  int columns, first, end;  ///< Rows from `first` on, below `end`.
   std::vector<Sums> sums;
   std::vector<char> hides;  ///< Whether a cell has a fragment behind it.
 };
 
-Cells cells_of(const Frame& f, const Words& pixels) {
-  Cells cells{pattern_units(f.width) * DEFRAY_PATTERN_UNIT, pattern_rows(f.height), {}, {}};
-  cells.sums.resize(size(cells.columns) * size(cells.rows));
+/// Those of the wanted rows, and of `around` rows of cells beside them.
+Cells cells_of(const Frame& f, const Words& pixels, int around) {
+  const int rows = pattern_rows(f.height), wanted = f.wanted_rows().y / DEFRAY_PATTERN_CELL;
+  const int wanted_end = pattern_rows(f.wanted_rows().end);
+  Cells cells{pattern_units(f.width) * DEFRAY_PATTERN_UNIT,
+              std::max(0, wanted - around),
+              std::min(rows, wanted_end + around),
+              {},
+              {}};
+  cells.sums.resize(size(cells.columns) * size(cells.end - cells.first));
   cells.hides.resize(cells.sums.size());
   const auto words = pixels.host();
-  parallel_for(cells.rows, [&](int row) {
-    const std::size_t pixel = size(row) * DEFRAY_PATTERN_CELL * size(f.width);
+  parallel_for(cells.end - cells.first, [&](int row) {
+    const std::size_t pixel = size(cells.first + row) * DEFRAY_PATTERN_CELL * size(f.width);
     const std::size_t end = std::min(pixel + DEFRAY_PATTERN_CELL * size(f.width), words.size());
     for (std::size_t i = pixel; i < end; ++i) {
       const std::size_t cell = i % size(f.width) / DEFRAY_PATTERN_CELL;
@@ -55,16 +62,23 @@ std::uint32_t weight(int n, int j) { return static_cast<std::uint32_t>(n - std::
 
 }  // namespace
 
-Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSettings& settings) {
-  const Cells cells = cells_of(frame, pixels);
+Values<float> patterns_variance(const Frame& frame, const Words& pixels,
+                                const PatternSettings& settings) {
   const int n = settings.window_cells;
-  Plane variance(cells.sums.size());
-  parallel_for(cells.rows, [&](int row) {
+  const Cells cells = cells_of(frame, pixels, n - 1);
+  auto variance = Values<float>::room(size(cells.columns) * size(pattern_rows(frame.height)));
+  const auto out = variance.edit();
+  const int wanted = frame.wanted_rows().y / DEFRAY_PATTERN_CELL;
+  const int rows = cells.end - cells.first;
+  parallel_for(pattern_rows(frame.wanted_rows().end) - wanted, [&](int k) {
+    const int row = wanted + k - cells.first;
     const std::size_t first = size(row) * size(cells.columns);
+    const auto to = out.subspan(size(wanted + k) * size(cells.columns), size(cells.columns));
+    std::fill(to.begin(), to.end(), 0.0f);
     const auto hides = std::span(cells.hides).subspan(first, size(cells.columns));
     if (std::find(hides.begin(), hides.end(), 1) == hides.end()) return;
     std::vector<Sums> columns(size(cells.columns));
-    for (int j = std::max(1 - n, -row); j < std::min(n, cells.rows - row); ++j) {
+    for (int j = std::max(1 - n, -row); j < std::min(n, rows - row); ++j) {
       const Sums* const line = &cells.sums[size(row + j) * size(cells.columns)];
       for (std::size_t i = 0; i < columns.size(); ++i) add(columns[i], line[i], weight(n, j));
     }
@@ -74,7 +88,7 @@ Plane patterns_variance(const Frame& frame, const Words& pixels, const PatternSe
       for (int j = std::max(1 - n, -i); j < std::min(n, cells.columns - i); ++j) {
         add(sum, columns[size(i + j)], weight(n, j));
       }
-      variance[first + size(i)] = variance_of(sum);
+      to[size(i)] = variance_of(sum);
     }
   });
   return variance;

@@ -10,10 +10,13 @@ namespace defray {
 
 /// is(i): of the frame's pixels, with the margin.
 template <typename Is>
-void TileClasses::add(TileClass tile_class, const Is& is) {
-  parallel_for((height_ + side - 1) / side, [&](int tile_row) {
-    const int end = std::min(height_, (tile_row + 1) * side);
-    for (int y = tile_row * side; y < end; ++y) {
+void TileClasses::add(TileClass tile_class, Rows rows, const Is& is) {
+  const int first = std::max(rows.y - margin_, 0), end = std::min(rows.end - margin_, height_);
+  if (first >= end) return;
+  const int first_tile = first / side;
+  parallel_for((end + side - 1) / side - first_tile, [&](int i) {
+    const int tile_row = first_tile + i;
+    for (int y = std::max(first, tile_row * side); y < std::min(end, (tile_row + 1) * side); ++y) {
       const std::size_t row = size(y + margin_) * size(width_ + 2 * margin_) + size(margin_);
       for (int x = 0; x < width_; ++x) {
         if (is(row + size(x))) at(x, y) = std::max(at(x, y), tile_class);
@@ -27,19 +30,19 @@ TileClasses::TileClasses(const Frame& f)
       height_(f.height - 2 * f.margin),
       margin_(f.margin),
       across_((width_ + side - 1) / side),
-      tiles_(size(across_) * size((height_ + side - 1) / side)) {
+      tiles_(size(across_) * size((height_ + side - 1) / side)) {}
+
+void TileClasses::add_surfaces(const Frame& f, const Words& flags) {
   const auto coc = f.coc_quanta.host();
-  add(TileClass::smooth, [&](std::size_t i) { return std::abs(coc[i]) >= DEFRAY_SHARP_QUANTA; });
-}
-
-void TileClasses::add_mixed(const Words& flags) {
+  add(TileClass::smooth, f.wanted_rows(),
+      [&](std::size_t i) { return std::abs(coc[i]) >= DEFRAY_SHARP_QUANTA; });
   const auto mixed = flags.host();
-  add(TileClass::mixed, [&](std::size_t i) { return mixed[i] != 0; });
+  add(TileClass::mixed, f.wanted_rows(), [&](std::size_t i) { return mixed[i] != 0; });
 }
 
-void TileClasses::add_hidden(const Values<float>& inverse) {
+void TileClasses::add_hidden(const Values<float>& inverse, Rows rows) {
   const auto behind = inverse.host();
-  add(TileClass::hidden, [&](std::size_t i) { return behind[i] >= 0; });
+  add(TileClass::hidden, rows, [&](std::size_t i) { return behind[i] >= 0; });
 }
 
 void TileClasses::add(const LightSources& lights) {

@@ -18,13 +18,13 @@ enum class TileClass : std::uint8_t {
 class TileClasses {
  public:
   TileClasses() = default;
-  /// Of a frame with its margin: 0, in focus, or 1.
+  /// Of a frame with its margin; all in focus.
   explicit TileClasses(const Frame& frame);
 
-  /// Where `flags` are 1, with the margin.
-  void add_mixed(const Words& flags);
+  /// The frame's wanted rows; `mixed` is 1 where pixels are.
+  void add_surfaces(const Frame& frame, const Words& mixed);
   /// Where 1/depth is not negative, with the margin.
-  void add_hidden(const Values<float>& inverse);
+  void add_hidden(const Values<float>& inverse, Rows rows);
   void add(const LightSources& lights);
 
   /// The same tiles of a frame twice as large, of `width` x `height`.
@@ -39,7 +39,7 @@ class TileClasses {
  private:
   TileClass& at(int x, int y) { return tiles_[size(y / side) * size(across_) + size(x / side)]; }
   template <typename Is>
-  void add(TileClass tile_class, const Is& is);
+  void add(TileClass tile_class, Rows rows, const Is& is);
 
   static constexpr int side = 16;
   int width_ = 0, height_ = 0, margin_ = 0, across_ = 0, zoom_ = 1;

@@ -5,27 +5,36 @@
 
 #include "base/parallel.h"
 #include "base/plane.h"
+#include "frame/band_rows.h"
 
 namespace defray {
 
 template <typename Tile>
 class Tiles {
  public:
-  /// look(tile, x0, y0, x1, y1) fills in the tile of these pixels.
+  /// look(tile, x0, y0, x1, y1) fills in the tile of these pixels, of `rows`; of others nothing is
+  /// known.
   template <typename Look>
-  Tiles(int width, int height, int side, const Look& look)
+  Tiles(int width, int height, Rows rows, int side, const Look& look)
       : across_((width + side - 1) / side),
         down_((height + side - 1) / side),
         tiles_(size(across_) * size(down_)) {
-    parallel_for(down_, [&](int j) {
+    const int first = rows.y / side, end = (rows.end + side - 1) / side;
+    parallel_for(end - first, [&](int row) {
+      const int j = first + row;
       for (int i = 0; i < across_; ++i) {
-        look(tiles_[size(j) * size(across_) + size(i)], i * side, j * side,
-             std::min(width, (i + 1) * side), std::min(height, (j + 1) * side));
+        look(tiles_[size(j) * size(across_) + size(i)], i * side, std::max(rows.y, j * side),
+             std::min(width, (i + 1) * side), std::min(rows.end, (j + 1) * side));
       }
     });
   }
 
-  int across() const { return across_; }
+  /// The first of a row of tiles, and one past the last of those of `rows`.
+  std::size_t first_of(Rows rows, int side) const { return size(rows.y / side) * size(across_); }
+  std::size_t end_of(Rows rows, int side) const {
+    return size((rows.end + side - 1) / side) * size(across_);
+  }
+
   std::size_t count() const { return tiles_.size(); }
   const Tile& operator[](std::size_t tile) const { return tiles_[tile]; }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The stages as an OpenCL device computes them.
 #include "chain/patterns.h"
+#include "device/ray_buffers.h"
 #include "frame/backend.h"
 #include "opencl/session.h"
 #include "rdb/ray_tiles.h"
@@ -13,24 +14,16 @@ class DeviceBackend : public Backend {
   /// The session must outlive this.
   explicit DeviceBackend(Session& session) : session_(session) {}
 
+  /// A device with memory of its own takes whole frames, and cuts them itself.
+  std::size_t memory_for_planes() const override {
+    return session_.works_in_host_memory() ? session_.memory_bytes() : Backend::memory_for_planes();
+  }
   void require_memory(const Frame& frame, std::size_t bytes) override;
-  Quanta coc(const Lens& lens, int display_width_px, const Values<float>& depth) override;
-  Quanta tiltshift(const DefrayTiltshiftParams& params) override;
-  Words repair(const Frame& frame) override;
-  Words mixed(const Frame& frame) override;
   std::size_t bytes_made() const override { return session_.traffic().made; }
-  Frame fill(const Frame& frame, const Words& mixed, int directions) override;
-  Frame patterns(const Frame& frame, Frame behind, const Words& pixels, const Plane& variance,
-                 const std::vector<PatternShift>& shifts, const PatternSettings& settings) override;
-  Surfaces split(const Frame& frame, const Words& mixed, Frame behind) override;
-  Frame assemble(const Surfaces& surfaces) override;
-  Values<float> highlights(const Frame& frame, int light_channels) override;
-  Planes soften(const Frame& frame, int lens_points) override;
-  RayResult rays(const Frame& frame, const RayPlan& plan, const LightSources* lights = nullptr,
-                 const Progress& progress = {}) override;
-  std::vector<Plane> linear(const Frame& frame, const Progress& progress = {}) override;
-  std::vector<Plane> gather(const Frame& frame, const GatherSettings& settings,
-                            const Progress& progress = {}) override;
+
+#define DEFRAY_CALL(Result, name, parameters) Result name parameters override;
+#include "frame/backend.def"
+#undef DEFRAY_CALL
 
   // Kernels by themselves, for their checks.
 
@@ -51,6 +44,7 @@ class DeviceBackend : public Backend {
 
  private:
   Session& session_;
+  KeptBuffer winners_;  ///< From one band of a frame to the next.
 };
 
 }  // namespace defray

@@ -1,6 +1,4 @@
 // Kernel `fill`.
-#include <algorithm>
-
 #include "chain/fill_tiles.h"
 #include "device/device_backend.h"
 #include "lens/coc.h"
@@ -8,25 +6,26 @@
 
 namespace defray {
 
-Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions) {
+Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions, Frame into) {
   const Quanta farthest_met = farthest_to_fill(f, mixed);
-  const auto coc = f.coc_quanta.host();
-  const auto [least, most] = std::minmax_element(coc.begin(), coc.end());
-  const std::int32_t nearest = tame(*least), farthest = tame(*most);
+  const Values<std::uint8_t> pure_around = pure_around_runs(f, mixed);
+  const int cells_x = (f.width + DEFRAY_FILL_CELL - 1) / DEFRAY_FILL_CELL;
+  const CocRange range = f.coc_range();
   const int tiles_x = (f.width + DEFRAY_FILL_TILE - 1) / DEFRAY_FILL_TILE;
-  Frame out = f.without_planes();
+  Frame out = into.width > 0 ? std::move(into) : f.without_planes();
   for_each_band(
-      session_, "fill", f, fill_reach(farthest, nearest),
+      session_, "fill", f, fill_reach(tame(range.largest), tame(range.least)),
       [&](Band& band) {
         const BandRows& rows = band.rows();
         const DefrayFillParams p{word(f.width), word(rows.window_rows), word(tiles_x),
                                  word(directions)};
         const cl::Buffer tiles = band.tiles(farthest_met, tiles_x, DEFRAY_FILL_TILE);
+        const cl::Buffer pure = band.tiles(pure_around, cells_x, DEFRAY_FILL_CELL);
         const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
         const auto behind = band.out(out.channels, f.channels.size());
-        band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), tiles,
+        band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), pure, tiles,
                     band.in(f.channels), behind_coc, inverse, behind);
-        session_.finish();  // the tiles are this function's own
+        session_.finish();  // tiles and cells are this function's own
       },
       DEFRAY_FILL_TILE);
   return out;

@@ -6,12 +6,12 @@
 
 namespace defray {
 
-Values<float> DeviceBackend::highlights(const Frame& f, int light_channels) {
+Values<float> DeviceBackend::highlights(const Frame& f, int light_channels, Values<float> into) {
   const Values<float> darkest = darkest_around(f, light_channels);
   const int tiles_x = (f.width + DEFRAY_HIGHLIGHT_TILE - 1) / DEFRAY_HIGHLIGHT_TILE;
-  Values<float> kept;
+  Values<float> kept = std::move(into);
   for_each_band(
-      session_, "highlights", f, highlight_reach(largest_coc(f.coc_quanta.host())),
+      session_, "highlights", f, highlight_reach(f.coc_range().largest_radius()),
       [&](Band& band) {
         const BandRows& rows = band.rows();
         const DefrayHighlightParams p{word(f.width), word(rows.window_rows), word(f.layers),

@@ -10,9 +10,8 @@ DefrayFrameParams window_of(const Frame& f, const Band& band) {
 }
 
 /// A kernel of one input and one output plane.
-Words words_of(Session& session, const char* kernel, const Frame& f,
+Words words_of(Session& session, const char* kernel, const Frame& f, Words out,
                const std::function<void(const Band&, Words&)>& after = {}) {
-  Words out;
   for_each_band(session, kernel, f, 0, [&](Band& band) {
     const cl::Buffer made = band.out(out);
     band.launch(window_of(f, band), band.in(f.coc_quanta), made);
@@ -23,9 +22,9 @@ Words words_of(Session& session, const char* kernel, const Frame& f,
 
 }  // namespace
 
-Words DeviceBackend::repair(const Frame& f) {
+Words DeviceBackend::repair(const Frame& f, Words into) {
   // The kernel counts from the window's first pixel.
-  return words_of(session_, "repair", f, [&](const Band& band, Words& source) {
+  return words_of(session_, "repair", f, std::move(into), [&](const Band& band, Words& source) {
     if (band.first() == 0) return;
     const std::size_t first = size(band.rows().y) * size(f.width);
     for (std::uint32_t& i : source.edit().subspan(first, size(band.rows().rows) * size(f.width))) {
@@ -34,6 +33,8 @@ Words DeviceBackend::repair(const Frame& f) {
   });
 }
 
-Words DeviceBackend::mixed(const Frame& f) { return words_of(session_, "mixed", f); }
+Words DeviceBackend::mixed(const Frame& f, Words into) {
+  return words_of(session_, "mixed", f, std::move(into));
+}
 
 }  // namespace defray

@@ -42,7 +42,8 @@ int reach_of(const std::vector<PatternShift>& shifts, const PatternSettings& set
 }  // namespace
 
 Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
-                              const Plane& variance, const std::vector<PatternShift>& shifts,
+                              const Values<float>& variance,
+                              const std::vector<PatternShift>& shifts,
                               const PatternSettings& settings) {
   if (shifts.empty()) return behind;
   DefrayPatternsParams p = params_of(f, shifts, settings);
@@ -50,7 +51,6 @@ Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
   const int margin = settings.window_cells - 1;
   const std::size_t row_bytes = shifts.size() * pattern_row_words(f.width) * sizeof(std::uint32_t);
   const Words needed = needed_units(f, pixels, settings.window_cells);
-  const Values<float> spread = Values<float>::view(variance.data(), variance.size());
   const std::vector<DefrayPatternShift> all = on_device(shifts);
   const cl::Buffer shift_buffer = session_.view(all);
   for_each_band(
@@ -65,7 +65,7 @@ Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
         const cl::Buffer behind_coc = band.in(behind.coc_quanta);
         const cl::Buffer behind_inverse = band.in(behind.inverse), inverse = band.in(f.inverse);
         const cl::Buffer is_needed = band.tiles(needed, units, DEFRAY_PATTERN_CELL);
-        const cl::Buffer spread_buffer = band.tiles(spread, row_units, DEFRAY_PATTERN_CELL);
+        const cl::Buffer spread_buffer = band.tiles(variance, row_units, DEFRAY_PATTERN_CELL);
         const auto source = band.in(f.channels), target = band.in_out(behind.channels);
         p.height = word(rows.window_rows);
         for (const BandRows& group : cut_into_bands(cell_rows, most, 0)) {

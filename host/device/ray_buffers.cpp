@@ -7,11 +7,13 @@
 namespace defray {
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
-                       const LightSources* lights, std::size_t pixels, std::size_t winner_cells)
+                       const LightSources* lights, std::size_t pixels, std::size_t winner_cells,
+                       KeptBuffer& winners)
     : lens(session.view(plan.lens.points)),
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
-      winner(session.buffer(pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
+      winner(winners.take(session,
+                          pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
       seen(session.buffer(pixels * sizeof(cl_uint))),
       light_first(lens),
       session_(session),
@@ -59,7 +61,7 @@ void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {
 }
 
 void RayBuffers::read(const DefrayRdbParams& p, RayResult& out) {
-  const std::size_t first = std::size_t{p.width} * p.band_y;
+  const std::size_t first = std::size_t{p.width} * (p.band_y - word(frame_.wanted_rows().y));
   const std::size_t count = std::size_t{p.width} * p.band_rows;
   const auto place = [&](auto& plane) {
     return plane.begin() + static_cast<std::ptrdiff_t>(first);

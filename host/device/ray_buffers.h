@@ -16,11 +16,26 @@ struct RayWindow {
   std::array<cl::Buffer, 4> channels;
 };
 
+/// A buffer that is used again where it is large enough: new memory costs as much as what kernels
+/// do in it.
+class KeptBuffer {
+ public:
+  cl::Buffer take(Session& session, std::size_t bytes) {
+    if (bytes > bytes_) buffer_ = session.buffer(bytes), bytes_ = bytes;
+    return buffer_;
+  }
+
+ private:
+  cl::Buffer buffer_;
+  std::size_t bytes_ = 0;
+};
+
 class RayBuffers {
  public:
-  /// For bands of at most so many pixels and winners of so many cells. All must stay alive.
+  /// For bands of at most so many pixels, and winners of so many cells in `winners`. All must
+  /// stay alive.
   RayBuffers(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-             std::size_t pixels, std::size_t winner_cells);
+             std::size_t pixels, std::size_t winner_cells, KeptBuffer& winners);
 
   bool has_lights() const { return lights_ != nullptr; }
 

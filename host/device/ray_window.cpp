@@ -43,7 +43,7 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
 std::vector<BandRows> RayTileWindow::windows() const {
   const std::size_t a_surface =
       sizeof(cl_int) + 4 * sizeof(cl_float) + (params.has_coverage ? 2 * sizeof(cl_uint) : 0);
-  return cut_into_windows(frame_.height, reach_px_ + 1, DEFRAY_RAY_TILE,
+  return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + 1, DEFRAY_RAY_TILE,
                           params.stride * size(frame_.layers) * a_surface,
                           session_.memory_bytes() / 2);
 }

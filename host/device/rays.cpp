@@ -26,11 +26,14 @@ void scatter(Session& session, const Frame& frame, const RayPlan& plan, const Li
 
 RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const LightSources* lights,
                               const Progress& progress) {
-  RayResult out{std::vector<Plane>(frame.channels.size(), Plane(frame.pixels())),
-                std::vector<std::uint32_t>(frame.pixels())};
-  if (plan.wants_nearest) out.nearest.resize(frame.pixels());
+  const std::size_t pixels = size(frame.wanted_rows().count()) * size(frame.width);
+  RayResult out{std::vector<Plane>(frame.channels.size(), Plane(pixels)),
+                std::vector<std::uint32_t>(pixels)};
+  if (plan.wants_nearest) out.nearest.resize(pixels);
   if (plan.by == RaysBy::gather && plan.lens.jitter == 0) {
-    RaysGather(session_, frame, plan, lights).run(out, progress);
+    if (frame.wanted_rows().y == 0) winners_ = {};
+    RaysGather(session_, frame, plan, lights, winners_).run(out, progress);
+    if (frame.wanted_rows().end == frame.height) winners_ = {};
   } else {
     scatter(session_, frame, plan, lights, progress, out);
   }

@@ -11,7 +11,8 @@ namespace defray {
 class RaysGather {
  public:
   /// All must stay alive and unchanged meanwhile.
-  RaysGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights);
+  RaysGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
+             KeptBuffer& winners);
 
   void run(RayResult& out, const Progress& progress);
 

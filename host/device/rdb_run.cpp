@@ -15,11 +15,12 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
       frame_(frame),
       cells_(plan.lens.points.size()),
       holds_frame_(holds_planes(session, "rdb_merge", frame)),
-      passes_(plan_rdb_passes(frame.width, frame.height, static_cast<int>(cells_),
-                              rdb_reach(largest_coc(frame.coc_quanta.host())),
-                              session.memory_bytes(), lights && !lights->empty())),
+      passes_(plan_rdb_passes(frame.width, frame.wanted_rows(), frame.height,
+                              static_cast<int>(cells_),
+                              rdb_reach(frame.coc_range().largest_radius()), session.memory_bytes(),
+                              lights && !lights->empty())),
       buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().rows),
-               size(passes_.front().cell_count)),
+               size(passes_.front().cell_count), winners_),
       filled_(session.buffer(size(frame.width) * size(passes_.front().rows) * sizeof(cl_uint))) {}
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {

@@ -46,6 +46,7 @@ class RdbRun {
   std::size_t cells_;
   bool holds_frame_;
   std::vector<RdbPass> passes_;
+  KeptBuffer winners_;
   RayBuffers buffers_;
   RayWindow window_;
   int window_band_y_ = -1;

@@ -6,13 +6,13 @@
 
 namespace defray {
 
-Planes DeviceBackend::soften(const Frame& f, int lens_points) {
+Planes DeviceBackend::soften(const Frame& f, int lens_points, Planes into) {
   const Words whole(f.coverage.empty() ? f.surfaces() : 0, DEFRAY_WHOLE);
   const Words& coverage = f.coverage.empty() ? whole : f.coverage;
   const float cells = cells_per_side(lens_points);
-  const auto reach = static_cast<std::int64_t>(
-      static_cast<float>(largest_coc(f.coc_quanta.host())) * px_per_quantum / cells);
-  Planes out;
+  const auto reach = static_cast<std::int64_t>(static_cast<float>(f.coc_range().largest_radius()) *
+                                               px_per_quantum / cells);
+  Planes out = std::move(into);
   for_each_band(session_, "soften", f, reach, [&](Band& band) {
     const DefraySoftenParams p{word(f.width), word(band.rows().window_rows), word(f.layers), cells};
     const auto made = band.out(out, f.channels.size());

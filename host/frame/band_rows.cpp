@@ -14,24 +14,41 @@ int rows_that_fit(int height, std::size_t memory_bytes, std::size_t fixed_bytes,
   return std::max(most / step, 1) * step;
 }
 
-std::vector<BandRows> cut_into_bands(int height, int rows, std::int64_t reach, int step) {
+Rows Rows::with(std::int64_t reach, int height) const {
+  return {static_cast<int>(std::max<std::int64_t>(0, y - reach)),
+          static_cast<int>(std::min<std::int64_t>(height, end + reach))};
+}
+
+std::vector<BandRows> cut_into_bands(Rows wanted, int height, int rows, std::int64_t reach,
+                                     int step) {
   std::vector<BandRows> bands;
-  for (std::int64_t y = 0; y < height; y += rows) {
-    const std::int64_t end = std::min<std::int64_t>(height, y + rows);
-    const std::int64_t window_y = std::max<std::int64_t>(0, y - reach) / step * step;
-    const std::int64_t window_end = std::min<std::int64_t>(height, end + reach);
-    bands.push_back({static_cast<int>(y), static_cast<int>(end - y), static_cast<int>(window_y),
-                     static_cast<int>(window_end - window_y)});
+  for (int y = wanted.y; y < wanted.end; y += rows) {
+    const Rows band{y,
+                    static_cast<int>(std::min(std::int64_t{y} + rows, std::int64_t{wanted.end}))};
+    const Rows window = band.with(reach, height);
+    const int first = window.y / step * step;
+    bands.push_back({band.y, band.count(), first, window.end - first});
+    if (rows > wanted.end - y) break;  // the sum may be beyond an int
   }
   return bands;
 }
 
-std::vector<BandRows> cut_into_windows(int height, std::int64_t reach, int step,
+std::vector<BandRows> cut_into_bands(int height, int rows, std::int64_t reach, int step) {
+  return cut_into_bands({0, height}, height, rows, reach, step);
+}
+
+std::vector<BandRows> cut_into_windows(Rows wanted, int height, std::int64_t reach, int step,
                                        std::size_t row_bytes, std::size_t memory_bytes) {
   // Windows begin up to a step earlier than they need to.
   const int around = 2 * static_cast<int>(std::min<std::int64_t>(reach, height)) + step;
-  const int rows = rows_that_fit(height, memory_bytes, size(around) * row_bytes, row_bytes, step);
-  return cut_into_bands(height, rows, reach, step);
+  const int rows =
+      rows_that_fit(wanted.count(), memory_bytes, size(around) * row_bytes, row_bytes, step);
+  return cut_into_bands(wanted, height, rows, reach, step);
+}
+
+std::vector<BandRows> cut_into_windows(int height, std::int64_t reach, int step,
+                                       std::size_t row_bytes, std::size_t memory_bytes) {
+  return cut_into_windows({0, height}, height, reach, step, row_bytes, memory_bytes);
 }
 
 }  // namespace defray

@@ -1,6 +1,8 @@
 #include "frame/frame.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 #include "kernels/params.h"
 
@@ -12,6 +14,21 @@ Planes Planes::view(const std::vector<Plane>& planes) {
     views.push_back(Values<float>::view(plane.data(), plane.size()));
   }
   return views;
+}
+
+void CocRange::add(const CocRange& other) {
+  least = std::min(least, other.least);
+  largest = std::max(largest, other.largest);
+}
+
+std::int32_t CocRange::largest_radius() const {
+  return std::max(std::abs(least), std::abs(largest));
+}
+
+CocRange Frame::coc_range() const {
+  if (known_range) return *known_range;
+  const auto [least, largest] = std::ranges::minmax(coc_quanta.host());
+  return {least, largest};
 }
 
 bool Frame::is_in_margin(std::size_t pixel) const {

@@ -2,9 +2,11 @@
 // The one frame that stages take and give: planes of one size, on the host or on a device.
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/plane.h"
+#include "frame/band_rows.h"
 #include "frame/values.h"
 
 namespace defray {
@@ -18,6 +20,16 @@ class Planes : public std::vector<Values<float>> {
   }
   /// Somebody else's memory, which must stay alive and unchanged.
   static Planes view(const std::vector<Plane>& planes);
+};
+
+/// CoC radii of a frame, quanta.
+struct CocRange {
+  std::int32_t least, largest;
+
+  /// With other surfaces' radii.
+  void add(const CocRange& other);
+  /// The largest |radius|.
+  std::int32_t largest_radius() const;
 };
 
 /// A picture on its way through the lens. Every plane is [height][layers][width]; what a stage does
@@ -41,6 +53,15 @@ struct Frame {
   /// The picture's pixel whose data (ids, normals) a surface has; DEFRAY_EMPTY: none, it was made
   /// up. Empty: each has its own pixel's.
   Words data_of = {};
+  /// The rows that are wanted of a stage, where it is not all of them: of its planes no more than
+  /// those that it looks at for these need be there. The first is a multiple of band_step.
+  std::optional<Rows> wanted = {};
+  /// What radii there are at most, where not all planes are there.
+  std::optional<CocRange> known_range = {};
+
+  Rows wanted_rows() const { return wanted.value_or(Rows{0, height}); }
+  /// Of all radii, or of more.
+  CocRange coc_range() const;
 
   std::size_t index(int x, int y, int layer = 0) const {
     return (size(y) * size(layers) + size(layer)) * size(width) + size(x);

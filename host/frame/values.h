@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/pages.h"
+
 namespace defray {
 
 /// The device's side of values; opencl/device_values.h has it.
@@ -78,6 +80,14 @@ class Values {
     if (!is_own()) *this = Values(std::vector<T>(begin(), end()));
     store_->device.reset();
     return {const_cast<T*>(store_->host), store_->count};  // its own: see is_own
+  }
+
+  /// Nobody needs these values any more, while others stay; no kernel may be at work on them. Their
+  /// memory goes back to the system.
+  void give_back(std::size_t first, std::size_t how_many) {
+    if (is_own() && store_->host) {
+      give_back_pages(const_cast<T*>(store_->host + first), how_many * sizeof(T));
+    }
   }
 
   /// As a vector; no copy where nobody else has them.

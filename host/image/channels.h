@@ -22,6 +22,13 @@ struct ColourChoice {
 ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>& parts,
                            const ChannelRequest& request);
 
+/// A pass that fades with the distance and is clamped: no depth, whatever its channel is called.
+bool is_mist(const ChannelName& name);
+
+/// All that could be the depth of `colour`, the surest first.
+std::vector<ChannelName> depth_candidates(const std::vector<PartInfo>& parts,
+                                          const ColourChoice& colour);
+
 /// The depth channel that goes with `colour`. A Z beside X and Y is a vector, not a depth.
 /// The only channel of a file is its depth, whatever its name.
 /// Throws Error(input) when there is none, or with the candidates when there are several.

@@ -20,7 +20,8 @@ DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
          "{}: depth {} has data window {}, colour in {} has {}; both must be the same", file.path(),
          channel, to_string(data), colour_file.path(), to_string(colour_data));
   }
-  return {file.plane(name.part, name.channel), channel};
+  return {file.plane(name.part, name.channel), channel,
+          file.parts()[static_cast<std::size_t>(name.part)].integer_bits, is_mist(name)};
 }
 
 }  // namespace defray

@@ -9,8 +9,10 @@
 namespace defray {
 
 struct DepthPlane {
-  Plane values;         ///< As stored.
-  std::string channel;  ///< Its name, for people.
+  Plane values;          ///< As stored.
+  std::string channel;   ///< Its name, for people.
+  int integer_bits = 0;  ///< As PartInfo has it.
+  bool is_mist = false;
 };
 
 /// From the colour's own file, or from `depth_path`, if given, which must have the same data

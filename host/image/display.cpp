@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
 #include "image/ldr.h"
+#include "image/mat.h"
 #include "image/safe_output.h"
 
 namespace defray {
@@ -20,6 +20,20 @@ namespace {
 
 constexpr int caption_height = 36;
 constexpr int gap = 8;
+
+/// A local X server listens on this socket. Toolkits end the process where it does not.
+bool x_server_answers(const std::string& socket_path) {
+  const int s = socket(AF_UNIX, SOCK_STREAM, 0);
+  if (s < 0) return false;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, socket_path.c_str(), sizeof(address.sun_path) - 1);
+  const bool ok = connect(s, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(s);
+  return ok;
+}
+
+}  // namespace
 
 cv::Mat to_mat(const std::vector<Plane>& planes, int width, int height) {
   cv::Mat image(height, width, CV_8UC3);
@@ -36,20 +50,6 @@ cv::Mat to_mat(const std::vector<Plane>& planes, int width, int height) {
   }
   return image;
 }
-
-/// A local X server listens on this socket. Toolkits end the process where it does not.
-bool x_server_answers(const std::string& socket_path) {
-  const int s = socket(AF_UNIX, SOCK_STREAM, 0);
-  if (s < 0) return false;
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::strncpy(address.sun_path, socket_path.c_str(), sizeof(address.sun_path) - 1);
-  const bool ok = connect(s, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  close(s);
-  return ok;
-}
-
-}  // namespace
 
 void write_sheet(const std::string& path, const std::vector<SheetPanel>& panels, int width,
                  int height) {
@@ -81,15 +81,6 @@ bool has_display(std::string& why) {
   if (x_server_answers("/tmp/.X11-unix/X" + number)) return true;
   why = "DISPLAY is " + name + ", but no X server answers there";
   return false;
-}
-
-void show(const std::string& title, const std::vector<Plane>& planes, int width, int height) {
-  cv::namedWindow(title, cv::WINDOW_NORMAL | cv::WINDOW_KEEPRATIO);
-  cv::resizeWindow(title, std::min(width, 1600), std::min(height, 900));
-  cv::imshow(title, to_mat(planes, width, height));
-  while (cv::waitKey(50) < 0 && cv::getWindowProperty(title, cv::WND_PROP_VISIBLE) >= 1) {
-  }
-  cv::destroyWindow(title);
 }
 
 }  // namespace defray

@@ -1,5 +1,5 @@
 #pragma once
-// A window on the screen, and the picture sheets that people look at. OpenCV only.
+// Whether there is a screen, and the picture sheets that people look at. OpenCV only.
 #include <string>
 #include <vector>
 
@@ -19,8 +19,5 @@ void write_sheet(const std::string& path, const std::vector<SheetPanel>& panels,
 
 /// Whether a window can be opened; if not, `why` says what is missing.
 bool has_display(std::string& why);
-
-/// Shows a picture until a key is pressed or the window is closed.
-void show(const std::string& title, const std::vector<Plane>& planes, int width, int height);
 
 }  // namespace defray

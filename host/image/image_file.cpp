@@ -1,7 +1,6 @@
 #include "image/image_file.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -71,6 +70,9 @@ void ImageFile::refresh_info() {
     info.view = s.get_string_attribute("view");
     info.views = string_list(s, "multiView");
     info.channels = s.channelnames;
+    const TypeDesc format = s.channelformat(0);
+    info.integer_bits =
+        format.is_floating_point() ? encoded_bits_ : 8 * static_cast<int>(format.size());
     info.data = {s.x, s.y, s.width, s.height};
     info.display = {s.full_x, s.full_y, s.full_width, s.full_height};
     info_.push_back(std::move(info));
@@ -116,19 +118,59 @@ void ImageFile::move_values(int part, int channel, const std::vector<std::uint32
   }
 }
 
-std::optional<double> ImageFile::metadata_number(const std::string& name) const {
-  for (const Part& part : parts_) {
-    const OIIO::ParamValue* value = part.spec.find_attribute(name);
-    if (!value) continue;
-    if (value->type().basetype != TypeDesc::STRING) {
-      return static_cast<double>(value->get_float());
-    }
-    const std::string text = value->get_string();
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc() && end != text.data()) return number;
+void ImageFile::grow(int part, const Window& data) {
+  Part& p = parts_.at(static_cast<std::size_t>(part));
+  const ImageSpec from = p.spec;
+  const std::vector<std::byte> before = std::move(p.pixels);
+  p.spec.x = data.x;
+  p.spec.y = data.y;
+  p.spec.width = data.width;
+  p.spec.height = data.height;
+  p.pixels.assign(p.spec.image_bytes(true), std::byte{0});
+  const std::size_t pixel = from.pixel_bytes(true), row = from.scanline_bytes(true);
+  for (int y = 0; y < from.height; ++y) {
+    const std::size_t to =
+        static_cast<std::size_t>(from.y + y - data.y) * p.spec.scanline_bytes(true) +
+        static_cast<std::size_t>(from.x - data.x) * pixel;
+    std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row),
+                row, p.pixels.begin() + static_cast<std::ptrdiff_t>(to));
   }
-  return std::nullopt;
+  refresh_info();
+}
+
+void ImageFile::set_bits(int part, const std::vector<int>& channels, Bits bits) {
+  if (bits == Bits::as_input) return;
+  Part& p = parts_.at(static_cast<std::size_t>(part));
+  const TypeDesc format = bits == Bits::eight     ? TypeDesc::UINT8
+                          : bits == Bits::sixteen ? TypeDesc::UINT16
+                          : bits == Bits::half    ? TypeDesc::HALF
+                                                  : TypeDesc::FLOAT;
+  std::vector<TypeDesc> formats;
+  std::vector<Plane> planes;
+  for (int c = 0; c < p.spec.nchannels; ++c) {
+    const bool is_meant =
+        channels.empty() || std::find(channels.begin(), channels.end(), c) != channels.end();
+    formats.push_back(is_meant ? format : p.spec.channelformat(c));
+    planes.push_back(is_meant ? plane(part, c) : Plane());
+  }
+  const ImageSpec from = p.spec;
+  const std::vector<std::byte> before = std::move(p.pixels);
+  p.spec.format = format;
+  p.spec.channelformats = formats;
+  p.pixels.assign(p.spec.image_bytes(true), std::byte{0});
+  const std::size_t count = static_cast<std::size_t>(pixel_count(from));
+  for (int c = 0; c < from.nchannels; ++c) {
+    if (!planes[static_cast<std::size_t>(c)].empty()) {
+      set_plane(part, c, planes[static_cast<std::size_t>(c)]);
+      continue;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      std::copy_n(&before[i * from.pixel_bytes(true) + channel_offset(from, c)],
+                  from.channel_bytes(c, true),
+                  &p.pixels[i * p.spec.pixel_bytes(true) + channel_offset(p.spec, c)]);
+    }
+  }
+  refresh_info();
 }
 
 bool ImageFile::is_lossy() const {

@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/plane.h"
 #include "base/window.h"
+#include "defray/options.h"
 #include "image/ldr.h"
 
 namespace defray {
@@ -18,8 +20,9 @@ struct PartInfo {
   std::string view;                ///< The part's own view, empty where it has none.
   std::vector<std::string> views;  ///< multiView of a single-part stereo file, default view first.
   std::vector<std::string> channels;
-  Window data;     ///< Data window: the pixels that are stored.
-  Window display;  ///< Display window: the picture's frame.
+  Window data;           ///< Data window: the pixels that are stored.
+  Window display;        ///< Display window: the picture's frame.
+  int integer_bits = 0;  ///< Bits of a channel stored as a whole number; 0: floats.
 };
 
 enum class Sample { half_float, single_float };
@@ -57,9 +60,21 @@ class ImageFile {
   /// A number among the metadata of any part, whatever type it was stored in (text included).
   std::optional<double> metadata_number(const std::string& name) const;
 
+  /// The same as text, numbers included.
+  std::optional<std::string> metadata_text(const std::string& name) const;
+
+  /// All of it, part after part, each name once.
+  std::vector<std::pair<std::string, std::string>> metadata() const;
+
   /// True where writing with the file's own compression (DWA, B44, PXR24, JPEG in TIFF) changes
   /// values.
   bool is_lossy() const;
+
+  /// Gives a part this data window, which holds its own: 0 where nothing was.
+  void grow(int part, const Window& data);
+
+  /// How these channels, or all where none is named, are stored from now on.
+  void set_bits(int part, const std::vector<int>& channels, Bits bits);
 
   /// Of all parts, as OpenImageIO names it.
   void set_compression(const std::string& name);
@@ -78,6 +93,7 @@ class ImageFile {
   void refresh_info();
 
   std::string path_;
+  int encoded_bits_ = 0;  ///< Of a PNG or JPEG, whose values are kept as floats.
   std::vector<PartInfo> info_;
   std::vector<Part> parts_;
 };

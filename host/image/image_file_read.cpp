@@ -60,10 +60,13 @@ ImageFile ImageFile::read(const std::string& path, Content content) {
   }
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path, content);
-  const Sample sample = content == Content::data ? Sample::single_float : Sample::half_float;
+  const bool is_exact = content == Content::picture && picture.bits == 8;  // in half floats
+  const Sample sample = is_exact ? Sample::half_float : Sample::single_float;
   ImageFile file =
       from_planes(picture.channels, picture.planes, picture.width, picture.height, sample);
   file.path_ = path;
+  file.encoded_bits_ = picture.bits;
+  file.refresh_info();
   return file;
 }
 

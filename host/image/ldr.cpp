@@ -25,8 +25,15 @@ double stored_value(const cv::Mat& image, int y, int x, int channel) {
   return image.ptr<std::uint8_t>(y)[at] / 255.0;
 }
 
-std::uint8_t to_byte(double encoded) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0, 1.0)));
+/// Of 8 or 16 bits, by the image's type.
+void store_value(cv::Mat& image, int y, int x, int channel, double encoded) {
+  const int at = x * image.channels() + channel;
+  const double value = std::clamp(encoded, 0.0, 1.0);
+  if (image.depth() == CV_16U) {
+    image.ptr<std::uint16_t>(y)[at] = static_cast<std::uint16_t>(std::lround(65535 * value));
+  } else {
+    image.ptr<std::uint8_t>(y)[at] = static_cast<std::uint8_t>(std::lround(255 * value));
+  }
 }
 
 }  // namespace
@@ -49,6 +56,7 @@ LdrPicture read_ldr(const std::string& path, Content content) {
     fail(ErrorKind::input, "{}: neither 8 nor 16 bits a channel", path);
   }
   LdrPicture picture;
+  picture.bits = image.depth() == CV_16U ? 16 : 8;
   picture.width = image.cols;
   picture.height = image.rows;
   const bool is_data = content == Content::data;
@@ -76,10 +84,9 @@ LdrPicture read_ldr(const std::string& path, Content content) {
 void write_ldr(const std::string& path, const LdrPicture& picture) {
   const bool has_alpha = picture.planes.size() == 4;
   const bool keeps_alpha = has_alpha && lower_extension(path) == ".png";
-  cv::Mat image(picture.height, picture.width, keeps_alpha ? CV_8UC4 : CV_8UC3);
-  const int channels = image.channels();
+  const int depth = picture.bits == 16 ? CV_16U : CV_8U;
+  cv::Mat image(picture.height, picture.width, CV_MAKETYPE(depth, keeps_alpha ? 4 : 3));
   for (int y = 0; y < picture.height; ++y) {
-    std::uint8_t* row = image.ptr<std::uint8_t>(y);
     for (int x = 0; x < picture.width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                              static_cast<std::size_t>(x);
@@ -88,9 +95,9 @@ void write_ldr(const std::string& path, const LdrPicture& picture) {
         const double colour = static_cast<double>(picture.planes[c][at]);
         // PNG stores unassociated alpha; a transparent pixel has no colour to recover.
         const double straight = alpha > 0 ? colour / alpha : 0;
-        row[x * channels + bgr_index(c)] = to_byte(srgb_encode(straight));
+        store_value(image, y, x, bgr_index(c), srgb_encode(straight));
       }
-      if (keeps_alpha) row[x * channels + 3] = to_byte(alpha);
+      if (keeps_alpha) store_value(image, y, x, 3, alpha);
     }
   }
   write_encoded(path, &image);

@@ -23,20 +23,27 @@ bool is_tiff(const std::string& path) {
   return lower_extension(path) == ".tif" || lower_extension(path) == ".tiff";
 }
 
+bool is_jpeg(const std::string& path) {
+  return lower_extension(path) == ".jpg" || lower_extension(path) == ".jpeg";
+}
+
 void write_display_encoded(const std::string& path, const PartInfo& part,
-                           const std::vector<Plane>& colour, std::vector<std::string>& notes) {
+                           const std::vector<Plane>& colour, int bits,
+                           std::vector<std::string>& notes) {
   std::size_t clipped = 0;
   for (const Plane& plane : colour) {
     clipped += static_cast<std::size_t>(
         std::count_if(plane.begin(), plane.end(), [](float v) { return !(v >= 0 && v <= 1); }));
   }
   if (clipped > 0) {
-    notes.push_back(fmt::format("{} values outside 0...1 clipped by the 8-bit output", clipped));
+    notes.push_back(
+        fmt::format("{} values outside 0...1 clipped by the {}-bit output", clipped, bits));
   }
   const LdrPicture picture{part.display.width,
                            part.display.height,
                            {},
-                           to_display_window(colour, part.data, part.display)};
+                           to_display_window(colour, part.data, part.display),
+                           bits};
   write_safely(path, [&](const std::string& name) { write_ldr(name, picture); });
 }
 
@@ -47,6 +54,20 @@ std::size_t count_lost(const Plane& values, const Plane& stored) {
     count += std::isfinite(values[i]) && !std::isfinite(stored[i]);
   }
   return count;
+}
+
+/// R G B (A) of a picture of one or two planes.
+std::vector<Plane> in_rgb(const std::vector<Plane>& colour) {
+  if (colour.size() > 2) return colour;
+  std::vector<Plane> rgb(3, colour.front());
+  if (colour.size() == 2) rgb.push_back(colour.back());
+  return rgb;
+}
+
+/// HDR holds R, G and B.
+std::vector<int> hdr_channels(const std::vector<int>& channels) {
+  if (channels.size() > 2) return {channels.begin(), channels.begin() + 3};
+  return {channels.front(), channels.front(), channels.front()};
 }
 
 }  // namespace
@@ -81,6 +102,23 @@ void check_output_format(const std::string& path) {
   fail(ErrorKind::usage, "{}: {}; allowed are files with {}", path, found, join(allowed, " "));
 }
 
+void check_bits(const std::string& path, Bits bits) {
+  if (bits == Bits::as_input) return;
+  const bool is_float = bits == Bits::half || bits == Bits::single;
+  const std::string allowed = is_exr(path)        ? "half float"
+                              : is_tiff(path)     ? "8 16 float"
+                              : is_jpeg(path)     ? "8"
+                              : is_ldr_path(path) ? "8 16"
+                                                  : "none: its format is fixed";
+  const bool is_allowed = is_exr(path)        ? is_float
+                          : is_tiff(path)     ? bits != Bits::half
+                          : is_jpeg(path)     ? bits == Bits::eight
+                          : is_ldr_path(path) ? !is_float
+                                              : false;
+  if (is_allowed) return;
+  fail(ErrorKind::usage, "{}: {} has no such format; allowed are {}", path, field("bits"), allowed);
+}
+
 void check_compression(const std::vector<std::string>& paths, const std::string& compression) {
   if (compression.empty()) return;
   bool is_of_use = false;
@@ -103,18 +141,24 @@ bool keeps_other_channels(const std::string& path, const ImageFile& file) {
 }
 
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
-                   const std::vector<Plane>& colour, std::vector<std::string>& notes) {
+                   const std::vector<Plane>& colour, Bits bits, std::vector<std::string>& notes) {
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
   const bool keeps_all = keeps_other_channels(path, file);
   const bool has_more = file.parts().size() > 1 || part.channels.size() > choice.channels.size();
   if (has_more && !keeps_all) {
     notes.push_back("only colour is written: other channels stay behind in a change of format");
   }
-  if (is_ldr_path(path)) return write_display_encoded(path, part, colour, notes);
+  if (is_ldr_path(path)) {
+    const bool is_deep = bits == Bits::sixteen ||
+                         (bits == Bits::as_input && !is_jpeg(path) && part.integer_bits == 16);
+    return write_display_encoded(path, part, in_rgb(colour), is_deep ? 16 : 8, notes);
+  }
   if (file.is_lossy()) {
     notes.push_back(
         "the file's compression is lossy: channels not rendered may change a little too");
   }
+  if (keeps_all)
+    file.set_bits(choice.part, is_tiff(path) ? std::vector<int>{} : choice.channels, bits);
   std::size_t overflowed = 0;
   for (std::size_t c = 0; c < colour.size(); ++c) {
     file.set_plane(choice.part, choice.channels[c], colour[c]);
@@ -127,8 +171,10 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
   write_safely(path, [&](const std::string& name) {
     if (keeps_all) return file.write(name);
     std::vector<int> channels = choice.channels;
-    if (lower_extension(path) == ".hdr") channels.resize(3);
-    file.extract(choice.part, channels).write(name);
+    if (lower_extension(path) == ".hdr") channels = hdr_channels(channels);
+    ImageFile alone = file.extract(choice.part, channels);
+    alone.set_bits(0, {}, bits);
+    alone.write(name);
   });
 }
 

@@ -23,11 +23,14 @@ std::vector<Plane> to_display_window(const std::vector<Plane>& planes, const Win
 /// Whether `path` can be written with all that `file` has, and not only its colour.
 bool keeps_other_channels(const std::string& path, const ImageFile& file);
 
+/// Throws Error(usage) unless the format of `path` can have so many bits.
+void check_bits(const std::string& path, Bits bits);
+
 /// Puts `colour` in place of the chosen channels of `file` and writes it. The input's own format
 /// keeps everything; another one keeps what it can hold, and `notes` says what was left out.
-/// PNG and JPEG get the display window.
+/// PNG and JPEG get the display window; PNG and TIFF 16 bits where the input has those.
 void write_picture(const std::string& path, ImageFile& file, const ColourChoice& choice,
-                   const std::vector<Plane>& colour, std::vector<std::string>& notes);
+                   const std::vector<Plane>& colour, Bits bits, std::vector<std::string>& notes);
 
 /// Throws Error(usage) unless `path` can hold the data `name`.
 void check_plane_format(const std::string& path, const std::string& name);

@@ -9,8 +9,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <mutex>
+#include <set>
 
 #include "base/error.h"
+#include "base/process.h"
 
 namespace defray {
 namespace {
@@ -50,13 +54,53 @@ fs::path folder_of(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
+/// This machine, in a temporary file's name: on a shared disk others have processes of their own.
+std::string host_mark() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return fmt::format("{:08x}", std::hash<std::string>()(name.data()) & 0xffffffff);
+}
+
 /// Hidden, beside the target, unique to this process, with the same extension: image libraries
 /// choose the format by it. What only asks has names of its own: another thread may be writing.
 std::string temporary_name(const std::string& path, char mark = '-') {
   const fs::path target(path);
-  const std::string name = fmt::format(".{}.defray{}{}{}", target.stem().string(), mark, getpid(),
-                                       target.extension().string());
+  const std::string name = fmt::format(".{}.defray{}{}-{}{}", target.stem().string(), mark,
+                                       host_mark(), getpid(), target.extension().string());
   return (folder_of(path) / name).string();
+}
+
+/// Of a name that temporary_name made on this machine, the process; 0 for any other.
+long process_of(const std::string& name) {
+  const std::string maker = ".defray", mark = host_mark() + "-";
+  const std::size_t at = name.rfind(mark);
+  const std::size_t begin = name.rfind(maker, at);
+  const bool is_ours = name[0] == '.' && at != name.npos && begin != name.npos && begin > 0 &&
+                       begin + maker.size() + 1 == at;
+  return is_ours ? std::strtol(name.c_str() + at + mark.size(), nullptr, 10) : 0;
+}
+
+/// Temporary files of processes that were killed, once a folder.
+void remove_stale_files(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<std::string> seen;
+  const std::lock_guard lock(mutex);
+  std::error_code ignored;
+  if (!seen.insert(fs::absolute(folder, ignored).string()).second) return;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const long process = process_of(entry.path().filename().string());
+    if (process > 0 && !is_running(process)) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// ": No space left on device", where that is why and the library that wrote did not say so.
+std::string why_not_written(const std::string& path, const std::string& message) {
+  constexpr std::uintmax_t nothing = 64 << 10;  // less than what a writer may still want
+  const std::string full = std::strerror(ENOSPC);
+  std::error_code unknown;
+  const fs::space_info space = fs::space(folder_of(path), unknown);
+  const bool is_full = !unknown && space.available < nothing;
+  return is_full && message.find(full) == message.npos ? ": " + full : "";
 }
 
 void sync_path(const std::string& what, const std::string& path) {
@@ -82,11 +126,13 @@ void check_can_write(const std::string& path) {
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
   }
+  remove_stale_files(folder_of(path));
   const std::string probe = temporary_name(path, '+');
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
   if (file < 0) {
-    fail(ErrorKind::output, "{}: cannot write in folder {}: {}", path, folder_of(path).string(),
-         std::strerror(errno));
+    const int code = errno;
+    fail(ErrorKind::output, "{}: cannot write in folder {}: {}{}", path, folder_of(path).string(),
+         std::strerror(code), code == ENOENT ? "; " + field("make_folders") + " makes it" : "");
   }
   close(file);
   unlink(probe.c_str());
@@ -104,7 +150,7 @@ void write_safely(const std::string& to, const std::function<void(const std::str
     for (auto at = message.find(name); at != std::string::npos; at = message.find(name)) {
       message.replace(at, name.size(), path);
     }
-    throw Error(error.kind(), message);
+    throw Error(error.kind(), message + why_not_written(path, message));
   }
   sync_path(path, name);
   if (std::rename(name.c_str(), path.c_str()) != 0) {

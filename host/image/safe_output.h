@@ -9,7 +9,8 @@ namespace defray {
 void create_folder(const std::string& path);
 
 /// Throws Error(output) unless a file could be created where `path` is to go, without touching
-/// what is there. For finding out before the work rather than after.
+/// what is there. For finding out before the work rather than after. Removes what killed processes
+/// of this machine left behind in that folder.
 void check_can_write(const std::string& path);
 
 /// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it

@@ -65,13 +65,19 @@ Pattern pattern_of(const std::string& path, const std::string& name, std::size_t
   return pattern;
 }
 
-/// The pattern in a path's file name. A file that exists under its literal name is that file.
+/// The pattern in a path's file name. A file that exists under its literal name is that file, and
+/// an @ beside a # or a %04d is a letter, as in hero@2x.####.exr.
 std::optional<Pattern> find_pattern(const std::string& path) {
   const std::string name = path.substr(folder_prefix(path).size());
+  const auto is_at = [](char c) { return c == '@'; };
   std::size_t count = 0, at = 0, length = 0;
   for (std::size_t i = 0; i < name.size();) {
     const std::size_t here = pattern_length(std::string_view(name).substr(i));
-    if (here > 0 && count++ == 0) at = i, length = here;
+    const bool wins = here > 0 && is_at(name[at]) && !is_at(name[i]);
+    if (here > 0 && (count == 0 || wins || is_at(name[i]) == is_at(name[at]))) {
+      if (wins) count = 0;
+      if (count++ == 0) at = i, length = here;
+    }
     i += std::max<std::size_t>(here, 1);
   }
   std::error_code no_file;  // a name that is too long, too

@@ -1,24 +1,13 @@
 #include "lens/camera.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/text.h"
 
 namespace defray {
 namespace {
-
-std::optional<double> scaled(std::optional<double> value, double factor) {
-  if (value) *value *= factor;
-  return value;
-}
-
-std::optional<double> first_number(const ImageFile& file, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys) {
-    if (const auto value = file.metadata_number(key)) return value;
-  }
-  return std::nullopt;
-}
 
 template <typename T>
 std::optional<T> either(const std::optional<T>& first, const std::optional<T>& second) {
@@ -30,14 +19,24 @@ std::optional<T> either(const std::optional<T>& first, const std::optional<T>& s
 CameraValues CameraValues::overridden_by(const CameraValues& over) const {
   CameraValues values;
   values.source = source;
+  values.sought = sought;
+  values.notes = notes;
+  values.notes.insert(values.notes.end(), over.notes.begin(), over.notes.end());
   values.focal_length_mm = either(over.focal_length_mm, focal_length_mm);
-  // So do the sensor's width and the pixels in a metre.
-  const bool replaces_sensor = over.sensor_width_mm || over.pixels_per_metre;
-  values.sensor_width_mm = replaces_sensor ? over.sensor_width_mm : sensor_width_mm;
-  values.pixels_per_metre = replaces_sensor ? over.pixels_per_metre : pixels_per_metre;
+  // One of them says what the others do.
+  const bool replaces_sensor =
+      over.sensor_width_mm || over.sensor_height_mm || over.fov_deg || over.pixels_per_metre;
+  const CameraValues& sensor = replaces_sensor ? over : *this;
+  values.sensor_width_mm = sensor.sensor_width_mm;
+  values.sensor_height_mm = sensor.sensor_height_mm;
+  values.fov_deg = sensor.fov_deg;
+  values.pixels_per_metre = sensor.pixels_per_metre;
+  values.fit = over.fit || over.sensor_height_mm ? over.fit : fit;
   values.perceived_scale = either(over.perceived_scale, perceived_scale);
   values.perceived_distance_m = either(over.perceived_distance_m, perceived_distance_m);
-  values.focus_distance_units = either(over.focus_distance_units, focus_distance_units);
+  const CameraValues& focus = over.focus_distance_units ? over : *this;
+  values.focus_distance_units = focus.focus_distance_units;
+  values.focus_end_units = focus.focus_end_units;
   // The f-number and the diameter say the same thing: stating one replaces both.
   const bool replaces_aperture = over.fstop || over.aperture_diameter_mm;
   values.fstop = replaces_aperture ? over.fstop : fstop;
@@ -52,26 +51,6 @@ CameraValues eye_values(Eye eye, double display_distance_m, double display_px_pe
   values.focal_length_mm = eye == Eye::retina ? 17 : 24;
   const double magnification = display_distance_m / (*values.focal_length_mm / 1000);
   values.pixels_per_metre = eye == Eye::retina ? 28000 : display_px_per_metre * magnification;
-  return values;
-}
-
-CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit) {
-  CameraValues values;
-  // EXR standard attributes first (focus is in metres), then Nuke's and V-Ray's.
-  values.focal_length_mm =
-      first_number(file, {"FocalLength", "Exif:FocalLength", "exr/nuke/camera/focal",
-                          "nuke/camera/focal", "cameraFocalLength", "vray/cameraFocalLength"});
-  values.sensor_width_mm = first_number(file, {"exr/nuke/camera/haperture", "nuke/camera/haperture",
-                                               "cameraAperture", "vray/cameraAperture"});
-  values.fstop = first_number(file, {"FNumber", "Exif:FNumber", "aperture", "cameraFNumber",
-                                     "vray/cameraFNumber", "exr/nuke/camera/fstop"});
-  values.focus_distance_units =
-      scaled(first_number(file, {"focus", "Exif:SubjectDistance"}), 1 / metres_per_unit);
-  if (!values.focus_distance_units) {  // scene units already
-    values.focus_distance_units = first_number(
-        file, {"exr/nuke/camera/focal_point", "nuke/camera/focal_point", "cameraFocusDistance",
-               "cameraTargetDistance", "vray/cameraFocusDistance"});
-  }
   return values;
 }
 
@@ -100,31 +79,82 @@ double perceived_scale(const CameraValues& values, double metres_per_unit) {
   return scale;
 }
 
+/// Throws Error(usage) that names every value that is missing, and where it was sought.
+void refuse_missing(const CameraValues& v) {
+  std::vector<std::string> missing, sought;
+  const auto check = [&](bool is_there, const std::string& what, const char* name) {
+    if (is_there) return;
+    missing.push_back(what);
+    if (const auto found = v.sought.find(name); found != v.sought.end()) {
+      sought.push_back(found->second);
+    }
+  };
+  check(v.focus_distance_units.has_value(), field("focus_distance_units"), "focus_distance_units");
+  check(v.focal_length_mm.has_value(), field("focal_length_mm"), "focal_length_mm");
+  check(v.fstop || v.aperture_diameter_mm, field("fstop") + " or " + field("aperture_diameter_mm"),
+        "fstop");
+  if (missing.empty()) return;
+  std::string why = v.source.empty() ? " (or " + field("camera") + ")"
+                                     : fmt::format("; {} has no such value", v.source);
+  if (!sought.empty()) why += ", sought as " + join(sought, "; ");
+  for (const std::string& note : v.notes) why += ". Note: " + note;
+  fail(ErrorKind::usage, "the lens is not complete: give {}{}", join(missing, ", "), why);
+}
+
+/// Throws Error(usage) for two values that say the same thing.
+void refuse_doubled(const CameraValues& v) {
+  const auto refuse = [](bool first, const char* name, bool second, const char* other) {
+    if (!first || !second) return;
+    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them", field(name),
+         field(other));
+  };
+  refuse(v.fstop.has_value(), "fstop", v.aperture_diameter_mm.has_value(), "aperture_diameter_mm");
+  const std::pair<const char*, bool> sensors[] = {
+      {"sensor_width_mm", v.sensor_width_mm.has_value() && v.fit != SensorFit::vertical},
+      {"sensor_height_mm", v.sensor_height_mm.has_value() &&
+                               v.fit.value_or(SensorFit::vertical) == SensorFit::vertical},
+      {"fov_deg", v.fov_deg.has_value()},
+      {"pixels_per_metre", v.pixels_per_metre.has_value()}};
+  for (const auto& [name, is_there] : sensors) {
+    for (const auto& [other, is_other_there] : sensors) {
+      if (other == name) break;
+      refuse(is_other_there, other, is_there, name);
+    }
+  }
+}
+
+/// The sensor across the display window's width, mm.
+double sensor_across(const CameraValues& v, const Window& display) {
+  const bool has_height_alone = v.sensor_height_mm && !v.sensor_width_mm;
+  const SensorFit fit =
+      v.fit.value_or(has_height_alone ? SensorFit::vertical : SensorFit::horizontal);
+  const bool is_upright = display.height > display.width;
+  const bool spans_height = fit == SensorFit::vertical || (fit == SensorFit::longer && is_upright);
+  double across = v.sensor_width_mm.value_or(Lens().sensor_width_mm);
+  if (v.fov_deg) {
+    if (!(*v.fov_deg > 0 && *v.fov_deg < 180)) {
+      fail(ErrorKind::usage, "{} is {} degrees: allowed are numbers above 0, below 180",
+           field("fov_deg"), *v.fov_deg);
+    }
+    across = 2 * *v.focal_length_mm * std::tan(*v.fov_deg * std::numbers::pi / 360);
+  } else if (fit == SensorFit::vertical) {
+    if (!v.sensor_height_mm) {
+      fail(ErrorKind::usage, "{} vertical needs {} or {}", field("fit"), field("sensor_height_mm"),
+           field("fov_deg"));
+    }
+    across = *v.sensor_height_mm;
+  }
+  return spans_height ? across * display.width / display.height : across;
+}
+
 }  // namespace
 
 Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel model,
-               double max_coc_px) {
-  std::vector<std::string> missing;
-  if (!values.focus_distance_units) missing.push_back(field("focus_distance_units"));
-  if (!values.focal_length_mm) missing.push_back(field("focal_length_mm"));
-  if (!values.fstop && !values.aperture_diameter_mm) {
-    missing.push_back(field("fstop") + " or " + field("aperture_diameter_mm"));
-  }
-  if (!missing.empty()) {
-    fail(ErrorKind::usage, "the lens is not complete: give {}{}", join(missing, ", "),
-         values.source.empty() ? " (or " + field("camera") + ")"
-                               : fmt::format("; {} has no such value", values.source));
-  }
-  if (values.fstop && values.aperture_diameter_mm) {
-    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them", field("fstop"),
-         field("aperture_diameter_mm"));
-  }
+               double max_coc_px, const Window& display) {
+  refuse_missing(values);
+  refuse_doubled(values);
   if (values.fstop && !(*values.fstop > 0)) {
     fail(ErrorKind::usage, "f-number is {}: it must be above 0", *values.fstop);
-  }
-  if (values.sensor_width_mm && values.pixels_per_metre) {
-    fail(ErrorKind::usage, "{} and {} say the same thing: give one of them",
-         field("sensor_width_mm"), field("pixels_per_metre"));
   }
   if (values.pixels_per_metre && !(*values.pixels_per_metre > 0)) {
     fail(ErrorKind::usage, "{} is {}: it must be above 0", field("pixels_per_metre"),
@@ -133,8 +163,9 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
   Lens lens;
   lens.focal_length_mm = *values.focal_length_mm;
   lens.pixels_per_metre = values.pixels_per_metre.value_or(0);
-  lens.sensor_width_mm = values.sensor_width_mm.value_or(lens.sensor_width_mm);
+  lens.sensor_width_mm = sensor_across(values, display);
   lens.focus_distance_units = *values.focus_distance_units;
+  lens.focus_end_units = values.focus_end_units.value_or(0);
   lens.aperture_diameter_mm =
       values.fstop ? lens.focal_length_mm / *values.fstop : *values.aperture_diameter_mm;
   lens.metres_per_unit = metres_per_unit;

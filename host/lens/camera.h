@@ -1,10 +1,10 @@
 #pragma once
-// Lens data from where pipelines keep them: camera.json and image metadata.
+// Lens data from where pipelines keep them: an eye, camera.json (camera_metadata: image files).
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "image/image_file.h"
+#include "base/window.h"
 #include "lens/lens.h"
 
 namespace defray {
@@ -21,7 +21,9 @@ enum class Eye {
 CameraValues eye_values(Eye eye, double display_distance_m, double display_px_per_metre);
 
 /// A camera.json: focal_length_mm, sensor_width_mm, and focus_settings {name: {focus_distance_m,
-/// f_stop or aperture_diameter_m}}. `setting` picks one of several. Throws Error(input).
+/// f_stop or aperture_diameter_m}}, and instead of the sensor's width sensor_height_mm or fov_deg,
+/// with sensor_fit (horizontal, vertical, auto). `setting` picks one of several. Unknown keys are
+/// in the values' notes. Throws Error(input).
 CameraValues read_camera_json(const std::string& path, const std::string& setting,
                               double metres_per_unit);
 
@@ -29,12 +31,13 @@ CameraValues read_camera_json(const std::string& path, const std::string& settin
 CameraValues parse_camera_json(const std::string& text, const std::string& path,
                                const std::string& setting, double metres_per_unit);
 
-/// Lens values among an image's metadata (standard EXR, Nuke and V-Ray keys). Empty where absent.
-CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit);
+/// Notes on values ten times off those of any real lens.
+std::vector<std::string> notes_on_extremes(const CameraValues& values);
 
-/// The lens these values describe; 36 mm sensor width by default. Throws Error(usage) that names
-/// every value that is missing or contradicts another.
+/// The lens these values describe; 36 mm sensor width by default. A sensor that spans the frame's
+/// height, or a longer side that this is, needs the display window's shape. Throws Error(usage)
+/// that names every value that is missing or contradicts another.
 Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel model,
-               double max_coc_px);
+               double max_coc_px, const Window& display = {0, 0, 1, 1});
 
 }  // namespace defray

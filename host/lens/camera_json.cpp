@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -48,6 +50,59 @@ const json& choose_setting(const std::string& path, const json& root, const std:
   return names.empty() ? nothing : settings[names.front()];
 }
 
+/// The known key that has the key's first word, without underscores and units: "fstop" and
+/// "focusDistance" for f_stop and focus_distance_m.
+std::string same_words(const std::string& key, const std::vector<std::string>& known) {
+  const auto letters = [](const std::string& text) {
+    std::string only;
+    for (const char c : lower_case(text)) {
+      if (c != '_') only += c;
+    }
+    return only;
+  };
+  for (const std::string& candidate : known) {
+    if (letters(candidate).starts_with(letters(key))) return candidate;
+  }
+  return "";
+}
+
+/// What a camera.json may say of the camera, of each focus setting, and, for other programs,
+/// besides.
+const std::vector<std::string> camera_keys{"focal_length_mm", "sensor_width_mm", "sensor_height_mm",
+                                           "fov_deg",         "sensor_fit",      "focus_settings"};
+const std::vector<std::string> focus_keys{"focus_distance_m", "aperture_diameter_m", "f_stop"};
+const std::set<std::string> other_keys{"scene",  "width",          "height",
+                                       "frame",  "camera",         "pixel_focal_px",
+                                       "blades", "defray_options", "truth_noise_psnr_srgb_db",
+                                       "notes",  "blender",        "truth_noise_psnr_linear_db"};
+
+/// Notes the keys of an object that are none of `known`.
+void note_unknown_keys(const std::string& path, const json& object,
+                       const std::vector<std::string>& known, std::vector<std::string>& notes) {
+  if (!object.is_object()) return;
+  for (const auto& item : object.items()) {
+    const std::string& key = item.key();
+    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
+    if (is_known || other_keys.count(key) > 0) continue;
+    std::string nearest = nearest_spelling(key, known);
+    if (nearest.empty()) nearest = same_words(key, known);
+    notes.push_back(
+        fmt::format("{}: key '{}' is not known, and ignored{}", path, key,
+                    nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+  }
+}
+
+std::optional<SensorFit> sensor_fit(const std::string& path, const json& root) {
+  if (!root.contains("sensor_fit")) return std::nullopt;
+  const std::pair<const char*, SensorFit> words[] = {{"horizontal", SensorFit::horizontal},
+                                                     {"vertical", SensorFit::vertical},
+                                                     {"auto", SensorFit::longer}};
+  for (const auto& [word, fit] : words) {
+    if (root["sensor_fit"] == word) return fit;
+  }
+  fail(ErrorKind::input, "{}: 'sensor_fit' is none of horizontal, vertical, auto", path);
+}
+
 std::optional<double> times(std::optional<double> value, double factor) {
   if (value) *value *= factor;
   return value;
@@ -64,10 +119,24 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   values.source = path;
   values.focal_length_mm = number(path, root, "focal_length_mm");
   values.sensor_width_mm = number(path, root, "sensor_width_mm");
+  values.sensor_height_mm = number(path, root, "sensor_height_mm");
+  values.fov_deg = number(path, root, "fov_deg");
+  values.fit = sensor_fit(path, root);
   values.focus_distance_units = times(number(path, focus, "focus_distance_m"), 1 / metres_per_unit);
   // Renderers trace with the diameter; an f-number beside it is rounded or derived.
   values.aperture_diameter_mm = times(number(path, focus, "aperture_diameter_m"), 1000);
   if (!values.aperture_diameter_mm) values.fstop = number(path, focus, "f_stop");
+  values.sought = {{"focal_length_mm", "focal_length_mm"},
+                   {"focus_distance_units", "focus_distance_m"},
+                   {"fstop", "f_stop or aperture_diameter_m"}};
+  if (&focus == &root) {
+    std::vector<std::string> all = camera_keys;
+    all.insert(all.end(), focus_keys.begin(), focus_keys.end());
+    note_unknown_keys(path, root, all, values.notes);
+  } else {
+    note_unknown_keys(path, root, camera_keys, values.notes);
+    note_unknown_keys(path, focus, focus_keys, values.notes);
+  }
   return values;
 }
 

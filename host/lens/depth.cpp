@@ -13,14 +13,27 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_half = 65504;
 constexpr double far_away = 1e9;
+/// Where a range begins at the camera, its 0 is as near as a float can be.
+constexpr double nearest_float = std::numeric_limits<float>::min();
 /// 1/z of a denormal lies farther than floats go: background too.
 constexpr double farthest = std::numeric_limits<float>::max();
 
+bool is_in_range(DepthKind kind) {
+  return kind == DepthKind::normalized || kind == DepthKind::zbuffer;
+}
+
 bool is_background(double stored, const DepthSettings& s) {
   if (s.background) return stored == static_cast<double>(static_cast<float>(*s.background));
-  if (s.kind == DepthKind::normalized) return std::isinf(stored);
+  if (is_in_range(s.kind)) return std::isinf(stored);
   if (s.kind == DepthKind::inverse) return stored <= 0;
-  return stored == largest_half || stored >= far_away || stored <= 0;
+  const double z = s.kind == DepthKind::negative_z ? -stored : stored;
+  return z == largest_half || z >= far_away || z <= 0;
+}
+
+/// A number of the wrong sign, and so only by rule background.
+bool is_behind_camera(double stored, const DepthSettings& s) {
+  if (s.background || is_in_range(s.kind) || s.kind == DepthKind::inverse) return false;
+  return s.kind == DepthKind::negative_z ? stored > 0 && stored < far_away : stored < 0;
 }
 
 /// Planar depth over distance along the ray through this pixel.
@@ -38,24 +51,54 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
       return 1 / stored;
     case DepthKind::normalized: {
       const double t = s.invert ? 1 - stored : stored;
-      return s.near_units + t * (s.far_units - s.near_units);
+      const double z = s.near_units + t * (s.far_units - s.near_units);
+      return z == 0 ? nearest_float : z;
+    }
+    case DepthKind::negative_z:
+      return -stored;
+    case DepthKind::zbuffer: {  // 1/z goes from 1/near to 1/far
+      const double t = s.invert ? 1 - stored : stored;
+      return 1 / ((1 - t) / s.near_units + t / s.far_units);
     }
   }
   fail(ErrorKind::internal, "a depth kind that is not known");
+}
+
+/// Depths of the wrong sign, more of them than others, make no picture.
+void refuse_wrong_sign(const DepthReport& r, const DepthSettings& s, std::size_t pixels,
+                       const std::string& path) {
+  if (r.behind_camera <= pixels - r.background) return;
+  const bool is_minus = s.kind != DepthKind::negative_z;
+  fail(ErrorKind::input, "{}: depth is {} in {} px ({:.1f} % of all), {} in {} px only: {}", path,
+       is_minus ? "negative" : "positive", r.behind_camera,
+       100.0 * static_cast<double>(r.behind_camera) / static_cast<double>(pixels),
+       is_minus ? "positive" : "negative", pixels - r.background,
+       is_minus
+           ? "it looks like camera-space -z; say so with " + field("depth.kind") + " negative-z"
+           : field("depth.kind") + " z is the usual sign");
 }
 
 }  // namespace
 
 void validate(const DepthSettings& s) {
   if (s.kind == DepthKind::normalized) {
-    if (!(s.near_units > 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
-      fail(ErrorKind::usage, "{} normalized needs 0 < {} < {} in scene units; found near {} far {}",
+    if (!(s.near_units >= 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
+      fail(ErrorKind::usage,
+           "{} normalized needs 0 <= {} < {} in scene units; found near {} far {}",
+           field("depth.kind"), field("near_units"), field("far_units"), s.near_units, s.far_units);
+    }
+  } else if (s.kind == DepthKind::zbuffer) {
+    if (!(s.near_units > 0) || !(s.far_units > s.near_units)) {
+      fail(ErrorKind::usage,
+           "{} zbuffer needs 0 < {} < {} in scene units (a far of inf is allowed); found near {} "
+           "far {}",
            field("depth.kind"), field("near_units"), field("far_units"), s.near_units, s.far_units);
     }
   } else if (s.invert) {
-    fail(ErrorKind::usage, "{} goes with {} normalized only", field("invert"), field("depth.kind"));
+    fail(ErrorKind::usage, "{} goes with {} normalized or zbuffer only", field("invert"),
+         field("depth.kind"));
   } else if (s.near_units != 0 || s.far_units != 0) {
-    fail(ErrorKind::usage, "{} and {} go with {} normalized only", field("near_units"),
+    fail(ErrorKind::usage, "{} and {} go with {} normalized or zbuffer only", field("near_units"),
          field("far_units"), field("depth.kind"));
   }
 }
@@ -72,8 +115,9 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
     for (int x = data.x; x < data.x + data.width; ++x, ++i) {
       const double stored = static_cast<double>(depth[i]);
       const bool is_nothing = !std::isfinite(stored) || is_background(stored, settings);
-      const bool is_normalized = settings.kind == DepthKind::normalized;
-      report.outside_range += is_normalized && !is_nothing && (stored < 0 || stored > 1);
+      report.outside_range +=
+          is_in_range(settings.kind) && !is_nothing && (stored < 0 || stored > 1);
+      report.behind_camera += std::isfinite(stored) && is_behind_camera(stored, settings);
       const double share =
           settings.kind == DepthKind::distance
               ? planar_share(x + 0.5 - centre_x, y + 0.5 - centre_y, pixel_focal_length)
@@ -97,6 +141,7 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
     }
   }
   if (report.background == depth.size()) report.nearest_units = 0;
+  refuse_wrong_sign(report, settings, depth.size(), path);
   return report;
 }
 

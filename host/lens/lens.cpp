@@ -68,6 +68,10 @@ void validate(const Lens& lens) {
     fail(ErrorKind::usage, "focus distance is {}: it must be {} or more (inf is allowed)",
          lens.focus_distance_units, smallest);
   }
+  if (lens.focus_end_units != 0 && !(lens.focus_end_units >= lens.focus_distance_units)) {
+    fail(ErrorKind::usage, "{} goes from {} to {}: it must not end before it begins",
+         field("focus_range"), lens.focus_distance_units, lens.focus_end_units);
+  }
   if (lens.focus_distance_units <= focal_length_units(lens)) {
     fail(ErrorKind::usage,
          "focus distance {} lies inside the focal length ({} mm = {} scene units): focus farther "

@@ -46,7 +46,7 @@ std::vector<std::string> PictureFile::write(const std::string& path,
     fail(ErrorKind::usage, "{}: the colour to write is not of the size of the picture read", path);
   }
   std::vector<std::string> notes;
-  write_picture(path, state_->file, state_->choice, colour, notes);
+  write_picture(path, state_->file, state_->choice, colour, Bits::as_input, notes);
   return notes;
 }
 

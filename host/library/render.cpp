@@ -1,5 +1,3 @@
-#include "render.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,9 @@
 #include "lens/coc.h"
 #include "lens/depth.h"
 #include "library/backend_of.h"
+#include "library/lens_frame.h"
+#include "methods/method.h"
+#include "methods/tiltshift.h"
 
 namespace defray {
 namespace {
@@ -54,22 +55,21 @@ Values<float> depth_of(const Picture& picture, const Window& display, const Lens
   return depth;
 }
 
-RenderJob job_of(const Picture& picture, const Lens& lens, const Options& options,
-                 RenderReport& report) {
-  RenderJob job;
-  job.data = picture.data;
+/// As the lens takes it: copies only of what had to be changed.
+Frame frame_of(const Picture& picture, const Lens& lens, const Options& options, Backend& backend,
+               RenderReport& report) {
+  PinholePicture pinhole;
+  pinhole.data = picture.data;
   const bool has_display = picture.display.width > 0 && picture.display.height > 0;
-  job.display = has_display ? picture.display : picture.data;
+  pinhole.display = has_display ? picture.display : picture.data;
   for (const auto& plane : picture.colour) {
-    job.frame.channels.push_back(colour_of(plane, job.data, options.nonfinite, report.nonfinite));
+    pinhole.channels.push_back(colour_of(plane, pinhole.data, options.nonfinite, report.nonfinite));
   }
-  job.method = options;
-  job.wants_nearest = options.wants_nearest;
-  job.tiltshift = options.tiltshift;
-  if (options.method == Method::tiltshift) return job;
-  job.lens = lens;
-  job.frame.depth = depth_of(picture, job.display, lens, options.depth, report.depth);
-  return job;
+  if (options.method == Method::tiltshift) {
+    return lens_frame(std::move(pinhole), options.tiltshift, backend, report);
+  }
+  pinhole.depth = depth_of(picture, pinhole.display, lens, options.depth, report.depth);
+  return lens_frame(std::move(pinhole), lens, backend, report);
 }
 
 void validate(const Lens& lens, const Options& options) {
@@ -86,13 +86,14 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   check(picture, options);
   validate(lens, options);
   RenderResult out;
-  Rendered rendered =
-      render(job_of(picture, lens, options, out.report), backend_of(device), progress);
-  describe(rendered, options, out.report);
-  out.colour = std::move(rendered.result.colour);
-  out.coc_px = radii_px(rendered.frame.coc_quanta.host());
-  out.confidence = std::move(rendered.result.confidence);
-  out.nearest = std::move(rendered.result.nearest);
+  Backend& backend = backend_of(device);
+  const Frame frame = frame_of(picture, lens, options, backend, out.report);
+  MethodResult result = apply_method(frame, options, backend, options.wants_nearest, progress);
+  out.report.chain = std::move(result.report);
+  out.colour = std::move(result.colour);
+  out.coc_px = radii_px(frame.coc_quanta.host());
+  out.confidence = std::move(result.confidence);
+  out.nearest = std::move(result.nearest);
   return out;
 }
 

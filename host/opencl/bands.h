@@ -2,6 +2,7 @@
 // Rows of a frame that are worked out together. A device that works in host memory, or has room for
 // whole planes, takes the frame in one band, and planes stay where they are; else bands go there
 // with the rows that they depend on.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,18 +37,21 @@ class Band {
   /// Four channels: a missing one repeats the last.
   std::array<cl::Buffer, 4> in(const Planes& channels);
 
-  /// A plane of the frame's tiles from the window's on: [rows of tiles][tiles_x].
+  /// A plane of the frame's tiles, the window's: [rows of tiles][tiles_x].
   template <typename T>
   cl::Buffer tiles(const Values<T>& plane, int tiles_x, int tile_px) {
     const std::size_t first = size(rows_.window_y / tile_px) * size(tiles_x);
-    return session_.view(&plane[first], (plane.size() - first) * sizeof(T));
+    const int rows = (rows_.window_rows + tile_px - 1) / tile_px;
+    const std::size_t count = std::min(size(rows) * size(tiles_x), plane.size() - first);
+    return session_.view(&plane[first], count * sizeof(T));
   }
 
   /// The band's rows of a plane of the frame, to be written.
   template <typename T>
   cl::Buffer out(Values<T>& plane) {
-    if (is_whole_) return session_.out(plane, count_);
-    if (plane.empty()) plane = Values<T>(total_);
+    if (is_whole_ && plane.empty()) return session_.out(plane, count_);
+    if (is_whole_) return session_.in_out(plane);  // what others have written there stays
+    if (plane.empty()) plane = Values<T>::room(total_);
     const cl::Buffer made = session_.buffer(count_ * sizeof(T));
     read_back(made, plane);
     return made;
@@ -104,8 +108,8 @@ class Band {
 /// Whether the device holds the kernel's planes of a whole frame: in one band, where they stay.
 bool holds_planes(const Session& session, const char* kernel, const Frame& frame);
 
-/// A kernel over a frame: `work` launches it once a band. `reach_px` rows around a band count
-/// beside those of the launch table, and bands begin at multiples of `step` rows.
+/// A kernel over a frame's wanted rows: `work` launches it once a band. `reach_px` rows around a
+/// band count beside those of the launch table, and bands begin at multiples of `step` rows.
 void for_each_band(Session& session, const char* kernel, const Frame& frame, std::int64_t reach_px,
                    const std::function<void(Band&)>& work, int step = 1);
 

@@ -1,5 +1,7 @@
 #include "opencl/kernel_cache.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -52,6 +54,16 @@ void prepare_kernel_cache() {
     static const TemporaryFolder folder("defray-kcache");
     if (!folder.path().empty()) setenv("POCL_CACHE_DIR", folder.path().c_str(), 1);
   });
+}
+
+KernelCacheLock::KernelCacheLock()
+    : file_(open((pocl_cache_folder() / "defray.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC,
+                 S_IRUSR | S_IWUSR)) {
+  if (file_ >= 0) flock(file_, LOCK_EX);
+}
+
+KernelCacheLock::~KernelCacheLock() {
+  if (file_ >= 0) close(file_);  // which unlocks it
 }
 
 }  // namespace defray

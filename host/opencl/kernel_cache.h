@@ -8,4 +8,17 @@ namespace defray {
 /// Must run before the first OpenCL call; later calls do nothing.
 void prepare_kernel_cache();
 
+/// While it lives no other process of ours builds a program: PoCL loses a race when several fill
+/// its cache (github.com/pocl/pocl/issues/1480). Waits; does nothing where there can be no lock.
+class KernelCacheLock {
+ public:
+  KernelCacheLock();
+  ~KernelCacheLock();
+  KernelCacheLock(const KernelCacheLock&) = delete;
+  KernelCacheLock& operator=(const KernelCacheLock&) = delete;
+
+ private:
+  int file_;
+};
+
 }  // namespace defray

@@ -16,8 +16,6 @@ constexpr std::size_t plane = 4, colour = 4 * plane;
 const std::vector<Launch>& launch_table() {
   // Work-groups are not tuned yet.
   static const std::vector<Launch> table = {
-      // Reads and writes a surface.
-      {"assemble", 64, 1, 0, 2 * (3 * plane + colour)},
       {"coc", 64, 1},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
@@ -45,8 +43,8 @@ const std::vector<Launch>& launch_table() {
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 8, 1, 3, 2 * plane, DEFRAY_RUN},
       {"soften", 8, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
-      // A square of 7 px around.
-      {"split", 64, 1, 3, 3 * plane + colour + 2 * (3 * plane + colour)},
+      // A square of 7 px around. Two layers are written, the frame and what lies behind read.
+      {"split", 64, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
       {"tiltshift", 64, 1},
   };
   return table;

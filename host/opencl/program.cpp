@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "opencl/kernel_cache.h"
 #include "opencl/opencl_error.h"
 
 namespace defray {
@@ -17,12 +18,21 @@ std::string build_log(const cl::Program& program, const cl::Device& device) {
   }
 }
 
-/// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails
-/// with an empty log, and a new program succeeds, on a busy machine seconds later (of 48 processes
-/// on 2 cores one found 1.4 s too short). A real compile error has a log: no second try.
+/// A compile error has a log; where other programs fill PoCL's cache at the same time it is empty,
+/// or its last sentence alone.
+bool is_compile_error(std::string log) {
+  const std::size_t begin = log.find("Device "), end = log.find(" failed to build the program");
+  if (begin < end && end != std::string::npos) log.erase(begin, log.find('\n', end) - begin);
+  return log.find_first_not_of(" \n\t") != std::string::npos;
+}
+
+/// PoCL 3.1 loses a race when several processes fill a cold kernel cache: clBuildProgram fails, and
+/// a new program succeeds, on a busy machine seconds later. Ours wait for each other; other
+/// programs may be at it as well. A compile error is one at once.
 cl::Program compiled(const cl::Context& context, const DeviceInfo& info, const std::string& source,
                      const std::string& options) {
   constexpr int attempts = 16;
+  const KernelCacheLock lock;
   for (int attempt = 1;; ++attempt) {
     cl::Program program(context, source);
     try {
@@ -30,8 +40,7 @@ cl::Program compiled(const cl::Context& context, const DeviceInfo& info, const s
       return program;
     } catch (const cl::Error& error) {
       const std::string log = build_log(program, info.device);
-      const bool is_real = log.find_first_not_of(" \n\t") != std::string::npos;
-      if (is_real || attempt == attempts) {
+      if (is_compile_error(log) || attempt == attempts) {
         fail(ErrorKind::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
              opencl_error_name(error.err()), options, log);
       }

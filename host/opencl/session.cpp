@@ -188,7 +188,15 @@ void Session::enqueue(cl::Kernel& kernel, const char* name, const std::vector<st
                                 cl::NDRange(group[0], group[1], group[2]), nullptr,
                                 measures_ ? &event : nullptr);
   });
-  if (measures_) events_[name].push_back(event);
+  if (!measures_) return;
+  events_[name].push_back(event);
+  note_bytes(name);
+}
+
+void Session::note_bytes(const char* name) {
+  std::size_t bytes = 0;
+  for (const cl_mem buffer : given_) bytes += cl::Buffer(buffer, true).getInfo<CL_MEM_SIZE>();
+  kernel_bytes_[name] = std::max(kernel_bytes_[name], bytes);
 }
 
 }  // namespace defray

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ class Session {
 
   /// Seconds that each kernel has run since the last call. Needs SessionOptions::measures.
   std::map<std::string, double> take_kernel_seconds();
+
+  /// Bytes of all buffers that a launch of each kernel was given, each once: the most of its
+  /// launches. Needs SessionOptions::measures.
+  const std::map<std::string, std::size_t>& kernel_bytes() const { return kernel_bytes_; }
 
   /// Work-group {x, y} of every kernel, or of one; {0, 0}: as the launch table has it.
   void set_work_group(std::size_t x, std::size_t y);
@@ -127,6 +132,7 @@ class Session {
                    const std::vector<std::size_t>& global, const Args&... args) {
     cl::Kernel& kernel = kernel_of(name);
     [[maybe_unused]] cl_uint index = 0;
+    given_.clear();
     (set_arguments(kernel, name, index, args), ...);
     enqueue(kernel, name, global, first);
   }
@@ -144,11 +150,17 @@ class Session {
     }
     ++index;
   }
+  void set_arguments(cl::Kernel& kernel, const char* name, cl_uint& index,
+                     const cl::Buffer& buffer) {
+    if (measures_) given_.insert(buffer());
+    set_arguments<cl::Buffer>(kernel, name, index, buffer);
+  }
   /// Channels are one argument after the other.
   void set_arguments(cl::Kernel& kernel, const char* name, cl_uint& index,
                      const std::array<cl::Buffer, 4>& channels) {
     for (const cl::Buffer& channel : channels) set_arguments(kernel, name, index, channel);
   }
+  void note_bytes(const char* name);
   const void* map(const cl::Buffer& buffer, std::size_t bytes);
   void unmap(const cl::Buffer& buffer, const void* mapped);
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
@@ -167,6 +179,8 @@ class Session {
   std::size_t memory_bytes_ = default_memory_bytes;
   std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;
+  std::map<std::string, std::size_t> kernel_bytes_;
+  std::set<cl_mem> given_;                                    ///< To the launch that is being made.
   std::map<std::string, std::array<std::size_t, 2>> groups_;  ///< Other than the launch table's.
   cl::Context context_;
   cl::CommandQueue queue_;

@@ -17,8 +17,8 @@ BinSet bins_that(const Holds& holds) {
 }  // namespace
 
 RadiusBins bins_of(const Frame& frame) {
-  const auto [least, largest] = std::ranges::minmax(frame.coc_quanta.host());
-  return {least, largest, std::max(frame.width, frame.height)};
+  const CocRange range = frame.coc_range();
+  return {range.least, range.largest, std::max(frame.width, frame.height)};
 }
 
 int ray_tiles_along(int pixels) { return (pixels + DEFRAY_RAY_TILE - 1) / DEFRAY_RAY_TILE; }

@@ -25,6 +25,11 @@ int rdb_reach(std::int32_t largest_coc_quanta) {
 
 std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
                                      std::size_t memory_bytes, bool whole_lens) {
+  return plan_rdb_passes(width, {0, height}, height, cell_count, reach, memory_bytes, whole_lens);
+}
+
+std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
+                                     std::size_t memory_bytes, bool whole_lens) {
   const std::size_t fewest = whole_lens ? static_cast<std::size_t>(cell_count) : 1;
   const std::size_t row_bytes =
       static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
@@ -37,7 +42,7 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);
   const int rows = static_cast<int>(
-      std::min(size(rows_that_fit(height, memory_bytes, 0, row_bytes)), rows_wanted));
+      std::min(size(rows_that_fit(wanted.count(), memory_bytes, 0, row_bytes)), rows_wanted));
   const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
   const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
                                           row_bytes * static_cast<std::size_t>(rows));
@@ -45,7 +50,7 @@ std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int 
   const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
                                                            for_cells / (band * rdb_bytes_a_cell)));
   std::vector<RdbPass> passes;
-  for (const BandRows& of_band : cut_into_bands(height, rows, reach)) {
+  for (const BandRows& of_band : cut_into_bands(wanted, height, rows, reach)) {
     for (int k = 0; k < cell_count; k += cells) {
       passes.push_back({of_band, k, std::min(cells, cell_count - k)});
     }

@@ -32,5 +32,8 @@ int rdb_reach(std::int32_t largest_coc_quanta);
 /// the fewest cells does not fit.
 std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
                                      std::size_t memory_bytes, bool whole_lens = false);
+/// Of the rows `wanted` alone.
+std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
+                                     std::size_t memory_bytes, bool whole_lens = false);
 
 }  // namespace defray

@@ -199,7 +199,7 @@ Mean mean_of(std::vector<Found> all, const Planes& channels, int own) {
 
 }  // namespace
 
-Frame TwinBackend::fill(const Frame& f, const Words& mixed, int directions) {
+Frame TwinBackend::fill(const Frame& f, const Words& mixed, int directions, Frame) {
   std::vector<std::int32_t> coc = copy_of(f.coc_quanta);
   Plane inverse(f.pixels(), -1);
   std::vector<Plane> channels(f.channels.size(), Plane(f.pixels()));

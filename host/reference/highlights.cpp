@@ -102,7 +102,7 @@ RimCentre rim_at(const RayPlan& plan, int x, int y) {
 
 }  // namespace
 
-Values<float> TwinBackend::highlights(const Frame& f, int light_channels) {
+Values<float> TwinBackend::highlights(const Frame& f, int light_channels, Values<float>) {
   Plane kept(f.depth.size(), 1.0f);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const int x = static_cast<int>(i % static_cast<std::size_t>(f.width));

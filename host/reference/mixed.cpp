@@ -45,7 +45,7 @@ std::optional<std::size_t> end_of_ramp(const CocFrame& frame, Place at) {
 
 }  // namespace
 
-Words TwinBackend::repair(const Frame& f) {
+Words TwinBackend::repair(const Frame& f, Words) {
   const CocFrame frame(f);
   std::vector<std::uint32_t> source;
   frame.for_each_place([&](Place at) {
@@ -55,7 +55,7 @@ Words TwinBackend::repair(const Frame& f) {
   return source;
 }
 
-Words TwinBackend::mixed(const Frame& f) {
+Words TwinBackend::mixed(const Frame& f, Words) {
   const CocFrame frame(f);
   std::vector<std::uint32_t> mixed;
   frame.for_each_place([&](Place at) {

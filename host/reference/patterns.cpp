@@ -157,7 +157,7 @@ std::vector<std::uint32_t> patterns_difference(const Frame& frame, const Words& 
 }
 
 Frame TwinBackend::patterns(const Frame& frame, Frame behind, const Words& pixels,
-                            const Plane& variance, const std::vector<PatternShift>& shifts,
+                            const Values<float>& variance, const std::vector<PatternShift>& shifts,
                             const PatternSettings& settings) {
   Sums sums(frame.channels.size(), pixels.size());
   for (const PatternShift& shift : shifts) add_shift(frame, behind, pixels, shift, settings, sums);

@@ -1,6 +1,6 @@
 #pragma once
-// Parts of the scalar twins (reference/twin_backend.h) by themselves, and exact arithmetic to
-// measure rounding against.
+// Parts of the scalar twins by themselves, and exact arithmetic to measure rounding against. Which
+// twins are independent of their kernels, and what stands in where one is not: twin_backend.h.
 #include <cstdint>
 #include <vector>
 

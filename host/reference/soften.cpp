@@ -15,7 +15,7 @@ struct Square {
   explicit Square(float side) : half_side(0.5f * side) {
     const int reach = static_cast<int>(half_side + 0.5f), side_px = 2 * reach + 1;
     stride = (side_px + DEFRAY_SOFTEN_TAPS - 1) / DEFRAY_SOFTEN_TAPS;
-    taps = std::min(reach / stride, DEFRAY_SOFTEN_TAPS / 2);
+    taps = reach / stride;  // at most half of DEFRAY_SOFTEN_TAPS
   }
   /// How much of a pixel this far along x or y lies inside.
   float inside(int offset) const {
@@ -56,7 +56,7 @@ Colour mean_difference(const Frame& f, int x, int y, int layer, float side) {
 
 }  // namespace
 
-Planes TwinBackend::soften(const Frame& f, int samples) {
+Planes TwinBackend::soften(const Frame& f, int samples, Planes) {
   std::vector<Plane> out = planes_of(f.channels);
   for (int y = 0; y < f.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {

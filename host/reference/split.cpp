@@ -129,19 +129,41 @@ struct Layer {
         channels(planes_of(f.channels)),
         coverage(f.pixels(), covers),
         before(f.channels) {}
-
-  Frame in(Frame f) {
-    f.coc_quanta = std::move(coc_quanta);
-    f.inverse = std::move(inverse);
-    f.channels = channels;
-    f.coverage = std::move(coverage);
-    return f;
-  }
 };
+
+/// Both as layers: [height][2][width].
+Frame layered(Frame f, const Layer& front, const Layer& behind) {
+  f.layers = 2;
+  std::vector<std::int32_t> coc(f.surfaces());
+  Plane depth(f.surfaces());
+  std::vector<std::uint32_t> coverage(f.surfaces());
+  std::vector<Plane> channels(front.channels.size(), Plane(f.surfaces()));
+  for (const int layer : {0, 1}) {
+    const Layer& from = layer == 0 ? front : behind;
+    for (std::size_t pixel = 0; pixel < f.pixels(); ++pixel) {
+      const std::size_t to = f.front_of(pixel) + size(layer) * size(f.width);
+      const float inverse = from.inverse[pixel];
+      coc[to] = from.coc_quanta[pixel];
+      depth[to] = inverse < 0 ? no_fragment() : 1 / std::fabs(inverse);  // inf before nothing
+      if (!(inverse < 0)) {
+        coverage[to] = from.coverage[pixel] | (f.is_in_margin(pixel) ? DEFRAY_SYNTHESISED : 0);
+      }
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        channels[c][to] = from.channels[c][pixel];
+      }
+    }
+  }
+  f.coc_quanta = std::move(coc);
+  f.depth = std::move(depth);
+  f.coverage = std::move(coverage);
+  f.channels = channels;
+  return f;
+}
 
 }  // namespace
 
-Surfaces TwinBackend::split(const Frame& f, const Words& mixed_pixels, Frame frame_behind) {
+Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame& frame_behind,
+                         Frame) {
   Layer front(f, DEFRAY_WHOLE), behind(frame_behind, DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
   const Splitter splitter(f, mixed_pixels);
   const auto mixed = mixed_pixels.host();
@@ -181,36 +203,7 @@ Surfaces TwinBackend::split(const Frame& f, const Words& mixed_pixels, Frame fra
                  rest_of(c, found->colour, share_of(front.coverage[pixel])));
     }
   });
-  return {front.in(f.without_planes()), behind.in(f.without_planes())};
-}
-
-Frame TwinBackend::assemble(const Surfaces& s) {
-  Frame f = s.front.without_planes();
-  f.layers = 2;
-  std::vector<std::int32_t> coc(f.surfaces());
-  Plane depth(f.surfaces());
-  std::vector<std::uint32_t> coverage(f.surfaces());
-  std::vector<Plane> channels(s.front.channels.size(), Plane(f.surfaces()));
-  for (const int layer : {0, 1}) {
-    const Frame& from = layer == 0 ? s.front : s.behind;
-    for (std::size_t pixel = 0; pixel < f.pixels(); ++pixel) {
-      const std::size_t to = f.front_of(pixel) + size(layer) * size(f.width);
-      const float inverse = from.inverse[pixel];
-      coc[to] = from.coc_quanta[pixel];
-      depth[to] = inverse < 0 ? no_fragment() : 1 / std::fabs(inverse);  // inf before nothing
-      if (!(inverse < 0)) {
-        coverage[to] = from.coverage[pixel] | (f.is_in_margin(pixel) ? DEFRAY_SYNTHESISED : 0);
-      }
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        channels[c][to] = from.channels[c][pixel];
-      }
-    }
-  }
-  f.coc_quanta = std::move(coc);
-  f.depth = std::move(depth);
-  f.coverage = std::move(coverage);
-  f.channels = channels;
-  return f;
+  return layered(f.without_planes(), front, behind);
 }
 
 }  // namespace defray::reference

@@ -11,7 +11,7 @@
 //   the kernel's way   mixed, repair    mixed_test: steps and slopes drawn with known answers
 //                      fill             fill_test, stage_oracles_test: planes, slants and stripes
 //                                       that must go on
-//                      split, assemble  split_test: coverage and colours mixed by hand come back;
+//                      split            split_test: coverage and colours mixed by hand come back;
 //                                       stage_oracles_test: shares sought, not computed
 //                      soften           soften_test: overlaps of squares, in double
 //                      highlights*      highlight_disc_test: exact areas of polygons; lamp_test
@@ -31,23 +31,9 @@ namespace defray::reference {
 
 class TwinBackend : public Backend {
  public:
-  Quanta coc(const Lens& lens, int display_width_px, const Values<float>& depth) override;
-  Quanta tiltshift(const DefrayTiltshiftParams& params) override;
-  Words repair(const Frame& frame) override;
-  Words mixed(const Frame& frame) override;
-  /// It looks behind every pixel, in whatever tile.
-  Frame fill(const Frame& frame, const Words& mixed, int directions) override;
-  Frame patterns(const Frame& frame, Frame behind, const Words& pixels, const Plane& variance,
-                 const std::vector<PatternShift>& shifts, const PatternSettings& settings) override;
-  Surfaces split(const Frame& frame, const Words& mixed, Frame behind) override;
-  Frame assemble(const Surfaces& surfaces) override;
-  Values<float> highlights(const Frame& frame, int light_channels) override;
-  Planes soften(const Frame& frame, int lens_points) override;
-  RayResult rays(const Frame& frame, const RayPlan& plan, const LightSources* lights = nullptr,
-                 const Progress& progress = {}) override;
-  std::vector<Plane> linear(const Frame& frame, const Progress& progress = {}) override;
-  std::vector<Plane> gather(const Frame& frame, const GatherSettings& settings,
-                            const Progress& progress = {}) override;
+#define DEFRAY_CALL(Result, name, parameters) Result name parameters override;
+#include "frame/backend.def"
+#undef DEFRAY_CALL
 };
 
 }  // namespace defray::reference

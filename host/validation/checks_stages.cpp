@@ -44,25 +44,17 @@ Outcome run_fill(Backend& backend, const Case& c, const Input& in) {
   return values_of({backend.fill(f.frame, f.mixed, directions_of(c))});
 }
 
+std::size_t split_memory(const Case& c, const Input&) { return band_memory("split", c, 2); }
+
+/// With a margin.
 Outcome run_split(Backend& backend, const Case& c, const Input& in) {
-  const StageFrame f(c, in);
-  const auto [front, behind] = backend.split(
-      f.frame, f.mixed, reference::TwinBackend().fill(f.frame, f.mixed, directions_of(c)));
-  return values_of({front, behind});
-}
-
-std::size_t assemble_memory(const Case& c, const Input&) { return band_memory("assemble", c, 2); }
-
-/// What `fill` and `split` left, with a margin.
-Outcome run_assemble(Backend& backend, const Case& c, const Input& in) {
-  reference::TwinBackend twins;
   StageFrame f(c, in);
   f.frame.margin = static_cast<int>(c.seed % 4);
-  const Frame both = backend.assemble(
-      twins.split(f.frame, f.mixed, twins.fill(f.frame, f.mixed, directions_of(c))));
-  Outcome v = values_of({both});
-  for (std::size_t i = 0; i < both.depth.size(); ++i) {
-    v.integers.push_back(std::bit_cast<std::int32_t>(both.depth[i]));
+  const Frame layers = backend.split(
+      f.frame, f.mixed, reference::TwinBackend().fill(f.frame, f.mixed, directions_of(c)));
+  Outcome v = values_of({layers});
+  for (std::size_t i = 0; i < layers.depth.size(); ++i) {
+    v.integers.push_back(std::bit_cast<std::int32_t>(layers.depth[i]));
   }
   return v;
 }
@@ -93,12 +85,11 @@ Outcome run_soften(Backend& backend, const Case& c, const Input& in) {
 }  // namespace
 
 std::vector<KernelCheck> stage_checks() {
-  return {{"assemble", bits_rule, run_assemble, split_work, nullptr, nullptr, assemble_memory},
-          {"mixed", integer_rule, run_mixed, mixed_work},
+  return {{"mixed", integer_rule, run_mixed, mixed_work},
           {"fill", bits_rule, run_fill, fill_work},
           {"repair", integer_rule, run_repair, repair_work},
           {"soften", bits_rule, run_soften, soften_work, nullptr, nullptr, soften_memory},
-          {"split", bits_rule, run_split, split_work}};
+          {"split", bits_rule, run_split, split_work, nullptr, nullptr, split_memory}};
 }
 
 }  // namespace defray::validation

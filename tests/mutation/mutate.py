@@ -55,13 +55,14 @@ def text_of(path):
 
 
 def equivalents():
-    """(path, line as it is, line as mutated), stripped; "*" as mutated: any change of the line."""
+    """(path, line as it is, line as mutated), stripped; several lines as mutated may follow one."""
     found = set()
     blocks = open(EQUIVALENT).read().split("\n\n")
     for block in blocks:
         lines = [l for l in block.split("\n") if l and not l.startswith("#")]
-        if len(lines) >= 4:
-            found.add((lines[0].strip(), lines[1][1:].strip(), lines[2][1:].strip()))
+        for mutated in lines[2:]:
+            if mutated.startswith("+ "):
+                found.add((lines[0].strip(), lines[1][1:].strip(), mutated[1:].strip()))
     return found
 
 
@@ -140,8 +141,7 @@ class Run:
     def note(self, mutant, outcome, seconds, is_new):
         before, after = changed_lines(mutant)
         name = mutant.name(text_of(mutant.path))
-        known = {(mutant.path, before, after), (mutant.path, before, "*")}
-        if outcome.startswith("survived") and known & self.known:
+        if outcome.startswith("survived") and (mutant.path, before, after) in self.known:
             outcome = "equivalent"
         entry = {"mutant": name, "before": before, "after": after, "outcome": outcome, "seconds": round(seconds, 1)}
         with self.lock:

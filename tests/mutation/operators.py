@@ -39,11 +39,14 @@ def masked(source):
     """The source with comments, texts and lines that are no code blanked, of the same length."""
     def blank(match):
         return re.sub(r"[^\n]", " ", match.group(0))
-    kinds = r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\''
+    kinds = r'R"(?P<end>\w*)\(.*?\)(?P=end)"|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\''
     source = re.sub(kinds, blank, source, flags=re.S)
     lines = source.split("\n")
+    goes_on = False  # a condition for the preprocessor
     for i, line in enumerate(lines):
-        if NO_CODE.match(line):
+        is_condition = goes_on or re.match(r"\s*#\s*(el)?if", line)
+        goes_on = bool(is_condition) and line.endswith("\\")
+        if is_condition or NO_CODE.match(line):
             lines[i] = " " * len(line)
     return "\n".join(lines)
 

@@ -17,6 +17,7 @@ QUICK = 1 / 20          # those that together take so much, 3 of 4 tests, go fir
 COMPILE_SECONDS = 300   # some take ten on an idle core
 VALIDATE_SECONDS = 200  # of some kernels it takes twenty on idle cores
 FAULTS_SECONDS = 900    # all faults; the next time, from the kernel cache, a third of it
+OCLGRIND_SECONDS = 600  # of some kernels, under Oclgrind, it takes one to two minutes
 HANGS = 30, 6           # seconds, and times the usual time, from where on tests count as hanging
 # A header that more objects include is left out, frames and defaults among them, as it would take
 # minutes each to compile.
@@ -258,4 +259,9 @@ def try_mutant(worker, path, text, near, far, tests, kernels, budget=BUDGET):
         code, said = worker.run([program("faults_tests"), "--gtest_fail_fast"], FAULTS_SECONDS, environment)
         if code != 0:
             return "timed out in faults_tests" if code is None else f"killed by {first_failure(said)}"
+    if kernels and shutil.which("oclgrind"):  # memory beyond a buffer may hold what does no harm
+        code, said = worker.run(f"oclgrind {program('defray')} validate --quick -o {worker.folder}/scratch/o {wanted}",
+                                OCLGRIND_SECONDS, environment)
+        if code not in (0, None):
+            return "killed by Oclgrind"
     return f"survived {count} tests"

@@ -54,6 +54,10 @@ class DEFRAY_API PictureFile {
   std::unique_ptr<State> state_;
 };
 
+struct PixelPlace {
+  int x = 0, y = 0;
+};
+
 /// How to render from file to file, the same for every frame of a sequence.
 struct RenderSettings {
   ChannelRequest request;
@@ -65,6 +69,13 @@ struct RenderSettings {
   double metres_per_unit = 1;
   LensModel model = LensModel::cg;
   double max_coc_px = 0;
+  /// Focus on the depth found there, of the display window, instead of a distance.
+  std::optional<PixelPlace> focus_at;
+  /// The picture is a cut-out of a frame of this width and height, its left upper pixel at (x, y)
+  /// in it: the frame that the lens's field of view spans, instead of the display window.
+  std::optional<Window> full_size;
+  Bits bits = Bits::as_input;
+  std::optional<Grow> grow;  ///< Empty: display where there is an alpha below 1, none elsewhere.
   Nonfinite nonfinite = Nonfinite::zero;
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
   TiltshiftSettings tiltshift;
@@ -85,7 +96,8 @@ struct FrameReport : RenderReport {
   Window data, display;
   Lens lens;
   bool nonfinite_kept = false;
-  std::vector<std::string> notes;  ///< Whatever else the user should know.
+  /// Whatever else the user should know; settings in them are marked, for with_field_names.
+  std::vector<std::string> notes;
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
 };
 
@@ -115,6 +127,10 @@ class DEFRAY_API FileRender {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// What a frame would be rendered with: its lens (what `focus_at` means there), depths, channels.
+/// Throws Error.
+DEFRAY_API FrameReport inspect_file(const FramePaths& paths, const RenderSettings& settings);
 
 /// Renders one frame from file to file, as `defray render` does. Throws Error.
 DEFRAY_API FrameResult render_file(Device& device, const FramePaths& paths,

@@ -1,7 +1,9 @@
 #pragma once
 // The lens: the thin lens of physical units, and the shape of its aperture.
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace defray {
 
@@ -21,6 +23,9 @@ struct Lens {
   double metres_per_unit = 1;       ///< Scene unit.
   double max_coc_px = 0;            ///< Limit of the radius; 0: none.
   LensModel model = LensModel::cg;
+  /// Where what is kept sharp ends: it begins at the focus distance, and CoCs are measured from the
+  /// nearer end. 0: the plane of focus alone.
+  double focus_end_units = 0;
 };
 
 /// The aperture: the shape of the hole that light passes, and so of every out-of-focus highlight.
@@ -56,20 +61,34 @@ struct Aperture {
   bool operator==(const Aperture&) const = default;
 };
 
+/// Which side of the frame the sensor's size spans.
+enum class SensorFit {
+  horizontal,  ///< The sensor's width, the frame's.
+  vertical,    ///< The sensor's height, the frame's.
+  longer,      ///< The sensor's width, the frame's longer side: Blender's "Auto".
+};
+
 /// Lens values as a source (a camera file, an image's metadata, a user) states them; whatever it
 /// does not state is empty.
 struct CameraValues {
   std::optional<double> focal_length_mm;
   std::optional<double> sensor_width_mm;
+  std::optional<double> sensor_height_mm;  ///< Of SensorFit::vertical.
+  std::optional<double> fov_deg;  ///< Across the side that `fit` says; instead of a sensor.
+  std::optional<SensorFit> fit;   ///< Without one: vertical where only a height is stated.
   std::optional<double> pixels_per_metre;  ///< Instead of the sensor width.
   std::optional<double> fstop;
   std::optional<double> aperture_diameter_mm;
   std::optional<double> focus_distance_units;
+  std::optional<double> focus_end_units;  ///< Lens::focus_end_units.
   /// How large the scene is to look: the aperture is divided by this (Glatzel & Wilhelm, eq. 6).
   std::optional<double> perceived_scale;
   /// The same by the distance at which the plane of focus seems to be, metres (eq. 5).
   std::optional<double> perceived_distance_m;
   std::string source;  ///< Where they are from, for messages; empty: the command line.
+  /// By field, under which names that source was searched in vain.
+  std::map<std::string, std::string> sought;
+  std::vector<std::string> notes;  ///< What else its user should know of it.
 
   /// Values of `over` win over these.
   CameraValues overridden_by(const CameraValues& over) const;

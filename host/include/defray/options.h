@@ -100,13 +100,31 @@ enum class DepthKind {
   distance,    ///< Along the ray from the camera.
   inverse,     ///< 1 / planar depth.
   normalized,  ///< 0 at `near`, 1 at `far`, linear in planar depth.
+  negative_z,  ///< Minus the planar depth: z of a camera that looks along its -z axis.
+  zbuffer,     ///< 0 at `near`, 1 at `far`, linear in 1 / planar depth: a GPU's depth buffer.
+};
+
+/// How many bits an output has a channel.
+enum class Bits {
+  as_input,  ///< As the input; 8 in PNG and JPEG where that has floats.
+  eight,
+  sixteen,
+  half,
+  single,
+};
+
+/// How far a data window grows with the blur of what lies in it.
+enum class Grow {
+  none,
+  display,  ///< As far as light gets, at most to the display window.
+  full,     ///< Beyond that, too.
 };
 
 /// What the values of a depth plane mean.
 struct DepthSettings {
   DepthKind kind = DepthKind::z;
-  bool invert = false;    ///< normalized: 1 at near, 0 at far.
-  double near_units = 0;  ///< normalized only.
+  bool invert = false;    ///< normalized, zbuffer: 1 at near, 0 at far.
+  double near_units = 0;  ///< Of these two.
   double far_units = 0;
   /// The stored value that means "nothing there". Empty: 65504, anything >= 1e9, inf and <= 0.
   std::optional<double> background;

@@ -15,7 +15,8 @@ using Progress = std::function<void(double)>;
 struct DepthReport {
   std::size_t background = 0;     ///< Pixels taken as background.
   std::size_t not_a_number = 0;   ///< NaN pixels, taken as background too.
-  std::size_t outside_range = 0;  ///< normalized: stored values outside 0...1.
+  std::size_t outside_range = 0;  ///< normalized, zbuffer: stored values outside 0...1.
+  std::size_t behind_camera = 0;  ///< Of the background, numbers of the wrong sign.
   double nearest_units = 0;       ///< Range of the rest; 0 where nothing is left.
   double farthest_units = 0;
 };

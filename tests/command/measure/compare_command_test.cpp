@@ -1,4 +1,6 @@
 // defray compare as a user runs it.
+#include <OpenImageIO/imagebuf.h>
+
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -168,7 +170,7 @@ TEST_F(Compare, AlphaIsNoObstacle) {
 }
 
 TEST_F(Compare, RefusesPicturesThatDoNotGoTogether) {
-  refuse("a.exr small.exr", 3, {"a.exr has data window 48x32+0+0", "small.exr has 20x10+0+0"});
+  refuse("a.exr small.exr", 3, {"a.exr has display window 48x32+0+0", "small.exr has 20x10+0+0"});
   refuse("a.exr depth_only.exr", 3, {"depth_only.exr", "no colour"});
   refuse("a.exr none.exr", 3, {"none.exr", "no such file"});
 }
@@ -208,6 +210,85 @@ TEST_F(Compare, RefusesSheetsItCannotWrite) {
   refuse("a.exr b.exr --sheet s.png --amplify inf", 2, {"--amplify is inf"});
   ASSERT_EQ(defray(folder_, "sheet a.exr -o a.png").code, 0);
   refuse("a.png a.png --sheet ./a.png", 2, {"input and output at once"});
+}
+
+TEST_F(Compare, APartOfThePictures) {
+  // All of the difference is in column 2.
+  EXPECT_EQ(compared("a.exr b.exr --crop 10x10+3+4")["equal"], true);
+  const json part = compared("a.exr b.exr --crop 4x32+0+0");
+  EXPECT_EQ(part["worst_x"], 2);
+  EXPECT_NEAR(part["rms"], 0.5 / std::sqrt(12), 1e-6);
+  EXPECT_EQ(code("a.exr b.exr --crop 10x10+3+4 --max-error 0"), 0);
+  refuse("a.exr b.exr --crop 9x9+48+0", 3, {"--crop lies outside"});
+  refuse("a.exr b.exr --crop 9x9", 2, {"--crop '9x9'", "3840x2160+100+50"});
+  refuse("a.exr b.exr --windows both", 2, {"--windows 'both'", "union overlap"});
+}
+
+TEST_F(Compare, OnlyWhereAMaskIs) {
+  Plane left(48 * 32), column(48 * 32);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    left[i] = i % 48 < 2;
+    column[i] = i % 48 == 2 ? 1.0f : 0.4f;
+  }
+  ImageFile::from_planes({"Y"}, {left}, 48, 32).write(folder_ / "left.exr");
+  ImageFile::from_planes({"A"}, {column}, 48, 32).write(folder_ / "column.exr");
+  ImageFile::from_planes({"Y"}, {Plane(48 * 32)}, 48, 32).write(folder_ / "nothing.exr");
+  EXPECT_EQ(compared("a.exr b.exr --mask left.exr")["equal"], true);
+  const json line = compared("a.exr b.exr --mask column.exr");
+  EXPECT_NEAR(line["rms"], 0.5 / std::sqrt(3), 1e-6);
+  EXPECT_NEAR(line["worst"], 0.5, 1e-6);
+  EXPECT_EQ(code("a.exr b.exr --mask column.exr --max-error 0.1"), 1);
+  refuse("a.exr b.exr --mask nothing.exr", 3, {"no pixel of the mask"});
+}
+
+TEST_F(Compare, DataWindowsThatDiffer) {
+  const auto write = [&](const std::string& name, int x, float value) {
+    const Plane plane(8 * 4, value);
+    ImageFile file = ImageFile::from_planes({"R", "G", "B"}, {plane, plane, plane}, 8, 4);
+    file.write(folder_ / name);
+    OIIO::ImageBuf moved(folder_ / name);
+    moved.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+    moved.specmod().x = x;
+    moved.specmod().full_width = 20;
+    moved.specmod().full_height = 4;
+    moved.write(folder_ / name);
+  };
+  write("l.exr", 2, 0.5f);
+  write("r.exr", 6, 0.5f);
+  EXPECT_EQ(compared("l.exr r.exr --windows overlap")["equal"], true);
+  const json all = compared("l.exr r.exr");
+  EXPECT_NEAR(all["rms"], 0.5 * std::sqrt(8.0 / 12), 1e-6);
+  write("far.exr", 12, 0.5f);
+  refuse("l.exr far.exr --windows overlap", 3, {"the data windows do not overlap"});
+  refuse("l.exr a.exr", 3, {"display window 20x4+0+0", "48x32+0+0"});
+}
+
+TEST_F(Compare, SheetsShowAPartLargeAndBright) {
+  expect_ok(defray(folder_, "sheet a.exr b.exr -o plain.png"));
+  expect_ok(defray(folder_, "sheet a.exr b.exr -o part.png --crop 8x6+2+0 --zoom 3"));
+  expect_ok(defray(folder_, "sheet a.exr b.exr -o bright.png --exposure 2"));
+  const LdrPicture part = read_ldr(folder_ / "part.png", Content::data);
+  const LdrPicture plain = read_ldr(folder_ / "plain.png", Content::data);
+  const LdrPicture bright = read_ldr(folder_ / "bright.png", Content::data);
+  EXPECT_EQ(part.width, 2 * 24 + 8);
+  EXPECT_EQ(part.height, 18 + 36);
+  const auto at = [](const LdrPicture& p, int x, int y) {
+    return p.planes[0][static_cast<std::size_t>(y * p.width + x)];
+  };
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      for (const int i : {0, 1, 2})
+        EXPECT_EQ(at(part, 3 * x + i, 36 + 3 * y + i), at(plain, x + 2, 36 + y));
+      EXPECT_GE(at(bright, x, 36 + y), at(plain, x, 36 + y));
+    }
+  }
+  EXPECT_GT(at(bright, 4, 40), at(plain, 4, 40));
+  const auto refused = [&](const std::string& options, const std::string& words) {
+    expect_refusal(defray(folder_, "sheet a.exr b.exr -o s.png " + options), 2, {words}, options);
+  };
+  refused("--zoom 0", "--zoom is 0: allowed are 1 to 64");
+  refused("--zoom 65", "--zoom is 65");
+  refused("--exposure nan", "--exposure is nan");
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_F(PsfCommand, InFocusThereIsOnlyTheAiryPattern) {
 
 TEST_F(PsfCommand, RefusesImpossibleLenses) {
   refuse("psf --depth 4", 2, {"--focus, --focal-length, --fstop or --aperture-diameter"});
-  refuse("psf --focus 3 --fstop 2.8 --focal-length 50", 2, {"--depth is required"});
+  refuse("psf --focus 3 --fstop 2.8 --focal-length 50", 2, {"--depth is missing"});
   refuse(base + "--depth 0", 2, {"--depth is 0"});
   refuse(base + "--depth 4 --aperture-diameter 3", 2, {"the same thing"});
   refuse("psf --focus 3 --focal-length 50 --depth 4 --aperture-diameter 0", 2, {"no PSF"});

@@ -1,5 +1,7 @@
 // defray-perf: every experiment runs and leaves a report whose parts are all there.
+#include <array>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -38,8 +40,8 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   EXPECT_EQ(result.err, "");  // no progress without a terminal
   const std::string html = text_of("report/index.html");
   for (const std::string part :
-       {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time", "Closer to truth",
-        "defray render spheres/pinhole.exr", "</html>"}) {
+       {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time", "Where the time goes",
+        "Closer to truth", "defray render spheres/pinhole.exr", "</html>"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   std::size_t links = 0;
@@ -52,6 +54,30 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   EXPECT_GT(links, 20u);
   EXPECT_NE(html.find("rehearsal"), std::string::npos);
   EXPECT_EQ(text_of("report/plate1.csv").substr(0, 7), "method,");
+}
+
+TEST_F(PerfCommand, RooflineHasEachKernelsTimeAndBytes) {
+  const Result result = perf("experiment roofline -o report --quick");
+  expect_ok(result);
+  for (const std::string scene : {"fence", "spheres"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / ("report/roofline-" + scene + ".png")));
+    const std::string csv = text_of("report/roofline-" + scene + ".csv");
+    std::map<std::string, std::array<double, 4>> kernels;
+    const std::regex row("\n([a-z_]+),([0-9.]+),([0-9.]+),([0-9.]+),([0-9.]+)");
+    for (std::sregex_iterator i(csv.begin(), csv.end(), row), end; i != end; ++i) {
+      for (std::size_t k = 0; k < 4; ++k) kernels[(*i)[1]][k] = std::stod((*i)[k + 2]);
+    }
+    for (const std::string kernel : {"coc", "mixed", "fill", "split", "soften", "rdb_gather"}) {
+      ASSERT_TRUE(kernels.contains(kernel)) << csv;
+      const auto [took_ms, megabytes, least_ms, ratio] = kernels[kernel];
+      EXPECT_GT(took_ms, 0) << kernel;
+      EXPECT_GT(ratio, 0) << kernel;
+    }
+    // Depth in, CoC out: 480 x 270 pixels.
+    EXPECT_NEAR(kernels["coc"][1], 2 * 4e-6 * 480 * 270, 0.06);
+    // As the frame, what lies behind it, and two layers of both.
+    EXPECT_NEAR(kernels["split"][1] / kernels["coc"][1], (6 + 5 + 12) / 2.0, 2.5);
+  }
 }
 
 TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
@@ -109,7 +135,7 @@ TEST_F(PerfCommand, HelpListsTheExperiments) {
   const Result help = perf("experiment --help");
   expect_ok(help);
   for (const std::string name :
-       {"plate1", "plate2", "figure7", "eye", "tradeoff", "truth", "Example"}) {
+       {"plate1", "plate2", "figure7", "eye", "tradeoff", "roofline", "truth", "Example"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
 }

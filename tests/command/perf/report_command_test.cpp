@@ -1,6 +1,7 @@
 // defray-perf report: tables stand between their markers, and nothing else changes.
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 
 #include "command/program.h"
 
@@ -42,6 +43,16 @@ class ReportCommand : public testing::Test {
 
 std::string marked(const std::string& table, const std::string& content = "") {
   return "<!-- " + table + ":begin -->\n" + content + "<!-- " + table + ":end -->\n";
+}
+
+TEST_F(ReportCommand, RooflineHasAKernelsTimesInBothScenes) {
+  write("a.md", marked("roofline"));
+  expect_ok(report("--update a.md --table roofline --quick"));
+  const std::string table = table_in("a.md", "roofline");
+  EXPECT_EQ(table.rfind("| kernel | fence bg | spheres f2 |\n", 0), 0u) << table;
+  const std::regex row("\n\\| `split` \\| [0-9.]+ \\(× [0-9.]+\\) \\| [0-9.]+ \\(× [0-9.]+\\) \\|");
+  EXPECT_TRUE(std::regex_search(table, row)) << table;
+  EXPECT_NE(table.find(" GB/s."), std::string::npos) << table;
 }
 
 TEST_F(ReportCommand, UpdateChangesOnlyWhatStandsBetweenItsMarkers) {
@@ -111,7 +122,7 @@ TEST_F(ReportCommand, HelpListsTheTables) {
   const Result help = report("--help");
   expect_ok(help);
   for (const std::string name : {"accuracy", "methods", "stages", "left", "motion", "papers",
-                                 "arithmetic", "validate", "speed", "Example"}) {
+                                 "arithmetic", "validate", "speed", "roofline", "Example"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
 }

@@ -24,9 +24,21 @@ TEST(Devices, ListsInTextAndJson) {
   ASSERT_GE(list.size(), 1u);
   EXPECT_TRUE(list[0].contains("int64_atomics"));
   for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto count = [&](const char* key) {
+      const auto value = list[i][key].get<std::size_t>();
+      EXPECT_GT(value, 0u) << key;
+      return value;
+    };
     for (const std::string& line :
          {fmt::format("{}: {}\n", i, list[i]["name"].get<std::string>()),
-          fmt::format("work-groups up to {}\n", list[i]["max_work_group"].get<std::size_t>())}) {
+          fmt::format(", {} compute units, work-groups up to {}\n", count("compute_units"),
+                      count("max_work_group")),
+          fmt::format("memory      {} MiB, largest buffer {} MiB, local {} KiB\n",
+                      count("global_memory_bytes") / 1048576, count("max_buffer_bytes") / 1048576,
+                      count("local_memory_bytes") / 1024),
+          fmt::format("64-bit atomics {}, double {}\n",
+                      list[i]["int64_atomics"] ? "yes" : "no (two-pass scatter)",
+                      list[i]["double"] ? "yes" : "no")}) {
       EXPECT_NE(text.out.find(line), std::string::npos) << line << " in " << text.out;
     }
   }
@@ -72,6 +84,17 @@ TEST(KernelCache, UnwritableFallsBackToAPrivateOne) {
       EXPECT_EQ(entry.path().filename().string().find("defray-kcache"), std::string::npos);
     }
   }
+}
+
+TEST(KernelCache, ThatOfAKilledRunGoesWithTheNext) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  std::ofstream(folder / "file") << "no folder";
+  std::filesystem::create_directories(folder / "tmp/defray-kcache-999999999-abcdef/some");
+  expect_ok(
+      defray(folder, "render in.exr -o out.exr --method linear" + lens,
+             "env POCL_CACHE_DIR='" + (folder / "file") + "' TMPDIR='" + (folder / "tmp") + "'"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
 }
 
 TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {

@@ -44,8 +44,8 @@ TEST_F(OptionsCommand, QualityMustHaveSomethingLeftToSay) {
 
 TEST_F(OptionsCommand, WhatGoesWithAnotherOptionNeedsIt) {
   for (const std::string option : {"--near 0", "--far 0", "--invert"}) {
-    expect_refused(lens + option,
-                   {option.substr(0, option.find(' ')), "goes with --depth-kind normalized only"});
+    expect_refused(lens + option, {option.substr(0, option.find(' ')),
+                                   "goes with --depth-kind normalized or zbuffer only"});
   }
   for (const std::string option : {"--blade-curvature 0", "--blade-rotation 0"}) {
     expect_refused(lens + option, {option.substr(0, option.find(' ')) + " goes with --blades"});

@@ -2,6 +2,7 @@
 #include "chain/layers.h"
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/random.h"
@@ -14,7 +15,8 @@ namespace {
 struct LayerScene {
   static constexpr int width = 23, height = 17, margin = 2;
   Frame frame;
-  Surfaces surfaces;
+  Frame layers;
+  Frame front, behind;  ///< Each layer by itself, with 1/depth.
 
   explicit LayerScene(std::uint32_t seed) {
     Plane inverse, front, behind;
@@ -39,12 +41,38 @@ struct LayerScene {
     frame.width = width;
     frame.height = height;
     frame.margin = margin;
-    surfaces.front = surfaces.behind = frame.without_planes();
+    this->front = this->behind = frame.without_planes();
     frame.inverse = inverse;
     frame.coc_quanta = coc;
     frame.data_of = data;
-    set(surfaces.front, front, front_coc, front_coverage);
-    set(surfaces.behind, behind, behind_coc, behind_coverage);
+    set(this->front, front, front_coc, front_coverage);
+    set(this->behind, behind, behind_coc, behind_coverage);
+    assemble();
+  }
+  /// As `split` writes them.
+  void assemble() {
+    std::vector<std::int32_t> coc;
+    std::vector<std::uint32_t> coverage;
+    Plane depth;
+    for (int y = 0; y < height; ++y) {
+      for (const Frame* layer : {&front, &behind}) {
+        for (int x = 0; x < width; ++x) {
+          const std::size_t i = frame.index(x, y);
+          const float inverse = layer->inverse[i];
+          coc.push_back(layer->coc_quanta[i]);
+          depth.push_back(inverse < 0    ? no_fragment()
+                          : inverse == 0 ? std::numeric_limits<float>::infinity()
+                                         : 1 / inverse);
+          const std::uint32_t seen = frame.is_in_margin(i) ? DEFRAY_SYNTHESISED : 0;
+          coverage.push_back(inverse < 0 ? 0 : layer->coverage[i] | seen);
+        }
+      }
+    }
+    layers = frame.without_planes();
+    layers.layers = 2;
+    layers.coc_quanta = coc;
+    layers.depth = depth;
+    layers.coverage = coverage;
   }
   static void set(Frame& f, Plane inverse, std::vector<std::int32_t> coc,
                   std::vector<std::uint32_t> coverage) {
@@ -72,18 +100,18 @@ struct LayerScene {
 TEST(Layers, DataAreThoseOfTheNearestPixelOnTheSurface) {
   int from_beside = 0, from_nowhere = 0;
   for (std::uint32_t seed = 0; seed < 4; ++seed) {
-    const LayerScene s(seed);
+    LayerScene s(seed);
     ChainReport report;
-    const Frame two = two_layers(twins(), s.frame, s.surfaces, report);
+    Frame& two = s.layers;
+    describe_layers(s.frame, two, report);
     for (std::size_t i = 0; i < s.frame.pixels(); ++i) {
       const int x = static_cast<int>(i) % LayerScene::width,
                 y = static_cast<int>(i) / LayerScene::width;
-      const std::uint32_t front = s.expected_data(s.surfaces.front, i);
+      const std::uint32_t front = s.expected_data(s.front, i);
       EXPECT_EQ(two.data_of[two.index(x, y, 0)], front);
       from_beside += front != s.frame.data_of[i];
-      const bool is_made_up = s.surfaces.behind.coverage[i] >= DEFRAY_SYNTHESISED;
-      const std::uint32_t behind =
-          is_made_up ? DEFRAY_EMPTY : s.expected_data(s.surfaces.behind, i);
+      const bool is_made_up = s.behind.coverage[i] >= DEFRAY_SYNTHESISED || s.frame.is_in_margin(i);
+      const std::uint32_t behind = is_made_up ? DEFRAY_EMPTY : s.expected_data(s.behind, i);
       EXPECT_EQ(two.data_of[two.index(x, y, 1)], behind);
       from_nowhere += !is_made_up && behind == DEFRAY_EMPTY;
     }
@@ -93,25 +121,26 @@ TEST(Layers, DataAreThoseOfTheNearestPixelOnTheSurface) {
 }
 
 TEST(Layers, TheReportCountsThePicturesPixelsAlone) {
-  const LayerScene s(9);
+  LayerScene s(9);
   ChainReport report;
-  two_layers(twins(), s.frame, s.surfaces, report);
+  describe_layers(s.frame, s.layers, report);
   std::size_t split = 0, behind = 0;
   for (int y = LayerScene::margin; y < LayerScene::height - LayerScene::margin; ++y) {
     for (int x = LayerScene::margin; x < LayerScene::width - LayerScene::margin; ++x) {
       const std::size_t i = s.frame.index(x, y);
-      split += s.surfaces.front.coverage[i] == 1000;
-      behind += s.surfaces.behind.inverse[i] >= 0 &&
-                s.surfaces.behind.coverage[i] == (DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
+      split += s.front.coverage[i] == 1000;
+      behind +=
+          s.behind.inverse[i] >= 0 && s.behind.coverage[i] == (DEFRAY_WHOLE | DEFRAY_SYNTHESISED);
     }
   }
   EXPECT_EQ(report.split, split);
   EXPECT_EQ(report.behind, behind);
   // No share where nothing is.
   LayerScene none(9);
-  none.surfaces.front.inverse = Plane(none.frame.pixels(), -1);
+  none.front.inverse = Plane(none.frame.pixels(), -1);
+  none.assemble();
   ChainReport empty;
-  two_layers(twins(), none.frame, none.surfaces, empty);
+  describe_layers(none.frame, none.layers, empty);
   EXPECT_EQ(empty.split, 0u);
 }
 
@@ -121,7 +150,8 @@ TEST(Layers, OfWholePixelsThoseInTheMarginAreMadeUp) {
   inverse[30] = 0;
   inverse[31] = -1;
   s.frame.inverse = inverse;
-  const Frame f = whole_pixels(s.frame);
+  Frame f = s.frame;
+  make_whole(f);
   EXPECT_EQ(f.depth[29], 4);
   EXPECT_TRUE(std::isinf(f.depth[30]) && f.depth[30] > 0);
   EXPECT_FALSE(is_fragment(f.depth[31]));

@@ -168,6 +168,32 @@ TEST(LightSources, AroundALightInFocusLiesWhatIsThreePixelsOff) {
   }
 }
 
+TEST(LightSources, InACornerTheFramesFirstAndLastPixelsAreLookedAt) {
+  // Only the frame's border has alpha; from a corner half of what is looked at lies on it.
+  for (const auto& [x, y] :
+       {std::pair{0, 0}, {width - 1, 0}, {0, height - 1}, {width - 1, height - 1}}) {
+    Scene s(1, 4);
+    s.kept.assign(s.kept.size(), 1);
+    const std::size_t light = s.frame.index(x, y, 0);
+    s.kept[light] = 0.5f;
+    s.frame.coc_quanta = std::vector<std::int32_t>(s.frame.surfaces());
+    Plane alpha(s.frame.surfaces());
+    for (int k = 0; k < width; ++k) alpha[s.frame.index(k, y, 0)] = 0.25f;
+    for (int k = 0; k < height; ++k) alpha[s.frame.index(x, k, 0)] = 0.25f;
+    alpha[light] = 1;
+    s.frame.channels[3] = alpha;
+    taken(s, 3);
+    // Four places of ten: at 3.5 and 5 px along each side.
+    EXPECT_EQ(s.frame.channels[3][light], 0.0f) << x << " " << y;
+    for (float& a : alpha) a = a > 0 ? 0.5f : 0;
+    for (int k = 1; k < 4; ++k) alpha[s.frame.index(x ? x - k : k, y ? y - k : k, 0)] = 0.5f;
+    alpha[light] = 1;
+    s.frame.channels[3] = alpha;
+    taken(s, 3);
+    EXPECT_EQ(s.frame.channels[3][light], 0.5f) << x << " " << y;
+  }
+}
+
 TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
   const LensPoints lens = make_lens_points({}, 137);
   const std::vector<std::uint32_t> map = map_cells(lens);

@@ -25,8 +25,12 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   inverse[f.index(2, 2 + 16)] = 0;
   inverse[f.index(43, 23)] = 1;  // margin
   TileClasses tiles(f);
-  tiles.add_hidden(inverse);
-  tiles.add_mixed(mixed);
+  const Words flags = mixed;
+  for (const Rows rows : {Rows{0, 7}, {7, 20}, {20, 24}}) {  // bands
+    tiles.add_hidden(inverse, rows);
+    f.wanted = rows;
+    tiles.add_surfaces(f, flags);
+  }
   LightSources lights;
   lights.where = {
       {2 + 20, 2 + 18, 300, 0}, {1, 5, 300, 0}, {2 + 36, 22, 300, 0}};  // fifth, and margins
@@ -45,11 +49,29 @@ TEST(TileClasses, TheLastThatIsTrueCounts) {
   }
 }
 
+TEST(TileClasses, LightsOfThePicturesCornersCountAndThoseBesideThemDoNot) {
+  for (const auto& [x, y, is_inside] : {std::tuple{2, 2, true},
+                                        {41, 2, true},
+                                        {2, 21, true},
+                                        {41, 21, true},
+                                        {1, 2, false},
+                                        {2, 1, false},
+                                        {42, 21, false},
+                                        {41, 22, false}}) {
+    TileClasses tiles(frame_with_margin());
+    LightSources lights;
+    lights.where = {{x, y, 300, 0}};
+    tiles.add(lights);
+    EXPECT_EQ(tiles.shares().lights, is_inside ? 1 / 6.0 : 0) << x << " " << y;
+  }
+}
+
 TEST(TileClasses, AreShownTwiceAsLarge) {
   Frame f{40, 20};
   f.coc_quanta = Quanta(f.pixels(), 127);
   f.coc_quanta.edit()[f.index(16, 16)] = 128;
   TileClasses tiles(f);
+  tiles.add_surfaces(f, Words(f.pixels()));
   tiles.double_size(79, 40);
   const Plane picture = tiles.picture();
   ASSERT_EQ(picture.size(), 79u * 40);

@@ -65,6 +65,48 @@ TEST(Channels, SeveralDepthsAreAmbiguous) {
   });
 }
 
+TEST(Channels, TheDepthNearestToTheColourIsTaken) {
+  // The surer the earlier; what stands in one line is as sure as each other.
+  const std::vector<std::vector<std::string>> ranks = {{"L.rgb.Z", "L.rgb.depth"},
+                                                       {"L.depth.Z", "L.zdepth.R", "depth.Y"},
+                                                       {"Z", "zdepth"},
+                                                       {"M.depth.Z", "M.pz.V"},
+                                                       {"M.rgb.Z", "M.other.pz"}};
+  const auto chosen = [](const std::string& a, const std::string& b) {
+    return depth({part({"L.rgb.R", "L.rgb.G", "L.rgb.B", a, b})}, {"L.rgb", "", ""});
+  };
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    for (const std::string& surer : ranks[i]) {
+      for (const std::string& equal : ranks[i]) {
+        if (equal == surer) continue;
+        expect_error(ErrorKind::input, {surer, equal, "depth could be"},
+                     [&] { chosen(surer, equal); });
+      }
+      for (std::size_t k = i + 1; k < ranks.size(); ++k) {
+        for (const std::string& other : ranks[k]) {
+          EXPECT_EQ(chosen(surer, other), surer) << other;
+          EXPECT_EQ(chosen(other, surer), surer) << other;
+        }
+      }
+    }
+  }
+}
+
+TEST(Channels, TheBeautyIsTakenBeforeOtherLayers) {
+  for (const std::string beauty :
+       {"rgba", "RGB", "beauty", "V.Combined", "c", "colour", "color", "main"}) {
+    std::vector<std::string> names;
+    for (const std::string& layer : {std::string("diffuse"), beauty, std::string("zzz")}) {
+      for (const char* base : {".R", ".G", ".B"}) names.push_back(layer + base);
+    }
+    EXPECT_EQ(colour({part(names)}).layer, beauty);
+  }
+  // What is in no layer comes first of all.
+  EXPECT_EQ(colour({part({"R", "G", "B", "rgba.R", "rgba.G", "rgba.B"})}).layer, "");
+  EXPECT_EQ(colour({part({"Red", "green", "BLUE", "alpha"})}).channels,
+            (std::vector<int>{0, 1, 2, 3}));
+}
+
 TEST(Channels, SinglePartStereo) {
   const std::vector<PartInfo> parts{part(
       {"R", "G", "B", "Z", "left.R", "left.G", "left.B", "left.Z"}, "", "", {"right", "left"})};
@@ -130,8 +172,20 @@ TEST(Channels, PartsNamedAsLayers) {
   EXPECT_EQ(depth(parts), "Z");
 }
 
+TEST(Channels, WithoutRgbTheLuminanceIsGrey) {
+  using Channels = std::vector<int>;
+  EXPECT_EQ(colour({part({"Y", "Z"})}).channels, Channels{0});
+  EXPECT_EQ(colour({part({"A", "Y", "Z"})}).channels, (Channels{1, 0}));
+  EXPECT_EQ(colour({part({"beauty.Y", "beauty.Z"})}).layer, "beauty");
+  EXPECT_EQ(colour({part({"Y", "R", "G", "B"})}).channels, (Channels{1, 2, 3}));
+  // Of a vector, and of a depth.
+  for (const auto& channels : {std::vector<std::string>{"N.X", "N.Y", "N.Z"}, {"depth.Y", "Z"}}) {
+    expect_error(ErrorKind::input, {"no colour"}, [&] { colour({part(channels)}); });
+  }
+}
+
 TEST(Channels, ErrorsListWhatThereIs) {
-  expect_error(ErrorKind::input, {"no colour", "Y", "Z"}, [] { colour({part({"Y", "Z"})}); });
+  expect_error(ErrorKind::input, {"no colour", "V", "Z"}, [] { colour({part({"V", "Z"})}); });
   expect_error(ErrorKind::input, {"layer 'specular'"}, [] {
     colour({part({"R", "G", "B"})}, {"specular", "", ""});
   });

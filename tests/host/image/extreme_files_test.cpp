@@ -20,14 +20,16 @@ const std::vector<float> extreme_depths{
 
 std::vector<DepthSettings> all_kinds() {
   std::vector<DepthSettings> all;
-  for (const DepthKind kind :
-       {DepthKind::z, DepthKind::distance, DepthKind::inverse, DepthKind::normalized}) {
+  for (const DepthKind kind : {DepthKind::z, DepthKind::distance, DepthKind::inverse,
+                               DepthKind::normalized, DepthKind::negative_z, DepthKind::zbuffer}) {
     for (const std::optional<double> background :
          {std::optional<double>(), {0.5}, {double{infinite}}, {double{nan}}}) {
       DepthSettings s;
       s.kind = kind;
       s.background = background;
-      if (kind == DepthKind::normalized) s.near_units = 1, s.far_units = 1e30;
+      if (kind == DepthKind::normalized || kind == DepthKind::zbuffer) {
+        s.near_units = 1, s.far_units = 1e30;
+      }
       all.push_back(s);
     }
   }

@@ -97,6 +97,11 @@ TEST(ImageFile, TwoPartsStayTwoParts) {
     EXPECT_EQ(again.parts()[static_cast<std::size_t>(p)].data.width, p == 0 ? 5 : 7);
     for (int c = 0; c < 2; ++c) EXPECT_EQ(again.plane(p, c), two.plane(p, c));
   }
+  // One of them alone does not keep the count that files of several parts have.
+  two.extract(1, {0}).write(folder / "one.exr");
+  const auto one = OIIO::ImageInput::open(folder / "one.exr");
+  ASSERT_TRUE(one) << OIIO::geterror();
+  EXPECT_EQ(one->spec().find_attribute("openexr:chunkCount"), nullptr);
 }
 
 TEST(ImageFile, TruncatedAtEveryLength) {

@@ -32,6 +32,34 @@ TEST(Sequence, Ranges) {
   expect_error(ErrorKind::usage, {"no frame"}, [] { parse_frames("1-1y2"); });
 }
 
+TEST(Sequence, NumbersHaveUpToNineDigits) {
+  EXPECT_EQ(parse_frames("999999999,-999999999"), (std::vector<int>{999999999, -999999999}));
+  for (const char* bad : {"1000000000", "-1000000000", "1-1000000000x100000", "99999999999999"}) {
+    expect_error(ErrorKind::usage, {"not a frame range"}, [bad] { parse_frames(bad); });
+  }
+  // Padded to as many as 32.
+  EXPECT_EQ(frame_path("%032d", 5), std::string(31, '0') + "5");
+  EXPECT_EQ(frame_path(std::string(32, '#'), 5), std::string(31, '0') + "5");
+  for (const std::string& wide : {std::string("%033d"), std::string(33, '@')}) {
+    expect_error(ErrorKind::usage, {"too many digits", "32"}, [&] { frame_path(wide, 5); });
+  }
+}
+
+TEST(Sequence, StepsGoFromTheFirstFrameToTheLast) {
+  EXPECT_EQ(parse_frames("5-5"), std::vector<int>{5});
+  EXPECT_EQ(parse_frames("5-6x5"), std::vector<int>{5});
+  EXPECT_EQ(parse_frames("1-7x3"), (std::vector<int>{1, 4, 7}));
+  EXPECT_EQ(parse_frames("7-1x-3"), (std::vector<int>{7, 4, 1}));
+  EXPECT_EQ(parse_frames("1-7y3"), (std::vector<int>{2, 3, 5, 6}));
+  EXPECT_EQ(parse_frames("7-1y3"), (std::vector<int>{6, 5, 3, 2}));
+  EXPECT_EQ(parse_frames("1-7y-3"), (std::vector<int>{6, 5, 3, 2}));
+  EXPECT_EQ(parse_frames("-1-1"), (std::vector<int>{-1, 0, 1}));
+  EXPECT_EQ(parse_frames("4,2-5,3-6"), (std::vector<int>{4, 2, 3, 5, 6}));
+  for (const char* bad : {"1-7x", "1-7y", "1-7z2", "1-7x2x2", "1 -7", "1-7x2 ", "x2"}) {
+    expect_error(ErrorKind::usage, {"not a frame range"}, [bad] { parse_frames(bad); });
+  }
+}
+
 TEST(Sequence, Patterns) {
   EXPECT_EQ(frame_path("shot.####.exr", 7), "shot.0007.exr");
   EXPECT_EQ(frame_path("shot.##.exr", 7), "shot.07.exr");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "chain/ray_plan.h"
 #include "lens/aperture_mask.h"
 #include "support.h"
 
@@ -60,6 +61,31 @@ TEST(CatsEye, CutsTheOuterSideBehindTheFocusAndTheInnerSideInFront) {
     EXPECT_LT(r > 0 ? outward : inward, 5) << r;
     EXPECT_GT(2 * across, inward + outward) << r;
   }
+}
+
+TEST(CatsEye, RaysHaveTheRimOfTheirPixelsCentre) {
+  Frame f;
+  f.width = 9;
+  f.height = 6;
+  f.margin = 1;
+  f.origin_x = f.origin_y = -1;
+  for (const bool has_display : {false, true}) {
+    if (has_display) f.display_width = 20, f.display_height = 12, f.origin_x = 4, f.origin_y = 3;
+    RayPlan plan;
+    place_rays(f, 0.5, plan);
+    const int width = has_display ? 20 : 7, height = has_display ? 12 : 4;
+    ASSERT_EQ(plan.rim_x.size(), 9u);
+    ASSERT_EQ(plan.rim_y.size(), 6u);
+    for (int x = 0; x < 9; ++x) {
+      EXPECT_EQ(plan.rim_x[size(x)], rim_centre(0.5, x + f.origin_x + 0.5, 1, width, height)[0]);
+    }
+    for (int y = 0; y < 6; ++y) {
+      EXPECT_EQ(plan.rim_y[size(y)], rim_centre(0.5, 1, y + f.origin_y + 0.5, width, height)[1]);
+    }
+  }
+  RayPlan none;
+  place_rays(f, 0, none);
+  EXPECT_TRUE(none.rim_x.empty() && none.rim_y.empty());
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
-// Depth conventions, and the camera's sources.
+// Depth conventions.
 #include "lens/depth.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
-#include "lens/camera.h"
 #include "support.h"
 
 namespace defray::test::depth_test {
@@ -132,6 +130,79 @@ TEST(Depth, NormalizedOutsideItsRangeIsCounted) {
   EXPECT_EQ(planar.outside_range, 0u);
 }
 
+TEST(Depth, ARangeMayBeginAtTheCamera) {
+  DepthSettings settings;
+  settings.kind = DepthKind::normalized;
+  settings.far_units = 8;
+  validate(settings);
+  DepthReport report;
+  EXPECT_EQ(converted({0, 0.25f, 1, 0.5f, inf}, settings, &report),
+            (Plane{std::numeric_limits<float>::min(), 2, 8, 4, inf}));
+  EXPECT_GT(report.nearest_units, 0);
+}
+
+TEST(Depth, NegativeZ) {
+  DepthSettings settings;
+  settings.kind = DepthKind::negative_z;
+  DepthReport report;
+  EXPECT_EQ(converted({-2, -65504, 0, -1e10f, -3}, settings, &report),
+            (Plane{2, inf, inf, inf, 3}));
+  EXPECT_EQ(report.behind_camera, 0u);
+  EXPECT_EQ(converted({-2, 4, -5, -6, 1e10f}, settings, &report), (Plane{2, inf, 5, 6, inf}));
+  EXPECT_EQ(report.behind_camera, 1u);
+}
+
+/// Unity's LinearEyeDepth with its _ZBufferParams, whose depth 1 is far, or near where reversed.
+TEST(Depth, ABufferOfAGpuIsLinearInOneOverDepth) {
+  DepthSettings settings;
+  settings.kind = DepthKind::zbuffer;
+  settings.near_units = 0.5;
+  settings.far_units = 100;
+  const Plane stored{0, 0.25f, 0.5f, 0.75f, 1};
+  for (const bool reversed : {false, true}) {
+    settings.invert = reversed;
+    const double n = 0.5, f = 100;
+    const double x = reversed ? -1 + f / n : 1 - f / n, y = reversed ? 1 : f / n;
+    const Plane z = converted(stored, settings);
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      EXPECT_NEAR(z[i], 1 / (x / f * static_cast<double>(stored[i]) + y / f), 1e-5) << i;
+    }
+  }
+  // Unreal's: reversed, its far end at infinity, near / depth.
+  settings.far_units = HUGE_VAL;
+  validate(settings);
+  EXPECT_EQ(converted({0, 0.25f, 0.5f, 0.125f, 1}, settings), (Plane{inf, 2, 1, 4, 0.5f}));
+  DepthReport report;
+  converted({0, 0.25f, 1.5f, 0.125f, 1}, settings, &report);
+  EXPECT_EQ(report.outside_range, 1u);
+  settings.near_units = 0;
+  expect_error(ErrorKind::usage, {"zbuffer needs 0 < near_units < far_units", "inf is allowed"},
+               [&] { validate(settings); });
+}
+
+TEST(Depth, WrongSignsAreCountedAndRefusedWhereTheyAreMost) {
+  DepthReport report;
+  converted({2, 3, 4, -5, -6}, {}, &report);
+  EXPECT_EQ(report.behind_camera, 2u);
+  converted({0, 0, 1e10f, -0.0f, inf}, {}, &report);
+  EXPECT_EQ(report.behind_camera, 0u);
+  expect_error(ErrorKind::input,
+               {"z.exr: depth is negative in 3 px (60.0 % of all), positive in 2 px only",
+                "camera-space -z", "depth.kind negative-z"},
+               [] {
+                 converted({2, 3, -4, -5, -6}, {});
+               });
+  DepthSettings turned;
+  turned.kind = DepthKind::negative_z;
+  expect_error(ErrorKind::input, {"positive in 5 px (100.0 % of all), negative in 0 px only"}, [&] {
+    converted({2, 3, 4, 5, 6}, turned);
+  });
+  DepthSettings background;
+  background.background = -1;
+  EXPECT_EQ(converted({-1, -1, -1, -1, 3}, background, &report)[4], 3);
+  EXPECT_EQ(report.behind_camera, 0u);
+}
+
 TEST(Depth, SettingsThatContradictEachOther) {
   DepthSettings settings;
   settings.invert = true;
@@ -140,7 +211,7 @@ TEST(Depth, SettingsThatContradictEachOther) {
   settings.near_units = 1;
   expect_error(ErrorKind::usage, {"near_units", "normalized"}, [&] { validate(settings); });
   settings.kind = DepthKind::normalized;
-  for (const auto& [near, far] : {std::pair{1.0, 0.0}, {0.0, 3.0}, {2.0, 2.0}, {1.0, HUGE_VAL}}) {
+  for (const auto& [near, far] : {std::pair{1.0, 0.0}, {-1.0, 3.0}, {2.0, 2.0}, {1.0, HUGE_VAL}}) {
     settings.near_units = near;
     settings.far_units = far;
     expect_error(ErrorKind::usage, {"near_units < far_units"}, [&] { validate(settings); });
@@ -148,88 +219,6 @@ TEST(Depth, SettingsThatContradictEachOther) {
   settings = {};
   settings.far_units = 3;
   expect_error(ErrorKind::usage, {"far_units", "normalized"}, [&] { validate(settings); });
-}
-
-std::string write_text(const Folder& folder, const std::string& text) {
-  const std::string path = folder / "camera.json";
-  std::ofstream(path) << text;
-  return path;
-}
-
-TEST(Camera, ReadsTheSharedShape) {
-  const Folder folder;
-  const std::string path = write_text(folder, R"({"focal_length_mm": 35, "sensor_width_mm": 24,
-    "focus_settings": {"a": {"focus_distance_m": 3, "aperture_diameter_m": 0.02, "f_stop": 9},
-                       "b": {"focus_distance_m": 4, "f_stop": 2}}})");
-  const CameraValues a = read_camera_json(path, "a", 0.01);
-  EXPECT_DOUBLE_EQ(*a.focal_length_mm, 35);
-  EXPECT_DOUBLE_EQ(*a.sensor_width_mm, 24);
-  EXPECT_DOUBLE_EQ(*a.focus_distance_units, 300);  // centimetres
-  EXPECT_DOUBLE_EQ(*a.aperture_diameter_mm, 20);
-  EXPECT_FALSE(a.fstop);
-  EXPECT_DOUBLE_EQ(*read_camera_json(path, "b", 1).fstop, 2);
-  expect_error(ErrorKind::input, {"a b", "focus_setting"}, [&] { read_camera_json(path, "", 1); });
-  expect_error(ErrorKind::input, {"'c'", "a b"}, [&] { read_camera_json(path, "c", 1); });
-}
-
-TEST(Camera, BadFiles) {
-  const Folder folder;
-  expect_error(ErrorKind::input, {"cannot open"},
-               [&] { read_camera_json(folder / "none.json", "", 1); });
-  const std::vector<std::pair<const char*, const char*>> mistakes = {
-      {"", "camera.json: not valid JSON: parse error at line 1"},
-      {"{", "camera.json: not valid JSON: parse error at line 1, column 2"},
-      {"[1]", "camera.json: not a JSON object"},
-      {"3", "camera.json: not a JSON object"},
-      {R"({"focal_length_mm": "x"})", "camera.json: 'focal_length_mm' is not a number"},
-      {R"({"focus_settings": 3})", "camera.json: 'focus_settings' is no object"}};
-  for (const auto& mistake : mistakes) {
-    expect_error(ErrorKind::input, {mistake.second},
-                 [&] { read_camera_json(write_text(folder, mistake.first), "", 1); });
-  }
-  expect_error(ErrorKind::input, {"cannot open"}, [&] { read_camera_json(folder.path(), "", 1); });
-  const CameraValues half =
-      read_camera_json(write_text(folder, R"({"focal_length_mm": 50, "f_stop": 2})"), "", 1);
-  EXPECT_DOUBLE_EQ(*half.fstop, 2);
-  expect_error(ErrorKind::usage, {"focus_distance_units", "camera.json"},
-               [&] { make_lens(half, 1, LensModel::cg, 0); });
-}
-
-TEST(Camera, ExplicitValuesWin) {
-  CameraValues file, typed;
-  file.focal_length_mm = 50;
-  file.aperture_diameter_mm = 20;
-  file.focus_distance_units = 3;
-  typed.fstop = 4;
-  const Lens lens = make_lens(file.overridden_by(typed), 1, LensModel::cg, 0);
-  EXPECT_DOUBLE_EQ(lens.aperture_diameter_mm, 12.5);
-  EXPECT_DOUBLE_EQ(lens.focus_distance_units, 3);
-  EXPECT_DOUBLE_EQ(lens.sensor_width_mm, 36);
-}
-
-TEST(Camera, SaysWhatIsMissing) {
-  expect_error(ErrorKind::usage, {"focus_distance_units", "focal_length_mm", "fstop"},
-               [] { make_lens({}, 1, LensModel::cg, 0); });
-  CameraValues both;
-  both.focal_length_mm = 50;
-  both.fstop = 2;
-  both.aperture_diameter_mm = 20;
-  both.focus_distance_units = 3;
-  expect_error(ErrorKind::usage, {"one of them"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
-  both.aperture_diameter_mm.reset();
-  for (const double f : {0.0, -2.0, double{NAN}}) {
-    both.fstop = f;
-    expect_error(ErrorKind::usage, {"f-number"}, [&] { make_lens(both, 1, LensModel::cg, 0); });
-  }
-}
-
-TEST(Camera, AJsonFileOfManyLevelsIsRead) {
-  const std::string deep = std::string(200000, '[') + std::string(200000, ']');
-  for (const std::string key : {"focus_settings\": {\"a", "notes"}) {
-    const std::string close = key == "notes" ? "}" : "}}";
-    const std::string text = "{\"focal_length_mm\": 50, \"" + key + "\": " + deep + close;
-    EXPECT_EQ(parse_camera_json(text, "camera.json", "", 1).focal_length_mm, 50);
-  }
 }
 
 }  // namespace

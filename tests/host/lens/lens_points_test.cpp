@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lens/aperture_mask.h"
 #include "lens/lens_grid.h"
 #include "support.h"
 

@@ -112,6 +112,40 @@ TEST_F(PlotLayout, LongTitlesAreAsSmallAsTheyMustBe) {
   EXPECT_NEAR(x_name.right - x_name.left, right_ - left_, 12);
 }
 
+TEST_F(PlotLayout, TheYAxissNameLeavesRoomForLongTicks) {
+  plot_.series = {{"", {{0, 1000000}, {10, 1000004}}, true, true}};
+  draw();
+  const auto low = plot_position(plot_, {0, 1000000}), high = plot_position(plot_, {10, 1000004});
+  const Axis axis("y", {1000000, 1000004}, false);
+  for (const double tick : axis.ticks()) {
+    const int y = static_cast<int>(std::lround(plot_position(plot_, {0, tick})[1]));
+    const Ink name = text(33, y - 8, static_cast<int>(low[0]) - 4, y + 9);
+    const bool is_longest = axis.label(tick).size() == 9;  // 1000000.5
+    EXPECT_TRUE(!is_longest || name.left < 46) << tick << " " << name.left;
+    EXPECT_NEAR(low[0] - name.right, 10, 4) << tick;
+  }
+  // Beside its letters there is nothing.
+  const auto is_drawn = [](const auto& c) { return c != std::array<long, 3>{255, 255, 255}; };
+  EXPECT_TRUE(ink(0, 0, 36, static_cast<int>(high[1]) + 60, is_drawn).is_empty());
+}
+
+TEST_F(PlotLayout, TheLegendIsAsWideAsItsNamesUpToAThird) {
+  const auto legend = [&] {
+    draw();
+    right_ = static_cast<int>(std::lround(plot_position(plot_, {10, 4})[0]));
+    return text(right_ + 45, top_ - 2, plot_width_px, top_ + 40);
+  };
+  plot_.series[0].name = std::string(20, 'n');
+  EXPECT_NEAR(plot_width_px - legend().right, 32, 6);
+  const int is_short = right_;
+  plot_.series[0].name = std::string(80, 'n');  // made to fit
+  const Ink name = legend();
+  EXPECT_LT(name.right, plot_width_px - 8);
+  EXPECT_GT(name.right - name.left, 240);
+  EXPECT_LT(right_, is_short);
+  EXPECT_NEAR(plot_width_px - right_, 350, 6);
+}
+
 TEST_F(PlotLayout, TheLegendHasALineASeriesWithAName) {
   const auto has = [](std::array<long, 3> wanted) {
     return [=](const std::array<long, 3>& c) { return c == wanted; };

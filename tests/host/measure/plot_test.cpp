@@ -239,6 +239,8 @@ TEST(Axis, TicksAreRoundNumbersAroundTheData) {
             (Labels{"-0.1", "-0.05", "0", "0.05", "0.1", "0.15", "0.2", "0.25", "0.3"}));
   EXPECT_EQ(labels({3, 40}, true), (Labels{"2", "5", "10", "20", "50"}));
   EXPECT_EQ(labels({2e-5, 1}, true), (Labels{"1e-05", "0.0001", "0.001", "0.01", "0.1", "1"}));
+  EXPECT_EQ(labels({1e5, 1e17}, true),
+            (Labels{"10000", "1e+06", "1e+08", "1e+10", "1e+12", "1e+14", "1e+16", "1e+18"}));
   EXPECT_EQ(labels({1000000, 1000004}, false)[1], "1000000.5");
 }
 

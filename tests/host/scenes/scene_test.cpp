@@ -113,6 +113,7 @@ TEST(Scene, RefusesWhatIsUnknown) {
                [] { make_scene("plat1", 64, 48); });
   expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 0, 48); });
   expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 64, 16385); });
+  expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 16385, 48); });
   const Scene scene = make_scene("fence", 8, 8);
   expect_error(ErrorKind::usage,
                {"'fence' has no focus setting 'fance'", "Did you mean 'fence'?", "bg"},

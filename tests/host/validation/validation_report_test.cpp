@@ -70,7 +70,9 @@ TEST(ValidationReport, TablesHoldWhatWasFound) {
   std::string results;
   for (const Row& row : summary.rows) results += row[0] + " " + row[1] + "; ";
   EXPECT_EQ(results, "good PASS; floats FAIL; whole FAIL; unstable FAIL; broken FAIL; ");
-  EXPECT_NE(sections[1].findings[0].find("NOT all pass"), std::string::npos);
+  const DeviceResult d = findings();
+  EXPECT_EQ(sections[1].findings[0],
+            d.platform + ", " + d.version + "; " + d.math + " arithmetic. NOT all pass.");
   const Table& kernels = table_named(sections[1], "Kernels against");
   const std::string hash = "0000000000000abc";
   EXPECT_EQ(kernels.rows[0],

@@ -38,19 +38,17 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
   const Frame frame = tall_frame();
   const Words mixed = device().mixed(frame);
   const Frame behind = device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS);
-  const Surfaces surfaces = device().split(frame, mixed, behind);
   const std::vector<Stage> stages = {
       {"repair", 0, 1, [&] { device().repair(frame); }},
       {"mixed", 0, 1, [&] { device().mixed(frame); }},
       {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS); }},
       {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
-      {"assemble", 0, 1, [&] { device().assemble(surfaces); }},
       {"highlights", 6, DEFRAY_HIGHLIGHT_TILE, [&] { device().highlights(frame, 3); }},
       {"soften", 0, 1, [&] { device().soften(frame, 100); }},
   };
   for (const Stage& stage : stages) {
     const Launch& launch = launch_of(stage.kernel);
-    const std::size_t layers = stage.kernel == "assemble" ? 2 : 1;
+    const std::size_t layers = stage.kernel == "split" ? 2 : 1;
     const std::size_t row_bytes = 40 * layers * launch.bytes_a_surface, given = 200 * row_bytes;
     std::size_t rows = 0;
     for (const BandRows& band :

@@ -178,6 +178,22 @@ TEST(Session, PlanesStayWhereTheyAre) {
   EXPECT_GT(own.traffic().downloads, 0u);
 }
 
+TEST(Session, CountsItsCopies) {
+  Session own(device_under_test());
+  const std::vector<float> there{1, 2, 3};
+  std::vector<float> back(3);
+  const cl::Buffer buffer = own.buffer(12);
+  own.write(buffer, there.data(), 12);
+  EXPECT_EQ(own.traffic().uploads, 1u);
+  EXPECT_EQ(own.traffic().downloads, 0u);
+  EXPECT_EQ(own.traffic().bytes, 12u);
+  own.read(buffer, back.data(), 8, 4);
+  EXPECT_EQ(back, (std::vector<float>{2, 3, 0}));
+  EXPECT_EQ(own.traffic().uploads, 1u);
+  EXPECT_EQ(own.traffic().downloads, 1u);
+  EXPECT_EQ(own.traffic().bytes, 20u);
+}
+
 TEST(Session, WorkGroupsOfSingleKernels) {
   Session own(device_under_test());
   own.set_work_group("mixed", 7, 3);

@@ -9,6 +9,7 @@
 //   image distance            V_p             s0                   V_p               z_s
 //   px per metre of sensor    -               b                    W N / (R - L)     -
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "lens/camera.h"
@@ -142,6 +143,15 @@ TEST(Eye, DisplayPresetIsKrivaneks) {
   for (const double u : {0.5, 1.0, 8.0}) {
     const double c_m = 0.5 * 0.004 * 0.024 * std::fabs(1 / 2.0 - 1 / u);
     EXPECT_NEAR(std::fabs(reference::coc_px(lens, 1920, u)), c_m * 0.6 / 0.024 * 3780, 1e-9);
+  }
+}
+
+TEST(Lens, NumbersBeyondItsRangeAreRefused) {
+  for (const double length : {0.0, -1.0, 1e31, std::numeric_limits<double>::quiet_NaN()}) {
+    Lens lens;
+    lens.focal_length_mm = length;
+    expect_error(ErrorKind::usage, {"it must be a number from 1e-30 to 1e+30"},
+                 [&] { validate(lens); });
   }
 }
 

@@ -133,7 +133,7 @@ TEST(NearestPicture, MadeUpSurfacesHaveNoData) {
   Scene s = bar({48, 24}, 23, 26);
   for (std::size_t i = 0; i < s.count(); ++i) s.coc[i] = s.depth[i] == 1.0f ? 0 : 6 * 256;
   const MethodResult r = through(s, {}, device());
-  EXPECT_GT(r.report.behind, 0u);
+  EXPECT_GT(r.report->behind, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const bool is_bar = s.depth[i] == 1.0f;
     EXPECT_EQ(s.depth[r.nearest[i]] == 1.0f, is_bar) << i % 48;
@@ -149,7 +149,7 @@ TEST(NearestPicture, WhatSplitTakesFromBesideHasTheDataFromThere) {
     for (std::size_t c = 0; c < 2; ++c) s.channels[c][i] = 0.5f;
   }
   const MethodResult r = through(s, {}, device());
-  EXPECT_GT(r.report.split, 0u);
+  EXPECT_GT(r.report->split, 0u);
   for (std::size_t i = 0; i < s.count(); ++i) {
     const int x = static_cast<int>(i) % 48;
     // The share in column 19 reaches columns 16 to 22, before the bar's own.

@@ -178,7 +178,7 @@ TEST(RdbGather, GivesTheScattersBitsAtTheEndOfTheChain) {
       settings.rays = by;
       const MethodResult result = run_chain(f, settings, device(), true);
       hashes.push_back(hash_of(result.colour));
-      EXPECT_GT(result.report.highlights, 5u);
+      EXPECT_GT(result.report->highlights, 5u);
       EXPECT_FALSE(result.nearest.empty());
     }
     EXPECT_EQ(hashes[0], hashes[1]) << "cat's eye " << cats_eye;

@@ -27,6 +27,18 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
   }
 }
 
+TEST(RdbPlan, APassFitsTheCacheUnlessItsRowsWouldBeLessThanFourTimesTheReach) {
+  const std::size_t row = 1000 * (rdb_bytes_a_cell + rdb_bytes_a_sum), cache = 16 << 20;
+  for (const int reach : {2, 12, 200}) {
+    for (const RdbPass& p : plan_rdb_passes(1000, 4000, 69, reach, std::size_t{1} << 32)) {
+      const std::size_t pixels = 1000 * size(p.rows), cells = size(p.cell_count);
+      const std::size_t bytes = pixels * (rdb_bytes_a_cell * cells + rdb_bytes_a_sum);
+      EXPECT_LE(bytes, std::max(cache, row * 4 * size(reach)));
+      EXPECT_LE(size(p.rows), std::max(cache / row, 4 * size(reach)));
+    }
+  }
+}
+
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
   const std::size_t row = 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
   expect_error(ErrorKind::usage, {"memory is 0.003814 MiB", "at least 0.004 MiB"},

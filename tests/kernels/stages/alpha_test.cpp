@@ -61,7 +61,7 @@ TEST(Alpha, AnOpaqueImageStaysOpaque) {
     for (const ChainSettings& settings : all_settings()) {
       if (settings.border == Border::black) continue;  // beyond the frame there is nothing
       const MethodResult r = run_chain(l.frame(), settings, device());
-      split += r.report.split, behind += r.report.behind, lights += r.report.highlights;
+      split += r.report->split, behind += r.report->behind, lights += r.report->highlights;
       double worst = 0;
       for (const float a : r.colour[3]) worst = std::max(worst, std::fabs(a - 1.0));
       EXPECT_LE(worst, 1e-6);

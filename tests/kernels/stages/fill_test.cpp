@@ -72,6 +72,21 @@ TEST(Fill, EqualsItsTwinFarAway) {
   }
 }
 
+/// Just no jump from pixel to pixel: where ways pass over what they need not look at, nothing
+/// begins.
+TEST(Fill, EqualsItsTwinOnSlopes) {
+  Canvas f(150, 40);
+  f.each([&](int x, int y) {
+    f.coc[f.at(x, y)] = 250 * x;
+    f.paint(x, y, static_cast<float>((x * 7 + y * 13) % 101), 1, 0.5f);
+  });
+  f.add_bar(20, 24);
+  const Words mixed = f.mixed();
+  const Frame ours = device().fill(f.view(), mixed, 8), twin = twins().fill(f.view(), mixed, 8);
+  expect_same_bits(ours.channels[0], twin.channels[0]);
+  expect_same_bits(ours.inverse, twin.inverse);
+}
+
 /// Rows alone: one way left and one right, both exact.
 TEST(Fill, BehindABarInARowTheSlantIsExact) {
   Canvas f(81, 1);

@@ -172,14 +172,21 @@ TEST(HalfSize, AlphaGoesThroughTheLensToo) {
   EXPECT_EQ(previewed(lamp).colour[2], without);
 }
 
+TEST(HalfSize, FourChannelsMayAllBeLight) {
+  std::vector<Plane> four(4, wall_of(post()));
+  const auto colour = previewed(post(&four)).colour;
+  ASSERT_EQ(colour.size(), 4u);
+  for (std::size_t c = 1; c < 4; ++c) EXPECT_EQ(colour[c], colour[0]);
+}
+
 TEST(HalfSize, DataIsOfThePixelsThatShow) {
   const MethodResult r = previewed(post(), true);
   ASSERT_EQ(r.nearest.size(), pixels);
   ASSERT_EQ(r.confidence.size(), pixels);
   EXPECT_EQ(r.nearest[16 * 44 + 3], 16u * 44 + 3);  // its own
   EXPECT_GE(r.nearest[16 * 44 + 20] % 44, 22u);     // the post, in front of it
-  EXPECT_EQ(r.report.stages.front().stage, "half size");
-  EXPECT_EQ(r.report.stages.back().stage, "full size");
+  EXPECT_EQ(r.report->stages.front().stage, "half size");
+  EXPECT_EQ(r.report->stages.back().stage, "full size");
 }
 
 TEST(HalfSize, FramesOfOnePixelAndOneRow) {

@@ -102,7 +102,7 @@ std::size_t repaired(const std::string& scene, int width, int height, bool is_an
   settings.hidden = Hidden::off;
   RdbSettings rdb;
   rdb.cells_per_side = 2;
-  return run_chain(s.frame(), settings, device()).report.repaired;
+  return run_chain(s.frame(), settings, device()).report->repaired;
 }
 
 TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {

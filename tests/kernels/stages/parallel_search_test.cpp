@@ -70,25 +70,43 @@ void add_lengths(const SearchScene& s, bool is_down, std::vector<Length>& found)
   }
 }
 
+std::vector<PatternShift> expected_shifts(const SearchScene& s) {
+  std::vector<Length> found;
+  add_lengths(s, false, found);
+  add_lengths(s, true, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Length& a, const Length& b) { return a.first < b.first; });
+  found.resize(std::min(found.size(), size(s.settings.parallel_shifts)));
+  std::vector<PatternShift> expected;
+  for (const auto& [unused, shift] : found) {
+    expected.push_back(shift);
+    expected.push_back({-shift.x, -shift.y, shift.parallel});
+  }
+  return expected;
+}
+
 TEST(ParallelSearch, FindsTheParallelShiftsThatPlainLoopsFind) {
   std::size_t count = 0;
   for (int seed = 0; seed < 10; ++seed) {
     const SearchScene s = search_scene(90 + seed, 80 - seed, seed, seed % 2 == 0);
-    std::vector<Length> found;
-    add_lengths(s, false, found);
-    add_lengths(s, true, found);
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Length& a, const Length& b) { return a.first < b.first; });
-    found.resize(std::min(found.size(), size(s.settings.parallel_shifts)));
-    std::vector<PatternShift> expected;
-    for (const auto& [unused, shift] : found) {
-      expected.push_back(shift);
-      expected.push_back({-shift.x, -shift.y, shift.parallel});
-    }
+    const auto expected = expected_shifts(s);
     count += expected.size();
     EXPECT_EQ(find_parallel_shifts(s.frame(), s.words(), s.settings), expected) << seed;
   }
   EXPECT_GT(count, 10u);
+}
+
+/// Few pairs, of which a single one more would make another length the best.
+TEST(ParallelSearch, CountsEveryPairOfSmallFrames) {
+  std::size_t count = 0;
+  for (int seed = 0; seed < 150; ++seed) {
+    SearchScene s = search_scene(34 + seed % 7, 27 + seed % 5, seed, seed % 2 == 0);
+    for (std::size_t i = 0; i < s.grid.coc.size(); ++i) s.grid.coc[i] = 0;
+    const auto expected = expected_shifts(s);
+    count += expected.size();
+    EXPECT_EQ(find_parallel_shifts(s.frame(), s.words(), s.settings), expected) << seed;
+  }
+  EXPECT_GT(count, 150u);
 }
 
 }  // namespace

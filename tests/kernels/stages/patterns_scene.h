@@ -69,7 +69,8 @@ struct PatternScene {
   }
   std::vector<Plane> improved(Backend& backend, const PatternSettings& settings = {}) const {
     Frame result = hidden();
-    improve_by_patterns(backend, frame(), words(), settings, result);
+    const auto shifts = find_shifts(frame(), words(), settings);
+    improve_by_patterns(backend, frame(), words(), shifts, settings, result);
     std::vector<Plane> planes;
     for (const auto& channel : result.channels) planes.emplace_back(channel.begin(), channel.end());
     return planes;

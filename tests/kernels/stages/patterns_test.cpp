@@ -29,7 +29,7 @@ const std::vector<PatternShift> some_shifts{{3, 1},    {-3, -1}, {0, 5},      {-
 std::uint64_t moved(const PatternScene& s, Backend& backend, const PatternSettings& settings,
                     const std::vector<PatternShift>& shifts = some_shifts) {
   const Frame frame = s.frame();
-  const Plane variance = patterns_variance(frame, s.words(), settings);
+  const Values<float> variance = patterns_variance(frame, s.words(), settings);
   const Frame behind = backend.patterns(frame, s.hidden(), s.words(), variance, shifts, settings);
   std::vector<Plane> planes;
   for (const auto& channel : behind.channels) planes.emplace_back(channel.begin(), channel.end());
@@ -151,7 +151,7 @@ TEST(Patterns, VarianceIsThatOfTheWindow) {
   PatternSettings settings;
   settings.window_cells = n;
   const auto pixels = s.words();
-  const Plane variance = patterns_variance(s.frame(), pixels, settings);
+  const Values<float> variance = patterns_variance(s.frame(), pixels, settings);
   for (const auto& [px, py] :
        {std::pair{91, 15}, {90, 0}, {103, 149}, {94, 127}, {95, 128}, {93, 7}}) {
     double count = 0, sum[3] = {}, squares = 0;

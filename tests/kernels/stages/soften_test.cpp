@@ -134,7 +134,7 @@ TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
       const Frame behind = f.filled(), twin = twins().fill(f.view(), mixed, DEFRAY_FILL_DIRECTIONS);
       EXPECT_EQ(behind.coc_quanta, twin.coc_quanta);
       const auto [front, rest] = f.parted();
-      const Surfaces by_twins = twins().split(f.view(), mixed, twin);
+      const Parted by_twins(twins().split(f.view(), mixed, twin));
       EXPECT_EQ(front.coverage, by_twins.front.coverage);
       EXPECT_EQ(rest.coc_quanta, by_twins.behind.coc_quanta);
     }

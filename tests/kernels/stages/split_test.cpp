@@ -65,7 +65,7 @@ TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
     filled.coc_quanta.edit()[f.at(36, y)] = 1536;
     for (auto& plane : filled.channels) plane.edit()[f.at(36, y)] = 0;
   }
-  const auto [front, behind] = device().split(f.view(), f.mixed(), filled);
+  const auto [front, behind] = Parted(device().split(f.view(), f.mixed(), filled));
   for (int y = 0; y < f.height; ++y) {
     // The pixel is all strip: nothing to take apart, and nothing brighter than the strip.
     EXPECT_EQ(front.coverage[f.at(36, y)], DEFRAY_WHOLE);
@@ -88,11 +88,12 @@ TEST(Split, WithoutAStepNothingChanges) {
   f.channels[1][6] = nan;
   const auto [front, behind] = f.parted();
   for (std::size_t c = 0; c < 2; ++c) expect_same_bits(front.channels[c], f.channels[c]);
-  expect_same_bits(front.inverse, f.inverse);
+  expect_same_bits(front.depth, Plane(f.count(), 1 / f.inverse[0]));
   EXPECT_EQ(front.coc_quanta, f.coc);
   for (std::size_t i = 0; i < f.count(); ++i) {
     EXPECT_EQ(front.coverage[i], DEFRAY_WHOLE);
-    EXPECT_EQ(behind.inverse[i], -1.0f);
+    EXPECT_FALSE(is_fragment(behind.depth[i]));
+    EXPECT_EQ(behind.coverage[i], 0u);
   }
 }
 

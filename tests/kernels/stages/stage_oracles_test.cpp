@@ -123,8 +123,8 @@ struct Counts {
   int fronts = 0, behinds = 0, wholes = 0;
 };
 
-void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, const Surfaces& s,
-                  int x, int y, Counts& counts) {
+void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, const Parted& s, int x,
+                  int y, Counts& counts) {
   const std::size_t i = f.at(x, y);
   const Around a = around(f, mixed, x, y);
   const bool saw_front = f.coc[i] < a.nearest + (a.farthest - a.nearest) / 2;
@@ -138,7 +138,7 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
   const double coverage = s.front.coverage[i] / 65536.0;
   SCOPED_TRACE(testing::Message() << x << " " << y << ", " << share);
   EXPECT_NEAR(coverage, is_whole ? 1 : kept, 1e-4);
-  EXPECT_EQ(s.behind.inverse[i] < 0, is_whole && !saw_front);
+  EXPECT_EQ(is_fragment(s.behind.depth[i]), !is_whole || saw_front);
   const Colour front = colour_of(s.front.channels, i), behind = colour_of(s.behind.channels, i);
   if (is_whole) {
     ++counts.wholes;
@@ -158,7 +158,7 @@ TEST(Split, SharesAreThoseASearchFinds) {
     Canvas f = random_canvas(seed);
     const Words mixed = f.mixed();
     const Frame filled = f.filled();
-    const Surfaces surfaces = device().split(f.view(), mixed, filled);
+    const Parted surfaces(device().split(f.view(), mixed, filled));
     f.each([&](int x, int y) {
       const bool is_split = mixed[f.at(x, y)] && filled.inverse[f.at(x, y)] >= 0;
       if (is_split) expect_share(f, mixed, filled, surfaces, x, y, counts);

@@ -8,6 +8,30 @@
 
 namespace defray::test {
 
+/// One layer of a frame by itself.
+inline Frame layer_of(const Frame& f, int layer) {
+  Frame one = f.without_planes();
+  one.layers = 1;
+  const auto picked = [&]<typename T>(const Values<T>& plane) {
+    std::vector<T> values;
+    for (std::size_t i = 0; i < f.pixels(); ++i) {
+      values.push_back(plane[f.front_of(i) + size(layer) * size(f.width)]);
+    }
+    return Values<T>(std::move(values));
+  };
+  one.coc_quanta = picked(f.coc_quanta);
+  one.depth = picked(f.depth);
+  one.coverage = picked(f.coverage);
+  for (const Values<float>& channel : f.channels) one.channels.push_back(picked(channel));
+  return one;
+}
+
+/// What `split` gives, layer by layer.
+struct Parted {
+  Frame front, behind;
+  explicit Parted(const Frame& layers) : front(layer_of(layers, 0)), behind(layer_of(layers, 1)) {}
+};
+
 /// A frame to draw on: a plane 6 px of CoC behind the focus, 1/depth 0.2, black.
 struct Canvas {
   int width, height;
@@ -30,7 +54,7 @@ struct Canvas {
   }
   Words mixed() const { return device().mixed(view()); }
   Frame filled() const { return device().fill(view(), mixed(), DEFRAY_FILL_DIRECTIONS); }
-  Surfaces parted() const { return device().split(view(), mixed(), filled()); }
+  Parted parted() const { return Parted(device().split(view(), mixed(), filled())); }
 
   void paint(int x, int y, float r, float g, float b) {
     channels[0][at(x, y)] = r;

@@ -133,10 +133,24 @@ TEST(ValidateDevice, ABrokenKernelIsNamedWithItsCaseAndPicture) {
   const WorstPicture& picture = result.pictures[0];
   ASSERT_EQ(picture.panels.size(), 3u);
   EXPECT_EQ(picture.height % 60, 0);
-  EXPECT_GE(picture.width, 100);   // room for the caption
+  EXPECT_GE(picture.width, 100);  // room for the caption, and no more
+  EXPECT_LE(picture.width, 150);
   EXPECT_LE(picture.height, 480);  // a column is no reason for a page of thousands of rows
   for (const SheetPanel& panel : picture.panels) {
     EXPECT_EQ(panel.planes[0].size(), static_cast<std::size_t>(picture.width * picture.height));
+  }
+}
+
+TEST(ValidateDevice, WorkGroupsAreTheCasesUnlessOneIsSet) {
+  SKIP_ON_SIMULATORS();
+  for (const auto& [set, group] : {std::pair{0, "7x3"}, {1, "1x1"}, {16, "16x1"}}) {
+    Settings settings;
+    settings.kernels = {"rdb_merge"};
+    settings.only_case = "3x60,ties,coc=3,group=7x3";
+    settings.group_x = set;
+    settings.session.substitutions = {broken_merge};
+    const std::string wrong = validate_device(device_under_test(), settings).kernels[0].first_wrong;
+    EXPECT_NE(wrong.find("group=" + std::string(group)), std::string::npos) << wrong;
   }
 }
 

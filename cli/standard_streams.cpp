@@ -1,0 +1,114 @@
+#include "standard_streams.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace defray::cli {
+namespace {
+
+std::string read_all(int file) {
+  std::string bytes;
+  std::vector<char> part(1 << 16);
+  ssize_t count = 0;
+  while ((count = read(file, part.data(), part.size())) > 0) {
+    bytes.append(part.data(), static_cast<std::size_t>(count));
+  }
+  return bytes;
+}
+
+bool is_pipe_without_reader(int file) {
+  pollfd state{file, 0, 0};
+  return poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
+}
+
+/// By the first bytes; empty for what is none that defray reads.
+std::string extension_of(const std::string& bytes) {
+  const std::pair<const char*, const char*> formats[] = {{"\x76\x2f\x31\x01", ".exr"},
+                                                         {"\x89PNG", ".png"},
+                                                         {"\xff\xd8\xff", ".jpg"},
+                                                         {"II*", ".tif"},
+                                                         {"MM", ".tif"},
+                                                         {"#?", ".hdr"}};
+  for (const auto& [start, extension] : formats) {
+    if (bytes.starts_with(start)) return extension;
+  }
+  return "";
+}
+
+}  // namespace
+
+void open_standard_streams() {
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The lowest number that is free is this one's.
+    if (fcntl(file, F_GETFD) == -1) (void)!open("/dev/null", O_RDWR);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool flush_output() {
+  errno = 0;
+  const bool ok = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (!ok && is_pipe_without_reader(STDOUT_FILENO)) std::clearerr(stdout);
+  return ok;
+}
+
+bool is_output_lost() {
+  flush_output();
+  return std::ferror(stdout) != 0;
+}
+
+void print_error(const std::string& line) noexcept {
+  std::fputs((line + "\n").c_str(), stderr);
+  std::fflush(stderr);
+}
+
+PictureStreams::PictureStreams(std::string& input, std::string& output) {
+  if (input == name || output == name) folder_.emplace("defray-stream");
+  std::string extension = ".exr";
+  if (input == name) {
+    const std::string bytes = read_all(STDIN_FILENO);
+    const std::string found = extension_of(bytes);
+    if (found.empty()) {
+      fail(ErrorKind::input, "standard input: {}; a picture is EXR, PNG, JPEG, TIFF or HDR",
+           bytes.empty() ? "is empty" : "is no picture");
+    }
+    input = folder_->path() + "/standard-input" + found;
+    std::ofstream stream(input, std::ios::binary);
+    stream << bytes;
+    if (!stream.flush()) fail(ErrorKind::output, "{}: cannot write", input);
+  }
+  if (output != name) return;
+  if (lower_extension(input) == ".png") extension = ".png";
+  output = output_ = folder_->path() + "/standard-output" + extension;
+  standard_output_ = dup(STDOUT_FILENO);
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+void PictureStreams::finish() {
+  if (output_.empty()) return;
+  std::ifstream stream(output_, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t count = write(standard_output_, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      fail(ErrorKind::output, "standard output: cannot write: {}", std::strerror(errno));
+    }
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+}  // namespace defray::cli

@@ -1,0 +1,142 @@
+#include "chain/behind.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace defray {
+namespace {
+
+/// Rows of strips below each other, so far apart that none matches another.
+class StripFrame {
+ public:
+  StripFrame(const Frame& front, std::size_t strips, int rows, int apart)
+      : frame(front.without_planes()), rows_(rows), apart_(apart) {
+    frame.margin = 0;
+    frame.height = static_cast<int>(strips) * (rows + apart) - apart;
+    coc_.resize(frame.pixels());
+    inverse_.resize(frame.pixels());
+    pixels_.resize(frame.pixels());
+  }
+
+  void add(const Frame& front, const Words& pixels, Rows strip) {
+    const std::size_t count = size(strip.count()) * size(frame.width);
+    const std::size_t from = front.index(0, strip.y), to = frame.index(0, next_);
+    const auto copy = [&](const auto& plane, auto& into) {
+      const auto rows = plane.host().subspan(from, count);
+      std::copy(rows.begin(), rows.end(), into.begin() + static_cast<std::ptrdiff_t>(to));
+    };
+    copy(front.coc_quanta, coc_);
+    copy(front.inverse, inverse_);
+    copy(pixels, pixels_);
+    next_ += rows_ + apart_;
+  }
+
+  std::vector<PatternShift> shifts(const PatternSettings& settings) {
+    frame.coc_quanta = std::move(coc_);
+    frame.inverse = std::move(inverse_);
+    return find_shifts(frame, std::move(pixels_), settings);
+  }
+
+  Frame frame;
+
+ private:
+  int rows_, apart_, next_ = 0;
+  std::vector<std::int32_t> coc_;
+  Plane inverse_;
+  std::vector<std::uint32_t> pixels_;
+};
+
+}  // namespace
+
+std::vector<Rows> pattern_strips(int width, int height, const PatternSettings& s) {
+  if (size(width) * size(height) <= s.most_searched || height <= s.strips * s.strip_rows) {
+    return {{0, height}};
+  }
+  std::vector<Rows> strips;
+  for (int k = 0; k < s.strips; ++k) {
+    const int first = height / s.strips * k + (height / s.strips - s.strip_rows) / 2;
+    strips.push_back({first, first + s.strip_rows});
+  }
+  return strips;
+}
+
+Behind::Behind(Front& front, ChainWork& work, const PatternSettings& settings)
+    : front_(front), work_(work), settings_(settings) {
+  settings_.shifts = work.settings.pattern_shifts;
+}
+
+void Behind::look_at_all() {
+  if (!has_patterns()) return;
+  const int margin = front_.frame.margin;
+  const std::vector<Rows> strips =
+      pattern_strips(front_.frame.width - 2 * margin, front_.frame.height - 2 * margin, settings_);
+  if (strips.size() > 1) return look_at_strips(strips);
+  fill_to(front_.frame.height);
+  front_.frame.wanted.reset();
+  shifts_ = find_shifts(front_.frame, pixels_, settings_);
+  work_.done("patterns");
+}
+
+void Behind::look_at_strips(const std::vector<Rows>& strips) {
+  StripFrame all(front_.frame, strips.size(), settings_.strip_rows, work_.reach.patterns);
+  for (const Rows& strip : strips) {
+    const Rows rows{strip.y + front_.frame.margin, strip.end + front_.frame.margin};
+    if (work_.is_banded) restart(rows.y);
+    fill_to(rows.end);
+    all.add(front_.frame, pixels_, rows);
+    work_.done("patterns");
+  }
+  shifts_ = all.shifts(settings_);
+  if (work_.is_banded) restart(0);
+  work_.done("patterns");
+}
+
+void Behind::restart(int y) {
+  give_back_to(front_.frame.height);
+  fill_done_ = y / band_step * band_step;
+  done_ = kept_ = kept_pixels_ = fill_done_;
+  const int first = std::max(0, fill_done_ - work_.reach.fill);
+  front_.restart(first / band_step * band_step);
+}
+
+void Behind::fill_to(int end) {
+  const Rows rows = go_on(fill_done_, end, front_.frame.height);
+  if (rows.empty()) return;
+  front_.to(rows.end + work_.reach.fill);
+  front_.frame.wanted = rows;
+  // Where patterns add their detail twice as many directions are worth their time; without them
+  // the mean of fewer is as close to the truth (perf/README.md).
+  const int directions = has_patterns() ? DEFRAY_FILL_DIRECTIONS : 8;
+  frame = work_.backend.fill(front_.frame, front_.mixed, directions, std::move(frame));
+  work_.done("fill");
+  if (!has_patterns()) return;
+  pixels_ = patterns_pixels(front_.frame, frame, front_.mixed, std::move(pixels_));
+  work_.done("patterns");
+}
+
+void Behind::to(int end) {
+  const Rows rows = go_on(done_, end, front_.frame.height);
+  if (rows.empty()) return;
+  fill_to(rows.end + work_.reach.patterns);
+  if (!has_patterns()) return;
+  front_.frame.wanted = rows;
+  improve_by_patterns(work_.backend, front_.frame, pixels_, shifts_, settings_, frame);
+  work_.done("patterns");
+}
+
+int Behind::front_needed() const {
+  const int height = front_.frame.height;
+  const int by_fill = fill_done_ < height ? fill_done_ - work_.reach.fill : height;
+  const int by_patterns = done_ < height && has_patterns() ? done_ - work_.reach.patterns : height;
+  return std::min(by_fill, by_patterns);
+}
+
+void Behind::give_back_to(int end) {
+  const Rows rows = not_needed(kept_, end);
+  give_back(front_.frame, rows, frame.coc_quanta);
+  give_back(front_.frame, rows, frame.inverse);
+  give_back(front_.frame, rows, frame.channels);
+  give_back(front_.frame, not_needed(kept_pixels_, end - work_.reach.patterns), pixels_);
+}
+
+}  // namespace defray

@@ -1,0 +1,46 @@
+#pragma once
+// What lies behind: the stages fill and patterns.
+#include <vector>
+
+#include "chain/front.h"
+#include "chain/patterns.h"
+
+namespace defray {
+
+class Behind {
+ public:
+  /// Both must stay alive. `settings` but for the number of shifts.
+  Behind(Front& front, ChainWork& work, const PatternSettings& settings = {});
+
+  /// Where the picture resembles itself: of all rows, or of a frame too large for that, of strips
+  /// of it. (The same whatever the memory.)
+  void look_at_all();
+
+  /// Works out all rows before `end`.
+  void to(int end);
+
+  /// Its rows before `end` are not needed any more; and the first row of the front that it needs.
+  void give_back_to(int end);
+  int front_needed() const;
+
+  Frame frame;  ///< CoC, colours; `inverse` is negative where nothing is.
+
+ private:
+  void fill_to(int end);
+  void look_at_strips(const std::vector<Rows>& strips);
+  void restart(int y);
+  bool has_patterns() const { return work_.settings.hidden == Hidden::patterns; }
+
+  Front& front_;
+  ChainWork& work_;
+  PatternSettings settings_;
+  Words pixels_;
+  std::vector<PatternShift> shifts_;
+  int fill_done_ = 0, done_ = 0, kept_ = 0, kept_pixels_ = 0;
+};
+
+/// The strips of a picture of `width` x `height` in which shifts are looked for, from the top; one
+/// of all rows where it is small enough.
+std::vector<Rows> pattern_strips(int width, int height, const PatternSettings& settings);
+
+}  // namespace defray

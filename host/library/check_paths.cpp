@@ -1,0 +1,52 @@
+#include "library/check_paths.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "base/error.h"
+#include "image/output.h"
+#include "image/safe_output.h"
+
+namespace defray {
+
+void check_paths(const FramePaths& paths, const std::vector<std::string>& also_read) {
+  std::error_code ignored;
+  for (const std::string& output : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
+    if (output.empty()) continue;
+    std::vector<std::string> inputs = also_read;
+    inputs.insert(inputs.end(), {paths.input, paths.depth});
+    for (const std::string& input : inputs) {
+      if (!input.empty() && std::filesystem::equivalent(input, output, ignored)) {
+        fail(ErrorKind::usage, "{}: is input and output at once; write to another file", output);
+      }
+    }
+  }
+  const std::pair<const char*, const std::string&> outputs[] = {{"output", paths.output},
+                                                                {"coc", paths.coc},
+                                                                {"confidence", paths.confidence},
+                                                                {"tiles", paths.tiles}};
+  for (const auto& [name, path] : outputs) {
+    for (const auto& [other, other_path] : outputs) {
+      if (&path == &other_path) break;
+      if (!path.empty() && is_same_file(path, other_path)) {
+        fail(ErrorKind::usage, "{}: {} and {} are the same file", path, field(other), field(name));
+      }
+    }
+  }
+}
+
+void check_outputs(const FramePaths& paths, const std::string& compression, Bits bits) {
+  check_output_format(paths.output);
+  check_bits(paths.output, bits);
+  check_can_write(paths.output);
+  const std::pair<const char*, const std::string&> data_files[] = {
+      {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
+  for (const auto& [name, path] : data_files) {
+    if (path.empty()) continue;
+    check_plane_format(path, name);
+    check_can_write(path);
+  }
+  check_compression({paths.output, paths.coc, paths.confidence, paths.tiles}, compression);
+}
+
+}  // namespace defray

@@ -1,0 +1,42 @@
+#pragma once
+// What a file offers to `defray render`.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "image/channels.h"
+#include "lens/camera_metadata.h"
+
+namespace defray {
+
+/// A channel that could be depth, and what is stored in it.
+struct DepthCandidate {
+  ChannelName channel;
+  bool is_mist = false;
+  double smallest = 0, largest = 0;  ///< Of the numbers that are not background.
+  std::size_t background = 0, negative = 0, pixels = 0;
+};
+
+/// A value of the lens among the metadata.
+struct FoundAttribute {
+  CameraAttribute attribute;
+  std::string value;  ///< As stored.
+};
+
+struct FileInfo {
+  std::string path;
+  std::vector<PartInfo> parts;
+  std::optional<ColourChoice> colour;
+  std::string no_colour;  ///< Why there is none.
+  std::vector<DepthCandidate> depth;
+  std::vector<FoundAttribute> camera;
+  std::string command;  ///< That renders it, as a shell takes it; empty where something is missing.
+};
+
+/// Throws Error(input) where the file cannot be read.
+FileInfo describe_file(const std::string& path);
+
+/// Channel names of a part by layer: {"ViewLayer.Combined", "A B G R"}.
+std::vector<std::pair<std::string, std::vector<std::string>>> layers_of(const PartInfo& part);
+
+}  // namespace defray

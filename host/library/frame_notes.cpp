@@ -1,0 +1,87 @@
+#include "library/frame_notes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base/error.h"
+#include "lens/coc.h"
+
+namespace defray {
+namespace {
+
+constexpr double smallest_seen_px = 0.5;
+/// CoC radii above this share of the frame's width, in more than this share of its pixels.
+constexpr double huge_radius = 0.04, huge_share = 0.95;
+
+}  // namespace
+
+void note_depth(const DepthPlane& depth, const DepthSettings& settings, const DepthReport& report,
+                std::vector<std::string>& notes) {
+  const bool is_range =
+      settings.kind == DepthKind::normalized || settings.kind == DepthKind::zbuffer;
+  if (depth.integer_bits == 8) {
+    notes.push_back(
+        "the depth has 8 bits, 256 steps: surfaces become terraces; render it as 32-bit float");
+  }
+  if (depth.integer_bits > 0 && !is_range) {
+    notes.push_back(fmt::format(
+        "the depth is stored as whole numbers of {} bits, 0 to 1, and taken as {:g} to "
+        "{:g} units: a range from near to far is {} normalized",
+        depth.integer_bits, report.nearest_units, report.farthest_units, field("depth.kind")));
+  }
+  if (depth.is_mist && !is_range) {
+    notes.push_back(fmt::format(
+        "{} is a mist pass, clamped and no distance: render the depth itself, or say what its "
+        "range is with {} normalized",
+        depth.channel, field("depth.kind")));
+  }
+  if (report.behind_camera > 0) {
+    const bool is_negative = settings.kind != DepthKind::negative_z;
+    notes.push_back(fmt::format(
+        "depth is {} in {} px ({:.1f} %), taken as background{}",
+        is_negative ? "negative" : "positive", report.behind_camera,
+        100.0 * static_cast<double>(report.behind_camera) /
+            static_cast<double>(depth.values.size()),
+        is_negative ? "; camera-space -z is " + field("depth.kind") + " negative-z" : ""));
+  }
+}
+
+void note_focus(const Lens& lens, const DepthReport& report, std::vector<std::string>& notes) {
+  const double begin = lens.focus_distance_units;
+  const double end = std::max(begin, lens.focus_end_units);
+  if (report.nearest_units == 0) return;  // nothing but background
+  const bool is_before = end < report.nearest_units;
+  // At infinity there is the background to be sharp.
+  const bool is_behind =
+      begin > report.farthest_units && (report.background == 0 || !std::isinf(begin));
+  if (!is_before && !is_behind) return;
+  notes.push_back(fmt::format("focus {:.6g} lies outside all depths, {:.6g} to {:.6g} units: {}",
+                              is_before ? end : begin, report.nearest_units, report.farthest_units,
+                              "nothing there is sharp; is the unit right?"));
+}
+
+void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int display_width,
+              std::vector<std::string>& notes) {
+  if (lens.aperture_diameter_mm == 0 || coc_quanta.empty()) return;
+  const double largest = largest_coc(coc_quanta) * static_cast<double>(px_per_quantum);
+  if (largest < smallest_seen_px) {
+    notes.push_back(
+        fmt::format("all CoC radii are below half a pixel, the largest is {:.3g} px: nothing is "
+                    "blurred visibly",
+                    largest));
+  }
+  const double limit = huge_radius * display_width;
+  const auto huge = std::count_if(coc_quanta.begin(), coc_quanta.end(), [&](std::int32_t q) {
+    return std::abs(static_cast<double>(q)) * static_cast<double>(px_per_quantum) > limit;
+  });
+  const double share = static_cast<double>(huge) / static_cast<double>(coc_quanta.size());
+  if (share > huge_share) {
+    notes.push_back(fmt::format(
+        "CoC radii are above {:.3g} px, 4 % of the width, in {:.1f} % of the picture: are focus, "
+        "unit and f-number right?",
+        limit, 100 * share));
+  }
+}
+
+}  // namespace defray

@@ -1,0 +1,114 @@
+// defray info: what it tells of a file, and that the command it suggests works.
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "command/program.h"
+
+namespace defray::test::info_command_test {
+namespace {
+
+using nlohmann::json;
+
+struct Info : testing::Test {
+  std::string text(const std::string& file) const {
+    const Result result = defray(folder, "info " + file);
+    expect_ok(result);
+    return result.out;
+  }
+  json data(const std::string& file) const {
+    const Result result = defray(folder, "info --json " + file);
+    expect_ok(result);
+    return json::parse(result.out);
+  }
+  void expect_lines(const std::string& file, const std::vector<std::string>& lines) const {
+    const std::string all = text(file);
+    for (const std::string& line : lines) {
+      EXPECT_NE(all.find(line + "\n"), std::string::npos) << line << " in\n" << all;
+    }
+  }
+  /// Runs what is suggested.
+  json suggested(const std::string& file) const {
+    const std::string command = data(file)["command"];
+    EXPECT_TRUE(command.starts_with("defray render ")) << command;
+    const Result result = shell(folder, program() + command.substr(6) + " --json");
+    expect_ok(result);
+    return json::parse(result.out);
+  }
+  void write(const std::string& name, const std::vector<std::string>& channels,
+             const std::vector<float>& values) const {
+    std::vector<Plane> planes;
+    for (const float value : values) planes.emplace_back(64, value);
+    for (std::size_t i = 3; i < planes.size(); ++i) planes[i][0] = 1e10f;
+    ImageFile::from_planes(channels, planes, 8, 8, Sample::single_float).write(folder / name);
+  }
+  Folder folder;
+};
+
+TEST_F(Info, OfABlenderFile) {
+  write("shot.exr",
+        {"ViewLayer.Combined.R", "ViewLayer.Combined.G", "ViewLayer.Combined.B",
+         "ViewLayer.Depth.Z", "ViewLayer.Mist.Z"},
+        {0.1f, 0.2f, 0.3f, 4, 0.5f});
+  expect_lines("shot.exr",
+               {"  part 0: data window 8x8+0+0, display window 8x8+0+0",
+                "    ViewLayer.Combined: R G B", "    ViewLayer.Depth: Z",
+                "  colour ViewLayer.Combined.R ViewLayer.Combined.G ViewLayer.Combined.B",
+                "  depth ViewLayer.Depth.Z: 4 to 4, background 1 px",
+                "  depth ViewLayer.Mist.Z: 0.5 to 0.5, background 1 px, a mist pass: no depth",
+                "  no lens among the metadata",
+                "  defray render shot.exr -o out.exr --focus-at 4,4 --fstop 2.8 --focal-length 50 "
+                "--sensor-width 36"});
+  EXPECT_EQ(suggested("shot.exr")["focus_distance_units"], 4);
+  const json all = data("shot.exr");
+  EXPECT_EQ(all["parts"][0]["data_window"], (json{0, 0, 8, 8}));
+  EXPECT_EQ(all["depth_candidates"][0], (json{{"channel", "ViewLayer.Depth.Z"},
+                                              {"part", 0},
+                                              {"mist", false},
+                                              {"smallest", 4.0},
+                                              {"largest", 4.0},
+                                              {"background_px", 1},
+                                              {"negative_px", 0}}));
+  EXPECT_EQ(all["depth_candidates"][1]["mist"], true);
+  EXPECT_EQ(all["camera"], json::array());
+}
+
+TEST_F(Info, OfALensAmongTheMetadata) {
+  write("plain.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, -4});
+  OIIO::ImageBuf file(folder / "plain.exr");
+  file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  file.specmod().attribute("cameraFocalLength", 35);
+  file.specmod().attribute("cameraAperture", 24.5f);
+  file.write(folder / "it's.exr");
+  expect_lines("\"it's.exr\"", {"  focal_length_mm 35 (cameraFocalLength, V-Ray)",
+                                "  sensor_width_mm 24.5 (cameraAperture, V-Ray)",
+                                "  depth Z: -4 to -4, background 1 px, negative 63 px"});
+  file.write(folder / "lens.exr");
+  EXPECT_EQ(data("lens.exr")["command"],
+            "defray render lens.exr -o out.exr --depth-kind negative-z --camera from-metadata "
+            "--focus-at 4,4 --fstop 2.8");
+  EXPECT_EQ(suggested("lens.exr")["focal_length_mm"], 35);
+  EXPECT_EQ(
+      data("lens.exr")["camera"][0],
+      (json{{"field", "focal_length_mm"}, {"attribute", "cameraFocalLength"}, {"value", "35"}}));
+}
+
+TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {
+  write("two.exr", {"R", "G", "B", "depth.Z", "zdepth.Z"}, {0.1f, 0.2f, 0.3f, 4, 5});
+  EXPECT_NE(data("two.exr")["command"].get<std::string>().find("--depth-channel depth.Z"),
+            std::string::npos);
+  suggested("two.exr");
+  write("flat.exr", {"R", "G", "B"}, {0.1f, 0.2f, 0.3f});
+  expect_lines("flat.exr", {"  no depth: give it with --depth FILE"});
+  EXPECT_EQ(data("flat.exr")["command"], "");
+  write("normals.exr", {"N.X", "N.Y", "N.Z"}, {0.1f, 0.2f, 0.3f});
+  EXPECT_NE(text("normals.exr").find("no colour: normals.exr: no colour: no layer has channels R"),
+            std::string::npos);
+  write("nothing.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 1e10f});
+  expect_lines("nothing.exr", {"  depth Z: 0 to 0, background 64 px"});
+  expect_refusal(defray(folder, "info none.exr"), 3, {"none.exr: no such file"}, "info");
+}
+
+}  // namespace
+}  // namespace defray::test::info_command_test

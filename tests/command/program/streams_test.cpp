@@ -1,0 +1,97 @@
+// Standard streams: closed, without a reader, full, and with pictures in them.
+#include <fstream>
+
+#include "command/program.h"
+
+namespace defray::test::streams_test {
+namespace {
+
+struct Streams : testing::Test {
+  void SetUp() override { write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}); }
+  Result run(const std::string& arguments, const std::string& redirections,
+             const std::string& before = "") const {
+    return shell(folder, before + program() + " " + arguments + " " + redirections);
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder / name); }
+  Folder folder;
+  const std::string render = "render in.exr -o out.exr" + lens;
+};
+
+TEST_F(Streams, ClosedOnesEndNothingAndGetNoFilesNumber) {
+  expect_ok(defray(folder, "render in.exr -o usual.exr" + lens));
+  for (const std::string closed : {">&-", "2>&-", "<&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+    std::filesystem::remove(folder / "out.exr");
+    EXPECT_EQ(run(render, closed).code, 0) << closed;
+    EXPECT_EQ(file_hash(folder / "out.exr"), file_hash(folder / "usual.exr")) << closed;
+    EXPECT_EQ(run("render none.exr -o o.exr" + lens, closed).code, 3) << closed;
+    EXPECT_EQ(run("render --focsu 3", closed).code, 2) << closed;
+    EXPECT_EQ(run("devices", closed).code, 0) << closed;
+  }
+}
+
+TEST_F(Streams, AReaderThatGoesAwayStopsNoFrame) {
+  for (int i = 1; i <= 3; ++i) {
+    std::filesystem::copy(folder / "in.exr", folder / fmt::format("s.000{}.exr", i));
+  }
+  const Result gone = shell(folder, "{ " + program() + " render s.####.exr -o o.####.exr" + lens +
+                                        "; echo code $? >&2; } | true");
+  EXPECT_EQ(gone.err, "code 0\n");
+  EXPECT_TRUE(exists("o.0003.exr"));
+  EXPECT_EQ(shell(folder, "{ " + program() + " render --help; echo code $? >&2; } | true").err,
+            "code 0\n");
+}
+
+TEST_F(Streams, AFullDiskUnderTheLogIsAnErrorWhenTheFramesAreDone) {
+  const Result full = run(render, ">/dev/full");
+  EXPECT_EQ(full.code, 4);
+  EXPECT_EQ(full.err, "defray: error: cannot write to standard output\n");
+  EXPECT_TRUE(exists("out.exr"));
+}
+
+TEST_F(Streams, PicturesGoInAndOut) {
+  expect_ok(defray(folder, "render in.exr -o usual.exr" + lens));
+  const Result piped =
+      shell(folder, "cat in.exr | " + program() + " render - -o -" + lens + " | cat >piped.exr");
+  expect_ok(piped);
+  EXPECT_EQ(file_hash(folder / "piped.exr"), file_hash(folder / "usual.exr"));
+  EXPECT_NE(piped.err.find("CoC radius"), std::string::npos)
+      << "the report goes beside: " << piped.err;
+  expect_ok(defray(folder,
+                   "render in.exr -o in.png --aperture-diameter 0 --focus 3 "
+                   "--focal-length 50"));
+  expect_ok(
+      shell(folder, program() + " render - --depth in.exr -o - -q" + lens + " <in.png >piped.png"));
+  expect_ok(defray(folder, "render in.png --depth in.exr -o usual.png" + lens));
+  EXPECT_EQ(shell(folder, "cmp piped.png usual.png").code, 0);
+  const auto refused = [&](const std::string& input, const std::string& words) {
+    const Result result = shell(folder, input + " | " + program() + " render - -o o.exr" + lens);
+    EXPECT_EQ(result.code, 3);
+    EXPECT_NE(result.err.find("standard input: " + words), std::string::npos) << result.err;
+  };
+  refused("true", "is empty; a picture is EXR, PNG");
+  refused("echo hello", "is no picture");
+  const Result full = shell(folder, program() + " render in.exr -o - -q" + lens + " >/dev/full");
+  EXPECT_EQ(full.code, 4);
+  EXPECT_NE(full.err.find("standard output: cannot write"), std::string::npos) << full.err;
+}
+
+TEST_F(Streams, NoFolderIsLeft) {
+  std::filesystem::create_directory(folder / "tmp");
+  const std::string there = "export TMPDIR='" + (folder / "tmp") + "'; ";
+  expect_ok(shell(folder, there + program() + " render - -o - -q" + lens + " <in.exr >o.exr"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+  // That of a process that was killed goes with the next.
+  const auto make = [&](const std::string& name) {
+    std::filesystem::create_directory(folder / ("tmp/" + name));
+  };
+  make("defray-stream-999999999-abcdef");
+  make("defray-stream-1-abcdef");  // runs
+  make("defray-stream-x");
+  make("defray-streams-999999999-abcdef");
+  expect_ok(shell(folder, there + program() + " render - -o - -q" + lens + " <in.exr >o.exr"));
+  EXPECT_EQ(shell(folder, "ls tmp").out,
+            "defray-stream-1-abcdef\ndefray-stream-x\ndefray-streams-999999999-abcdef\n");
+}
+
+}  // namespace
+}  // namespace defray::test::streams_test

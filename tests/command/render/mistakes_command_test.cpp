@@ -1,0 +1,226 @@
+// defray render: what looks like a mistake is an error or a note, with the number.
+#include <cmath>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "command/program.h"
+
+namespace defray::test::mistakes_command_test {
+namespace {
+
+constexpr int width = 24, height = 16, pixels = width * height;
+
+class Mistakes : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::vector<std::string>& further,
+             const std::vector<Plane>& planes) const {
+    std::vector<std::string> channels{"R", "G", "B"};
+    std::vector<Plane> all(3, Plane(pixels, 0.5f));
+    channels.insert(channels.end(), further.begin(), further.end());
+    all.insert(all.end(), planes.begin(), planes.end());
+    ImageFile::from_planes(channels, all, width, height, Sample::single_float)
+        .write(folder_ / name);
+  }
+  std::string said(const std::string& arguments) const {
+    const Result result = defray(folder_, "render " + arguments);
+    expect_ok(result);
+    return result.out;
+  }
+  void expect_note(const std::string& arguments, const std::string& words) const {
+    const std::string text = said(arguments);
+    EXPECT_NE(text.find("note: " + words), std::string::npos) << arguments << "\n" << text;
+  }
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
+    expect_refusal(defray(folder_, "render " + arguments), 3, words, arguments);
+  }
+
+  Folder folder_;
+  const std::string usual_ = lens + "--sensor-width 36 ";
+};
+
+TEST_F(Mistakes, AMistPassIsNeverChosen) {
+  const Plane mist(pixels, 0.25f), z(pixels, 4.0f);
+  write("mist.exr", {"ViewLayer.Mist.Z"}, {mist});
+  expect_refused("mist.exr -o o.exr" + usual_, {"no depth", "ViewLayer.Mist.Z is a mist pass",
+                                                "Render the depth itself", "Passes, Data, Z"});
+  write("both.exr", {"ViewLayer.Mist.Z", "ViewLayer.Depth.Z"}, {mist, z});
+  EXPECT_NE(said("both.exr -o o.exr" + usual_).find("depth ViewLayer.Depth.Z"), std::string::npos);
+  ImageFile::from_planes({"Mist.Z"}, {mist}, width, height).write(folder_ / "alone.exr");
+  expect_refused("both.exr --depth alone.exr -o o.exr" + usual_, {"alone.exr", "mist pass"});
+  for (const std::string name : {"VRayAtmosphere.Z", "fog.Z", "mist"}) {
+    write("other.exr", {name}, {mist});
+    expect_refused("other.exr -o o.exr" + usual_, {name + " is a mist pass"});
+  }
+  const std::string named = "both.exr -o o.exr --depth-channel ViewLayer.Mist.Z" + usual_;
+  expect_note(named, "ViewLayer.Mist.Z is a mist pass, clamped");
+  EXPECT_EQ(said(named + "--depth-kind normalized --near 0 --far 20").find("mist pass"),
+            std::string::npos);
+}
+
+TEST_F(Mistakes, NegativeDepthsAreCountedAndNamed) {
+  Plane z(pixels, -4.0f);
+  write("minus.exr", {"Z"}, {z});
+  expect_refused("minus.exr -o o.exr" + usual_,
+                 {"minus.exr: depth is negative in 384 px (100.0 % of all)", "camera-space -z",
+                  "--depth-kind negative-z"});
+  write("plus.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  expect_ok(defray(folder_, "render plus.exr -o a.exr" + usual_));
+  expect_ok(defray(folder_, "render minus.exr -o b.exr --depth-kind negative-z" + usual_));
+  EXPECT_EQ(ImageFile::read(folder_ / "a.exr").plane(0, 0),
+            ImageFile::read(folder_ / "b.exr").plane(0, 0));
+  expect_refused("plus.exr -o o.exr --depth-kind negative-z" + usual_,
+                 {"depth is positive in 384 px", "--depth-kind z"});
+  z.assign(pixels, 4.0f);
+  z[7] = z[9] = -1;
+  write("few.exr", {"Z"}, {z});
+  expect_note("few.exr -o o.exr" + usual_,
+              "depth is negative in 2 px (0.5 %), taken as background; camera-space -z is "
+              "--depth-kind negative-z");
+}
+
+TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
+  write("in.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  cv::imwrite(folder_ / "z8.png", cv::Mat(height, width, CV_8UC1, cv::Scalar(100)));
+  cv::imwrite(folder_ / "z16.png", cv::Mat(height, width, CV_16UC1, cv::Scalar(30000)));
+  cv::imwrite(folder_ / "rgb.png", cv::Mat(height, width, CV_8UC3, cv::Scalar::all(99)));
+  const std::string range = " --depth-kind normalized --near 1 --far 9";
+  expect_note("in.exr --depth z8.png -o o.exr" + usual_, "the depth has 8 bits, 256 steps");
+  expect_note("in.exr --depth z8.png -o o.exr" + range + usual_, "the depth has 8 bits");
+  expect_note("in.exr --depth z16.png -o o.exr" + usual_,
+              "the depth is stored as whole numbers of 16 bits, 0 to 1, and taken as 0.457771 to "
+              "0.457771 units: a range from near to far is --depth-kind normalized");
+  EXPECT_EQ(said("in.exr --depth z16.png -o o.exr" + range + usual_).find("whole numbers"),
+            std::string::npos);
+  EXPECT_EQ(said("in.exr -o o.exr" + usual_).find("bits"), std::string::npos);
+  expect_refused("in.exr --depth rgb.png -o o.exr" + usual_,
+                 {"rgb.png: no depth", "--depth-channel R where the depth is stored as grey"});
+  EXPECT_NE(said("in.exr --depth rgb.png --depth-channel R -o o.exr" + range + usual_)
+                .find("depth R, 4.10588"),
+            std::string::npos);
+}
+
+TEST_F(Mistakes, FocusOutsideAllDepths) {
+  Plane z(pixels, 4.0f);
+  z[5] = 2;
+  write("in.exr", {"Z"}, {z});
+  const std::string optics = " --fstop 8 --focal-length 50 ";
+  expect_note("in.exr -o o.exr --focus 30" + optics,
+              "focus 30 lies outside all depths, 2 to 4 units");
+  expect_note("in.exr -o o.exr --focus 1" + optics, "focus 1 lies outside all depths");
+  expect_note("in.exr -o o.exr --focus inf" + optics, "focus inf lies outside all depths");
+  for (const std::string inside : {"2", "3", "4"}) {
+    EXPECT_EQ(said("in.exr -o o.exr --focus " + inside + optics).find("lies outside"),
+              std::string::npos);
+  }
+  z[6] = HUGE_VALF;
+  write("sky.exr", {"Z"}, {z});
+  EXPECT_EQ(said("sky.exr -o o.exr --focus inf" + optics).find("lies outside"), std::string::npos);
+  expect_note("sky.exr -o o.exr --focus 30" + optics, "focus 30 lies outside");
+}
+
+TEST_F(Mistakes, BlurThatNoOneSeesOrThatHidesAll) {
+  Plane z(pixels, 4.0f);
+  z[5] = 2;
+  write("in.exr", {"Z"}, {z});
+  expect_note("in.exr -o o.exr --focus 4 --fstop 64 --focal-length 50",
+              "all CoC radii are below half a pixel, the largest is 0.0");
+  expect_note("in.exr -o o.exr --focus 2.1 --aperture-diameter 1000 --focal-length 50",
+              "CoC radii are above 0.96 px, 4 % of the width, in 99.7 % of the picture");
+  const std::string text =
+      said("in.exr -o o.exr --focus 2 --aperture-diameter 300 --focal-length 50");
+  EXPECT_EQ(text.find("half a pixel"), std::string::npos) << text;
+  EXPECT_NE(text.find("in 99.7 %"), std::string::npos) << text;
+  const std::string pinhole =
+      said("in.exr -o o.exr --focus 4 --aperture-diameter 0 --focal-length 50");
+  EXPECT_EQ(pinhole.find("half a pixel"), std::string::npos) << pinhole;
+}
+
+TEST_F(Mistakes, LensesThatNoOneBuilds) {
+  write("in.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  const std::string in = "in.exr -o o.exr --focus 3 ";
+  expect_note(in + "--fstop 2 --focal-length 0.05",
+              "focal length 0.05 mm is ten times off any real one (1.5 to 2000)");
+  expect_note(in + "--fstop 2 --focal-length 0.05 --sensor-width 0.036", "sensor 0.036 mm");
+  expect_note(in + "--aperture-diameter 1000 --focal-length 50", "f-number 0.05 is ten times");
+  expect_note(in + "--fstop 1000 --focal-length 50", "f-number 1000 is ten times");
+  const std::string usual = said(in + "--fstop 2 --focal-length 50");
+  EXPECT_EQ(usual.find("ten times"), std::string::npos) << usual;
+  EXPECT_EQ(said("in.exr -o o.exr --eye --focus 3 --perceived-distance 0.06").find("ten times"),
+            std::string::npos);
+}
+
+TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
+  write("in.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  const auto camera = [&](const std::string& text) {
+    std::ofstream(folder_ / "camera.json") << text;
+    return std::string("in.exr -o o.exr --camera camera.json ");
+  };
+  expect_note(camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2,
+                         "sensor_widht_mm": 24})"),
+              "camera.json: key 'sensor_widht_mm' is not known, and ignored; did you mean "
+              "'sensor_width_mm'?");
+  expect_note(camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
+                         "f_stop": 2, "colour": "red"}}})"),
+              "camera.json: key 'colour' is not known, and ignored\n");
+  const std::string incomplete =
+      camera(R"({"focal_length_mm": 50, "focusDistance": 3, "fstop": 2})");
+  expect_refusal(defray(folder_, "render " + incomplete), 2,
+                 {"the lens is not complete: give --focus, --fstop or --aperture-diameter",
+                  "camera.json has no such value, sought as focus_distance_m; f_stop or "
+                  "aperture_diameter_m",
+                  "'focusDistance'", "did you mean 'focus_distance_m'?", "'f_stop'?"},
+                 incomplete);
+  EXPECT_EQ(said(camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2, "scene": "x",
+                            "frame": 3})"))
+                .find("is not known"),
+            std::string::npos);
+}
+
+/// An opaque floor seen through a telephoto lens, its depth in floats and in half floats.
+TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
+  constexpr int across = 160, down = 64;
+  std::vector<Plane> planes(5, Plane(across * down, 1.0f));
+  for (std::size_t i = 0; i < planes[4].size(); ++i) {
+    planes[4][i] = 6 + 0.0011f * static_cast<float>(i % across);
+  }
+  const std::vector<std::string> channels{"R", "G", "B", "A", "Z"};
+  ImageFile::from_planes(channels, planes, across, down, Sample::single_float)
+      .write(folder_ / "floats.exr");
+  ImageFile::from_planes(channels, planes, across, down).write(folder_ / "halves.exr");
+  const std::string telephoto = " --focus 3 --fstop 0.5 --focal-length 300 --sensor-width 1.4 ";
+  EXPECT_EQ(said("floats.exr -o f.exr" + telephoto).find("half floats"), std::string::npos);
+  expect_note("halves.exr -o h.exr" + telephoto,
+              "the depth is in half floats, whose steps change the CoC by up to ");
+  const Plane exact = ImageFile::read(folder_ / "f.exr").plane(0, 3);
+  const Plane alpha = ImageFile::read(folder_ / "h.exr").plane(0, 3);
+  for (std::size_t i = 0; i < alpha.size(); ++i)
+    EXPECT_NEAR(alpha[i], exact[i], 0.01) << i % across;
+  EXPECT_EQ(said("halves.exr -o h.exr --focus 6 --fstop 8 --focal-length 50").find("half floats"),
+            std::string::npos);
+}
+
+TEST_F(Mistakes, WeakSpellings) {
+  write("in.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  const auto refused = [&](const std::string& command, int code,
+                           const std::vector<std::string>& words) {
+    expect_refusal(defray(folder_, command), code, words, command);
+  };
+  refused(
+      "render in.exr -o o.exr --aperture 2", 2,
+      {"unknown option '--aperture'. There are --fstop, --aperture-diameter, --aperture-image"});
+  refused("render in.exr b.exr c.exr -o o.exr" + lens, 2,
+          {"unknown argument 'b.exr'", "####", "in quotes"});
+  refused("compare in.exr", 2, {"b is missing: Picture of the same size", "compare --help"});
+  refused("render in.exr", 2, {"--output is missing: EXR", "render --help"});
+  refused("render in.exr -o o.exr --layer beauti" + lens, 3,
+          {"no colour in layer 'beauti'", "Leave --layer out"});
+  for (const std::string unit : {"meters", "Metre", "centimeters", "feet", "inches"}) {
+    expect_ok(defray(folder_,
+                     "render in.exr -o o.exr --focus 900 --fstop 2 --focal-length 50 "
+                     "--unit " +
+                         unit));
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::mistakes_command_test

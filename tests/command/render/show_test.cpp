@@ -1,0 +1,156 @@
+// --show under a real X server: keys and mouse events, and what is then on the screen.
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "command/program.h"
+
+namespace defray::test::show_test {
+namespace {
+
+/// What Xvfb's frame buffer holds, 0xRRGGBB a pixel.
+struct Screen {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint32_t> pixels;
+};
+
+/// An XWD file of 32 bits a pixel: a header of big-endian words, colours, rows.
+Screen read_screen(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const auto word = [&](std::size_t i) {
+    std::uint32_t value = 0;
+    for (std::size_t b = 0; b < 4; ++b) {
+      value = value << 8 | static_cast<unsigned char>(bytes.at(4 * i + b));
+    }
+    return value;
+  };
+  Screen s;
+  s.width = word(4);
+  s.height = word(5);
+  const std::size_t row = word(12), begin = word(0) + 12 * word(19);
+  for (std::size_t y = 0; y < s.height; ++y) {
+    for (std::size_t x = 0; x < s.width; ++x) {
+      const std::size_t at = begin + y * row + 4 * x;  // B G R, the least first
+      s.pixels.push_back(
+          static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(at)) |
+                                     static_cast<unsigned char>(bytes.at(at + 1)) << 8 |
+                                     static_cast<unsigned char>(bytes.at(at + 2)) << 16));
+    }
+  }
+  return s;
+}
+
+/// The share of the window's pixels that differ.
+double difference(const Screen& a, const Screen& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
+  return static_cast<double>(count) / (200 * 150);
+}
+
+class ShowWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"Xvfb", "xdotool"}) {
+      if (shell(folder_, std::string("command -v ") + name).code != 0) {
+        GTEST_SKIP() << "needs Xvfb and xdotool";
+      }
+    }
+    Plane z, colour;
+    for (int i = 0; i < 200 * 150; ++i) {
+      z.push_back(i % 200 < 100 ? 2.0f : 8.0f);
+      colour.push_back(((i % 200) / 6 + i / 200 / 6) % 2 ? 0.8f : 0.1f);
+    }
+    for (const char* name : {"s.0001.exr", "s.0002.exr"}) {
+      ImageFile::from_planes({"R", "G", "B", "Z"}, {colour, colour, colour, z}, 200, 150,
+                             Sample::single_float)
+          .write(folder_ / name);
+      for (float& value : colour) value = 0.9f - value;
+    }
+  }
+  /// Runs --show on the two frames, does `events` (xdotool's on $window, `snap NAME`), and gives
+  /// what the program printed.
+  Result show(const std::string& options, const std::string& events) const {
+    const std::string display = ":" + std::to_string(100 + getpid() % 800);
+    std::ofstream(folder_ / "events.sh")
+        << "export DISPLAY=" << display << "; unset WAYLAND_DISPLAY\n"
+        << "Xvfb $DISPLAY -screen 0 640x480x24 -fbdir . >/dev/null 2>&1 & server=$!\n"
+        << "n=0; until xdotool getdisplaygeometry >/dev/null 2>&1 || [ $n -gt 100 ]; do sleep 0.1; "
+           "n=$((n+1)); done\n"
+        << program() << " render s.####.exr -o o.####.exr --show " << options
+        << " >said 2>err & job=$!\n"
+        << "window=$(timeout 60 xdotool search --sync --onlyvisible --name defray | head -1)\n"
+        << "settle() { old=; for i in $(seq 40); do sleep 0.2; new=$(md5sum <Xvfb_screen0); "
+           "[ \"$new\" = \"$old\" ] && break; old=$new; done; }\n"
+        << "titled() { for i in $(seq 300); do xdotool getwindowname $window | grep -qF -- \"$1\" "
+           "&& "
+           "break; sleep 0.1; done; }\n"
+        << "snap() { settle; cp Xvfb_screen0 $1.xwd; }\n"
+        << "key() { xdotool windowfocus $window key --window $window $1; settle; }\n"
+        << "sleep 1\n"
+        << events << "\nkey q\nwait $job; code=$?; kill $server; wait $server; exit $code\n";
+    Result result = shell(folder_, "bash events.sh");
+    result.out = shell(folder_, "cat said").out;
+    result.err += shell(folder_, "cat err").out;
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result;
+  }
+  Screen screen(const std::string& name) const { return read_screen(folder_ / (name + ".xwd")); }
+  Folder folder_;
+  const std::string lens_ = "--focus 8 --fstop 0.5 --focal-length 50 ";
+};
+
+TEST_F(ShowWindow, KeysAndTheMouseChangeTheLens) {
+  SKIP_UNLESS_FULL();
+  const Result result =
+      show(lens_,
+           "snap begin; key space; titled before; snap before; key space; snap "
+           "after\n"
+           "xdotool mousemove --window $window 30 70 click 4; titled 'focus 8.16,'\n"
+           "xdotool click 1; titled 'focus 2,'; snap near\n"
+           "key c; titled CoC; snap coc; key c; snap no_coc\n"
+           "key plus; titled f/0.5612; key plus; titled f/0.6299; key plus; titled f/0.707; "
+           "snap closed\n"
+           "key 1; snap actual; key 1\n"
+           "key p; titled 'frame 1,'; snap other");
+  const Screen begin = screen("begin");
+  EXPECT_GT(difference(begin, screen("before")), 0.02) << "before is sharp";
+  EXPECT_EQ(difference(begin, screen("after")), 0);
+  EXPECT_GT(difference(begin, screen("near")), 0.02) << "focus has moved";
+  EXPECT_GT(difference(screen("near"), screen("coc")), 0.02);
+  EXPECT_EQ(difference(screen("near"), screen("no_coc")), 0);
+  // In focus green on the left, blue behind on the right.
+  std::array<double, 3> left{}, right{};
+  const Screen coc = screen("coc");
+  for (std::size_t y = 0; y < 140; ++y) {
+    for (std::size_t x = 0; x < 200; ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        (x < 80 ? left : right)[c] += (coc.pixels[y * coc.width + x] >> (16 - 8 * c)) & 255;
+      }
+    }
+  }
+  EXPECT_GT(left[1], 1.3 * left[2]);
+  EXPECT_GT(right[2], 1.3 * right[0]);
+  EXPECT_GT(difference(screen("near"), screen("closed")), 0.01);
+  EXPECT_GT(difference(screen("closed"), screen("other")), 0.02) << "the other frame";
+  // The command on exit renders what was seen.
+  EXPECT_NE(result.out.find("defray render 's.####.exr' --output 'o.####.exr' --focal-length 50 "
+                            "--focus-at 30,70 --fstop 0.707"),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.err.find("keys: click"), std::string::npos) << result.err;
+}
+
+TEST_F(ShowWindow, ArrowsMoveFocusAndFNumber) {
+  SKIP_UNLESS_FULL();
+  const Result result = show(lens_,
+                             "key Left; titled 'focus 7.843,'; key Left; titled 'focus 7.689,'\n"
+                             "key Up; titled f/0.5612");
+  EXPECT_NE(result.out.find("--focal-length 50 --focus 7.689 --fstop 0.5612"), std::string::npos)
+      << result.out;
+}
+
+}  // namespace
+}  // namespace defray::test::show_test

@@ -1,0 +1,131 @@
+// defray render: data windows that grow with the blur, and what transparent pixels hold.
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+
+#include "command/program.h"
+
+namespace defray::test::windows_command_test {
+namespace {
+
+/// A cut-out at one depth, whose data window is its bounding box, within a display window.
+class Windows : public testing::Test {
+ protected:
+  static constexpr int side = 12, frame = 48, at = 18;
+  void write(const std::string& name, float alpha, int corner) const {
+    std::vector<Plane> planes(5, Plane(side * side, alpha));
+    planes[4].assign(side * side, 6.0f);
+    planes[3][side + 1] = planes[0][side + 1] = planes[1][side + 1] = planes[2][side + 1] =
+        alpha == 1 ? 1.0f : 0.5f;
+    ImageFile::from_planes({"R", "G", "B", "A", "Z"}, planes, side, side, Sample::single_float)
+        .write(folder_ / "small.exr");
+    OIIO::ImageBuf file(folder_ / "small.exr");
+    file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec& spec = file.specmod();
+    spec.x = spec.y = corner;
+    spec.full_width = spec.full_height = frame;
+    file.write(folder_ / name);
+  }
+  ImageFile rendered(const std::string& name, const std::string& options = "") const {
+    expect_ok(defray(folder_, "render " + name +
+                                  " -o out.exr --focus 3 --fstop 0.25 "
+                                  "--focal-length 50 " +
+                                  options));
+    return ImageFile::read(folder_ / "out.exr");
+  }
+  Folder folder_;
+};
+
+TEST_F(Windows, ATightOneGrowsByTheBlur) {
+  write("cut.exr", 0.75f, at);
+  const ImageFile out = rendered("cut.exr");
+  const PartInfo& part = out.parts()[0];
+  EXPECT_LT(part.data.x, at);
+  EXPECT_GT(part.data.width, side);
+  EXPECT_EQ(part.display, (Window{0, 0, frame, frame}));
+  EXPECT_TRUE(part.data.x >= 0 && part.data.x + part.data.width <= frame);
+  // Nothing is cut off: at the new window's edge there is no light, and all that was is there.
+  const Plane alpha = out.plane(0, 3);
+  const auto width = static_cast<std::size_t>(part.data.width);
+  for (std::size_t x = 0; x < width; ++x) EXPECT_LT(alpha[x], 0.02f);
+  double sum = 0;
+  for (const float a : alpha) sum += static_cast<double>(a);
+  EXPECT_NEAR(sum, 0.75 * side * side - 0.25, 0.01 * side * side);
+  // The same as in a frame that was empty around it from the start.
+  OIIO::ImageBuf file(folder_ / "cut.exr");
+  OIIO::ImageBuf whole(OIIO::ImageSpec(frame, frame, 5, OIIO::TypeDesc::FLOAT));
+  whole.specmod().channelnames = file.spec().channelnames;
+  file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      float pixel[5];
+      file.getpixel(at + x, at + y, pixel);
+      whole.setpixel(at + x, at + y, pixel);
+    }
+  }
+  whole.write(folder_ / "whole.exr");
+  const Plane all = rendered("whole.exr", "--grow none").plane(0, 3);
+  for (int y = 0; y < part.data.height; ++y) {
+    for (int x = 0; x < part.data.width; ++x) {
+      const std::size_t there = static_cast<std::size_t>(y + part.data.y) * frame +
+                                static_cast<std::size_t>(x + part.data.x);
+      EXPECT_NEAR(alpha[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)],
+                  all[there], 0.01);
+    }
+  }
+}
+
+TEST_F(Windows, GrowAsFarAsAsked) {
+  write("edge.exr", 0.75f, 0);
+  EXPECT_EQ(rendered("edge.exr", "--grow none").parts()[0].data, (Window{0, 0, side, side}));
+  const Window display = rendered("edge.exr").parts()[0].data;
+  EXPECT_EQ(display.x, 0);
+  EXPECT_GT(display.width, side);
+  EXPECT_EQ(rendered("edge.exr", "--grow display").parts()[0].data, display);
+  const Window full = rendered("edge.exr", "--grow full").parts()[0].data;
+  EXPECT_LT(full.x, 0);
+  EXPECT_EQ(full.width - display.width, -full.x);
+  // An opaque one is a cut-out of a picture, not of an object.
+  write("opaque.exr", 1, at);
+  EXPECT_EQ(rendered("opaque.exr").parts()[0].data, (Window{at, at, side, side}));
+  EXPECT_GT(rendered("opaque.exr", "--grow display").parts()[0].data.width, side);
+  const Result said = defray(folder_, "render edge.exr -o out.exr" + lens);
+  EXPECT_NE(said.out.find("note: the data window 12x12+0+0 grows by the blur to "),
+            std::string::npos)
+      << said.out;
+}
+
+TEST_F(Windows, FurtherChannelsGrowToo) {
+  write("cut.exr", 0.75f, at);
+  const ImageFile out = rendered("cut.exr", "--channels Z");
+  const Plane z = out.plane(0, 4);
+  EXPECT_EQ(z[0], 0);
+  EXPECT_EQ(std::count(z.begin(), z.end(), 6.0f) > 0, true);
+}
+
+TEST_F(Windows, NoColourWhereAlphaIsNothing) {
+  std::vector<Plane> planes(5, Plane(48 * 32, 0.0f));
+  planes[4].assign(48 * 32, 1e10f);
+  for (int y = 8; y < 20; ++y) {
+    for (int x = 10; x < 30; ++x) {
+      const auto i = static_cast<std::size_t>(y * 48 + x);
+      for (std::size_t c = 0; c < 4; ++c) planes[c][i] = (x + y) % 3 ? 1.0f : 0.4f;
+      planes[4][i] = 2 + 0.1f * static_cast<float>(x);
+    }
+  }
+  const auto stray = [&](float light) {
+    planes[0][0] = light;
+    ImageFile::from_planes({"R", "G", "B", "A", "Z"}, planes, 48, 32, Sample::single_float)
+        .write(folder_ / "in.exr");
+    const ImageFile out = rendered("in.exr");
+    std::size_t count = 0;
+    const Plane red = out.plane(0, 0), alpha = out.plane(0, 3);
+    for (std::size_t i = 0; i < red.size(); ++i) count += alpha[i] == 0 && red[i] != 0;
+    return count;
+  };
+  EXPECT_EQ(stray(0), 0u);
+  EXPECT_GT(stray(0.5f), 0u) << "light without a surface, as flames are, stays";
+}
+
+}  // namespace
+}  // namespace defray::test::windows_command_test
