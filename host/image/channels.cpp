@@ -1,7 +1,6 @@
 #include "image/channels.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include "base/error.h"
@@ -35,8 +34,9 @@ std::vector<ColourChoice> colour_candidates(const std::vector<ChannelName>& name
   return found;
 }
 
-/// The picture of a file that has no R, G and B: its luminance.
-std::optional<ColourChoice> grey_candidate(const std::vector<ChannelName>& names) {
+/// The pictures of a file that has no R, G and B: its luminances.
+std::vector<ColourChoice> grey_candidates(const std::vector<ChannelName>& names) {
+  std::vector<ColourChoice> found;
   for (const ChannelName& name : names) {
     if (lower_case(name.base) != "y") continue;
     const std::vector<ChannelName> group = group_of(names, name);
@@ -45,9 +45,9 @@ std::optional<ColourChoice> grey_candidate(const std::vector<ChannelName>& names
     if (find_base(group, "x") >= 0 || is_data_channel(light)) continue;
     ColourChoice choice{name.part, name.layer, name.view, {name.channel}};
     if (const int alpha = find_base(group, "a"); alpha >= 0) choice.channels.push_back(alpha);
-    return choice;
+    found.push_back(choice);
   }
-  return std::nullopt;
+  return found;
 }
 
 std::string place_of(const std::string& layer, const std::string& view) {
@@ -73,9 +73,9 @@ std::string colour_listing(const std::vector<ColourChoice>& choices) {
 ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>& parts,
                            const ChannelRequest& request) {
   const std::vector<ChannelName> names = channel_names(parts);
-  const std::vector<ColourChoice> all = colour_candidates(names);
+  std::vector<ColourChoice> all = colour_candidates(names);
+  if (all.empty()) all = grey_candidates(names);
   if (all.empty()) {
-    if (const auto grey = grey_candidate(names)) return *grey;
     fail(ErrorKind::input, "{}: no colour: no layer has channels R, G and B. It has: {}", path,
          channel_listing(names));
   }

@@ -13,12 +13,12 @@ struct ColourChoice {
   int part = 0;
   std::string layer;
   std::string view;
-  std::vector<int> channels;  ///< R G B, and A where the layer has it.
+  std::vector<int> channels;  ///< R G B, or Y of a grey file; and A where the layer has it.
 };
 
 /// The layer with R, G and B. Among several: the asked-for layer and view; else the file's default
-/// view; else the unnamed layer or one with a usual beauty name. Throws Error(input) with the
-/// candidates otherwise.
+/// view; else the unnamed layer or one with a usual beauty name. In a file without R, G and B, the
+/// same among its layers with a Y. Throws Error(input) with the candidates otherwise.
 ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>& parts,
                            const ChannelRequest& request);
 

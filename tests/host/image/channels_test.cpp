@@ -178,6 +178,11 @@ TEST(Channels, WithoutRgbTheLuminanceIsGrey) {
   EXPECT_EQ(colour({part({"A", "Y", "Z"})}).channels, (Channels{1, 0}));
   EXPECT_EQ(colour({part({"beauty.Y", "beauty.Z"})}).layer, "beauty");
   EXPECT_EQ(colour({part({"Y", "R", "G", "B"})}).channels, (Channels{1, 2, 3}));
+  // Among several, as with colours.
+  EXPECT_EQ(colour({part({"fog.Y", "Y", "Z"})}).channels, Channels{1});
+  EXPECT_EQ(colour({part({"fog.Y", "Y", "Z"})}, {"fog", "", ""}).channels, Channels{0});
+  expect_error(ErrorKind::input, {"no colour in layer 'mist'", "no layer"},
+               [&] { colour({part({"Y", "Z"})}, {"mist", "", ""}); });
   // Of a vector, and of a depth.
   for (const auto& channels : {std::vector<std::string>{"N.X", "N.Y", "N.Z"}, {"depth.Y", "Z"}}) {
     expect_error(ErrorKind::input, {"no colour"}, [&] { colour({part(channels)}); });
