@@ -124,11 +124,11 @@ OptionGroup lens_options(RenderCommand& job) {
   add(focus_rows(job));
   add(eye_rows(job.eye));
   add({{"--scale",
-        value(s.camera.perceived_scale),
+        lens_value(s.camera, &CameraValues::perceived_scale, &job.animated),
         "Make the scene look this much of its size: divides the aperture",
         {.field = "perceived_scale"}},
        {"--perceived-distance",
-        value(s.camera.perceived_distance_m),
+        lens_value(s.camera, &CameraValues::perceived_distance_m, &job.animated),
         "m; as --scale, so that the plane of focus seems this far away",
         {.field = "perceived_distance_m"}}});
   add(camera_rows(job.camera, job.focus_setting, ", or " + from_metadata + ", the image's own"));

@@ -181,6 +181,17 @@ TEST_F(Sequences, LensNumbersChange) {
   EXPECT_EQ(file_hash(folder_ / "o.0002.exr"), file_hash(folder_ / "b.exr"));
 }
 
+TEST_F(Sequences, PerceivedSizesChange) {
+  const std::string lens = "--focus 2.5 --fstop 2 --focal-length 50 ";
+  const double aperture = frames(lens)[0]["aperture_diameter_mm"];
+  const auto scaled = frames(lens + "--scale 0.5:1,0.25:3");
+  EXPECT_DOUBLE_EQ(scaled[0]["aperture_diameter_mm"], aperture / 0.5);
+  EXPECT_DOUBLE_EQ(scaled[1]["aperture_diameter_mm"], aperture / 0.375);
+  const auto near = frames(lens + "--perceived-distance 1:1,2:3");
+  EXPECT_DOUBLE_EQ(near[0]["aperture_diameter_mm"], aperture * 2.5);
+  EXPECT_DOUBLE_EQ(near[2]["aperture_diameter_mm"], aperture * 2.5 / 2);
+}
+
 TEST_F(Sequences, CurvesAreReadStrictly) {
   const auto refused = [&](const std::string& focus, const std::string& words) {
     expect_refused("s.####.exr -o o.####.exr --fstop 2 --focal-length 50 --focus " + focus, 2,
