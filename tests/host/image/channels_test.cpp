@@ -181,8 +181,9 @@ TEST(Channels, WithoutRgbTheLuminanceIsGrey) {
   // Among several, as with colours.
   EXPECT_EQ(colour({part({"fog.Y", "Y", "Z"})}).channels, Channels{1});
   EXPECT_EQ(colour({part({"fog.Y", "Y", "Z"})}, {"fog", "", ""}).channels, Channels{0});
-  expect_error(ErrorKind::input, {"no colour in layer 'mist'", "no layer"},
-               [&] { colour({part({"Y", "Z"})}, {"mist", "", ""}); });
+  expect_error(ErrorKind::input, {"no colour in layer 'mist'", "no layer"}, [&] {
+    colour({part({"Y", "Z"})}, {"mist", "", ""});
+  });
   // Of a vector, and of a depth.
   for (const auto& channels : {std::vector<std::string>{"N.X", "N.Y", "N.Z"}, {"depth.Y", "Z"}}) {
     expect_error(ErrorKind::input, {"no colour"}, [&] { colour({part(channels)}); });
