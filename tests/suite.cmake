@@ -110,7 +110,7 @@ set_tests_properties(
 
 # Five seconds of every fuzzer, built by run.sh, from the seeds in corpus/ and what the runs before
 # have found. What it finds it leaves as crash-… in the build folder's fuzz/.
-foreach(name camera cases channels options sequence text)
+foreach(name camera cases channels cloud options sequence text)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz/found/${name})
   add_check(fuzz_${name} 5 full ${CMAKE_BINARY_DIR}/asan/bin/fuzz_${name} -max_total_time=5
             -timeout=60 -malloc_limit_mb=256 ${CMAKE_BINARY_DIR}/fuzz/found/${name}

@@ -71,6 +71,15 @@ Window parse_window(const std::string& option, const std::string& text) {
   return {std::stoi(match[3]), std::stoi(match[4]), std::stoi(match[1]), std::stoi(match[2])};
 }
 
+Window parse_size(const std::string& option, const std::string& text) {
+  static const std::regex form(R"((\d{1,6})x(\d{1,6}))");
+  std::smatch match;
+  if (!std::regex_match(text, match, form)) {
+    fail(ErrorKind::usage, "{} '{}': write it as 1920x1080", option, text);
+  }
+  return {0, 0, std::stoi(match[1]), std::stoi(match[2])};
+}
+
 PixelPlace parse_place(const std::string& option, const std::string& text) {
   static const std::regex form(R"((\d{1,6}),(\d{1,6}))");
   std::smatch match;
@@ -80,6 +89,20 @@ PixelPlace parse_place(const std::string& option, const std::string& text) {
          option, text);
   }
   return {std::stoi(match[1]), std::stoi(match[2])};
+}
+
+std::array<double, 3> parse_point(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split(text, ',');
+  std::array<double, 3> point{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    char* end = nullptr;
+    const std::string part = parts.size() == 3 ? parts[i] : "";
+    point[i] = std::strtod(part.c_str(), &end);
+    if (part.empty() || *end != '\0' || !std::isfinite(point[i])) {
+      fail(ErrorKind::usage, "{} '{}': write it as 1,2.5,-3", option, text);
+    }
+  }
+  return point;
 }
 
 std::vector<WorkGroup> parse_work_groups(const std::string& text) {

@@ -22,8 +22,14 @@ double parse_background(const std::string& text);
 /// "3840x2160+100+50" -> width, height, x and y. Throws Error(usage).
 Window parse_window(const std::string& option, const std::string& text);
 
+/// "512x512" -> width and height. Throws Error(usage).
+Window parse_size(const std::string& option, const std::string& text);
+
 /// "640,360" -> that pixel. Throws Error(usage).
 PixelPlace parse_place(const std::string& option, const std::string& text);
+
+/// "1,2.5,-3" -> three finite numbers. Throws Error(usage).
+std::array<double, 3> parse_point(const std::string& option, const std::string& text);
 
 /// A work-group for one kernel, or for all that no other names.
 struct WorkGroup {

@@ -18,6 +18,7 @@ struct PatternSettings;
 struct PatternShift;
 struct RayPlan;
 struct RayResult;
+struct SplatPlanes;
 
 class Backend {
  public:

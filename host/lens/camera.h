@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/window.h"
+#include "defray/splat.h"
 #include "lens/lens.h"
 
 namespace defray {
@@ -26,6 +27,12 @@ CameraValues eye_values(Eye eye, double display_distance_m, double display_px_pe
 /// in the values' notes. Throws Error(input).
 CameraValues read_camera_json(const std::string& path, const std::string& setting,
                               double metres_per_unit);
+
+/// Where a camera.json says that the camera stands: from_m, look_at_m and up, three numbers each.
+/// Empty where it says nothing of it; throws Error(input) where it says it in part.
+std::optional<CameraPose> read_camera_pose(const std::string& path, double metres_per_unit);
+std::optional<CameraPose> parse_camera_pose(const std::string& text, const std::string& path,
+                                            double metres_per_unit);
 
 /// The same of a text; `path` is what messages call it.
 CameraValues parse_camera_json(const std::string& text, const std::string& path,

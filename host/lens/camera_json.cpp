@@ -69,7 +69,8 @@ std::string same_words(const std::string& key, const std::vector<std::string>& k
 /// What a camera.json may say of the camera, of each focus setting, and, for other programs,
 /// besides.
 const std::vector<std::string> camera_keys{"focal_length_mm", "sensor_width_mm", "sensor_height_mm",
-                                           "fov_deg",         "sensor_fit",      "focus_settings"};
+                                           "fov_deg",         "sensor_fit",      "focus_settings",
+                                           "from_m",          "look_at_m",       "up"};
 const std::vector<std::string> focus_keys{"focus_distance_m", "aperture_diameter_m", "f_stop"};
 const std::set<std::string> other_keys{"scene",  "width",          "height",
                                        "frame",  "camera",         "pixel_focal_px",
@@ -101,6 +102,29 @@ std::optional<SensorFit> sensor_fit(const std::string& path, const json& root) {
     if (root["sensor_fit"] == word) return fit;
   }
   fail(ErrorKind::input, "{}: 'sensor_fit' is none of horizontal, vertical, auto", path);
+}
+
+/// Three numbers.
+std::optional<std::array<double, 3>> point(const std::string& path, const json& root,
+                                           const char* key, double factor) {
+  if (!root.is_object() || !root.contains(key)) return std::nullopt;
+  const json& values = root[key];
+  std::array<double, 3> made{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!values.is_array() || values.size() != 3 || !values[i].is_number()) {
+      fail(ErrorKind::input, "{}: '{}' is no list of three numbers", path, key);
+    }
+    made[i] = values[i].get<double>() * factor;
+  }
+  return made;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream || !std::filesystem::is_regular_file(path)) {
+    fail(ErrorKind::input, "{}: cannot open the camera file", path);
+  }
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::optional<double> times(std::optional<double> value, double factor) {
@@ -140,14 +164,29 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   return values;
 }
 
+std::optional<CameraPose> parse_camera_pose(const std::string& text, const std::string& path,
+                                            double metres_per_unit) {
+  const json root = parse(text, path);
+  const auto from = point(path, root, "from_m", 1 / metres_per_unit);
+  const auto look_at = point(path, root, "look_at_m", 1 / metres_per_unit);
+  const auto up = point(path, root, "up", 1);
+  if (!from && !look_at && !up) return std::nullopt;
+  if (!from || !look_at) {
+    fail(ErrorKind::input, "{}: has {} alone: a camera needs 'from_m' and 'look_at_m'", path,
+         from      ? "'from_m'"
+         : look_at ? "'look_at_m'"
+                   : "'up'");
+  }
+  return CameraPose{*from, *look_at, up.value_or(CameraPose().up)};
+}
+
 CameraValues read_camera_json(const std::string& path, const std::string& setting,
                               double metres_per_unit) {
-  std::ifstream stream(path);
-  if (!stream || !std::filesystem::is_regular_file(path)) {
-    fail(ErrorKind::input, "{}: cannot open the camera file", path);
-  }
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_camera_json(text, path, setting, metres_per_unit);
+  return parse_camera_json(text_of(path), path, setting, metres_per_unit);
+}
+
+std::optional<CameraPose> read_camera_pose(const std::string& path, double metres_per_unit) {
+  return parse_camera_pose(text_of(path), path, metres_per_unit);
 }
 
 }  // namespace defray

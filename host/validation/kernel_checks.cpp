@@ -102,7 +102,7 @@ Outcome run_reach(Backend& backend, const Case& c, const Input& in) {
 /// The whole table, by name.
 std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
   for (const std::vector<KernelCheck>& more :
-       {stage_checks(), rdb_checks(), highlight_checks(), patterns_checks()}) {
+       {stage_checks(), rdb_checks(), highlight_checks(), patterns_checks(), splat_checks()}) {
     checks.insert(checks.end(), more.begin(), more.end());
   }
   std::sort(checks.begin(), checks.end(), [](const KernelCheck& a, const KernelCheck& b) {

@@ -52,6 +52,7 @@ struct KernelCheck {
 std::vector<KernelCheck> stage_checks();
 std::vector<KernelCheck> rdb_checks();
 std::vector<KernelCheck> highlight_checks();
+std::vector<KernelCheck> splat_checks();
 
 /// What bands of the case's rows take, with the rows that a kernel looks at beyond them by the
 /// launch table.

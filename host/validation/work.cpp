@@ -67,6 +67,11 @@ double repair_work(const Case& c) { return 100 * pixels(c) + band_work(c); }
 
 double soften_work(const Case& c) { return 300 * pixels(c) + band_work(c); }
 
+/// A quarter as many splats as pixels, each as large as its blur or a few pixels.
+double splat_work(const Case& c) {
+  return pixels(c) / 4 * std::min(squared(2 * c.coc_px + 8), pixels(c)) * 20 + band_work(c);
+}
+
 double split_work(const Case& c) { return 200 * pixels(c) + 2 * fill_work(c); }
 
 double tiles_work(const Case& c) { return pixels(c) + squared(pixels(c) / 256 + 1); }

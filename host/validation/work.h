@@ -19,6 +19,7 @@ double ray_tiles_work(const Case& c);
 double rdb_work(const Case& c);
 double repair_work(const Case& c);
 double soften_work(const Case& c);
+double splat_work(const Case& c);
 double split_work(const Case& c);
 double tiles_work(const Case& c);
 

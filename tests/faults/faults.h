@@ -4,12 +4,14 @@
 
 #include "faults_highlights.h"
 #include "faults_rdb.h"
+#include "faults_splat.h"
 #include "faults_stages.h"
 
 namespace defray::test {
 
 inline std::vector<Fault> with_stages(std::vector<Fault> faults) {
-  for (const std::vector<Fault>& more : {rdb_faults(), stage_faults(), highlight_faults()}) {
+  for (const std::vector<Fault>& more :
+       {rdb_faults(), stage_faults(), highlight_faults(), splat_faults()}) {
     faults.insert(faults.end(), more.begin(), more.end());
   }
   return faults;

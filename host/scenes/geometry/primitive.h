@@ -1,6 +1,6 @@
 #pragma once
 // What rays of the built-in scenes can hit.
-#include "scenes/geometry/vec3.h"
+#include "base/vec3.h"
 
 namespace defray {
 

@@ -2,7 +2,7 @@
 // Patterns for the built-in scenes, from hashes: the same on every machine.
 #include <cstdint>
 
-#include "scenes/geometry/vec3.h"
+#include "base/vec3.h"
 
 namespace defray {
 

@@ -1,5 +1,5 @@
 #pragma once
-// Points, directions and linear colours of the built-in scenes.
+// Points, directions and linear colours.
 #include <cmath>
 
 namespace defray {

@@ -1,0 +1,115 @@
+#include "base/error.h"
+#include "options/lens_rows.h"
+#include "options/parse.h"
+#include "splat/splat_command.h"
+
+namespace defray::cli {
+namespace {
+
+const WordTable<bool> switch_words{{"on", true}, {"off", false}};
+const WordTable<SplatPsf> psf_words{{"gaussian", SplatPsf::gaussian}, {"disc", SplatPsf::disc}};
+const WordTable<SplatMerge> merge_words{{"nearest", SplatMerge::nearest},
+                                        {"average", SplatMerge::average}};
+
+OptionValue place(std::optional<std::array<double, 3>>& target) {
+  const auto read = std::make_shared<std::string>();
+  return {[read](CLI::App& c, const std::string& name) {
+            return c.add_option(name, *read)->type_name("X,Y,Z");
+          },
+          [read, &target](const std::string& name) { target = parse_point(name, *read); }, ""};
+}
+
+OptionGroup main_rows(SplatCommand& job) {
+  return {"",
+          {{"input", value(job.input), "Point cloud: .ply, or text (.xyz .txt .csv .pts)"},
+           {"--model",
+            value(job.model),
+            "A built-in model instead: plane, figure, crossing, mask",
+            {.needs = {[](const Given& given) { return !given("input"); },
+                       "stands instead of a file"}}},
+           {"--model-points",
+            with_default(value(job.model_points), "the model's own"),
+            "About how many points it has",
+            {.needs = {[](const Given& given) { return given("--model"); }, "goes with --model"}}},
+           {"-o,--output",
+            value(job.output),
+            "Picture; a turn needs #### in its name",
+            {.is_required = true}}}};
+}
+
+OptionGroup view_rows(SplatCommand& job) {
+  SplatSettings& s = job.settings;
+  return {
+      "View",
+      {{"--size",
+        parsed<std::string>(
+            [&s](const std::string& text) {
+              const Window window = parse_size("--size", text);
+              s.width = window.width;
+              s.height = window.height;
+            },
+            fmt::format("{}x{}", s.width, s.height)),
+        "Pixels"},
+       {"--from", with_default(place(job.from), "far enough to see all"),
+        "Where the camera stands, scene units"},
+       {"--look-at", with_default(place(job.look_at), "the cloud's middle"), "What it looks at"},
+       {"--up", with_default(place(job.up), "0,1,0"), "What is up in the picture"},
+       {"--turntable", with_default(value(job.turntable), ""),
+        "So many frames of a turn around what is looked at"},
+       {"--unit",
+        parsed<std::string>(
+            [&job](const std::string& text) { job.metres_per_unit = parse_unit(text); },
+            unit_of(job.metres_per_unit)),
+        "Scene unit: m, cm, mm, km, ft, in, or its length in metres",
+        {.field = "metres_per_unit"}}}};
+}
+
+OptionGroup lens_group(SplatCommand& job) {
+  OptionGroup group{"Lens", lens_rows(job.camera, "scene units; without one, what is looked at")};
+  group.rows.push_back({"--fov",
+                        value(job.camera.fov_deg),
+                        "Degrees that the picture's width spans, instead of a sensor",
+                        {.field = "fov_deg"}});
+  for (OptionRow& row : camera_rows(job.camera_file, job.focus_setting, "")) {
+    group.rows.push_back(std::move(row));
+  }
+  return group;
+}
+
+OptionGroup splat_rows(SplatCommand& job) {
+  SplatSettings& s = job.settings;
+  return {
+      "Splats",
+      {{"--lod", word(s.lod, switch_words),
+        "Nodes of a hierarchy stand for points that blur, or their size, hides"},
+       {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 1 to 8"},
+       {"--psf", word(s.psf, psf_words),
+        "Light over the circle of confusion: the Gaussian nearest to it, or evenly"},
+       {"--merge", word(s.merge, merge_words),
+        "Surfaces too close to be told apart: the nearest counts, or, as the paper has it, their "
+        "average"},
+       {"--two-sided", flag(s.two_sided),
+        "Surfaces are seen from behind, too (always where normals are estimated)"},
+       {"--transparency", value(s.transparency), "What all points let through, 0 to below 1"}}};
+}
+
+OptionGroup output_rows(SplatCommand& job) {
+  return {
+      "Output",
+      {{"--depth", flag(job.has_depth),
+        "Also channel Z: the depth of the nearest splat, inf where there is none"},
+       {"--fragments", flag(job.has_fragments),
+        "Also channel fragments: how many splats a pixel was made of"},
+       {"--device", value(job.device), "Index or part of the name of 'defray devices'; reference"},
+       {"--json", flag(job.json), "One JSON line a frame instead of text"},
+       {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
+       {"--show", flag(job.show), "Show the last picture in a window; q closes it"}}};
+}
+
+}  // namespace
+
+std::vector<OptionGroup> splat_options(SplatCommand& job) {
+  return {main_rows(job), view_rows(job), lens_group(job), splat_rows(job), output_rows(job)};
+}
+
+}  // namespace defray::cli

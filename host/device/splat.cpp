@@ -1,0 +1,56 @@
+// Kernels `splat_*`.
+#include "device/device_backend.h"
+#include "splat/splats.h"
+
+namespace defray {
+namespace {
+
+/// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
+constexpr std::size_t list_bytes = std::size_t{64} << 20;
+
+}  // namespace
+
+std::vector<DefraySplat> DeviceBackend::splat_project(const std::vector<DefraySplatNode>& nodes,
+                                                      const DefraySplatParams& params) {
+  if (nodes.empty()) return {};
+  DefraySplatParams p = params;
+  p.count = static_cast<std::uint32_t>(nodes.size());
+  Values<DefraySplat> splats;
+  const cl::Buffer out = session_.out(splats, nodes.size());
+  session_.launch("splat_project", {nodes.size()}, p, session_.view(nodes), out);
+  return std::move(splats).take();
+}
+
+SplatPlanes DeviceBackend::splat_resolve(const std::vector<DefraySplat>& splats,
+                                         const DefraySplatParams& params,
+                                         const Progress& progress) {
+  const std::uint32_t tiles_x = (params.width + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
+  const std::uint32_t tiles_y = (params.height + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
+  const std::size_t pixels = std::size_t{params.width} * params.height;
+  std::array<Values<float>, 6> planes;
+  std::array<cl::Buffer, 4> colour;
+  for (std::size_t c = 0; c < 4; ++c) colour[c] = session_.out(planes[c], pixels);
+  const cl::Buffer depth = session_.out(planes[4], pixels), count = session_.out(planes[5], pixels);
+  const std::vector<DefraySplat> one(1);  // a buffer holds something
+  const cl::Buffer in = session_.view(splats.empty() ? one : splats);
+  const auto counts = splats_a_tile(splats, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
+  const std::size_t most = std::min(list_bytes, session_.memory_bytes()) / sizeof(std::uint32_t);
+  for (std::uint32_t tile = 0; tile < counts.size();) {
+    SplatTiles tiles = next_tiles(splats, counts, static_cast<int>(tiles_x), tile, most);
+    if (tiles.list.empty()) tiles.list.push_back(0);
+    const DefraySplatTileParams p{params.width,     params.height, tiles_x,        tile,
+                                  tiles.tile_count, params.cutoff, params.edge, params.averages};
+    session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_TILE}, p, in,
+                    session_.view(tiles.first), session_.view(tiles.list), colour, depth, count);
+    session_.finish();  // before the lists go
+    tile += tiles.tile_count;
+    if (progress) progress(static_cast<double>(tile) / static_cast<double>(counts.size()));
+  }
+  SplatPlanes out;
+  for (std::size_t c = 0; c < 4; ++c) out.colour.push_back(std::move(planes[c]).take());
+  out.depth = std::move(planes[4]).take();
+  out.fragments = std::move(planes[5]).take();
+  return out;
+}
+
+}  // namespace defray

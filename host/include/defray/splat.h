@@ -1,0 +1,119 @@
+#pragma once
+// Point clouds through the lens: EWA surface splatting with depth of field (Krivanek & Zara 2003).
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "defray/device.h"
+#include "defray/export.h"
+#include "defray/lens.h"
+#include "defray/report.h"
+
+namespace defray {
+
+/// Points of surfaces. What is empty is estimated from the points around, or has a default.
+struct PointCloud {
+  std::array<double, 3> origin{};  ///< Scene units: places are from here, so that floats will do.
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;  ///< Of any length > 0. Empty: estimated.
+  std::vector<float>
+      radii;  ///< Of the disc that a point stands for, scene units. Empty: estimated.
+  std::vector<std::array<float, 3>> colours;  ///< Linear. Empty: grey, with a light at the eye.
+  std::vector<float> alpha;                   ///< 0 to 1. Empty: opaque.
+};
+
+/// Where the camera stands. It looks along the picture's axis.
+struct CameraPose {
+  std::array<double, 3> from{0, 0, 1};
+  std::array<double, 3> look_at{};
+  std::array<double, 3> up{0, 1, 0};
+};
+
+/// How a point's light is spread over its circle of confusion.
+enum class SplatPsf {
+  gaussian,  ///< The paper's: the Gaussian that is nearest to the disc.
+  disc,      ///< An even disc where blur is most of a splat.
+};
+
+/// What becomes of a surface's fragments where they weigh more than 1: where surfaces are too close
+/// to be told apart.
+enum class SplatMerge {
+  nearest,  ///< The nearest count, up to 1.
+  average,  ///< The paper's: all, divided by their sum.
+};
+
+struct SplatSettings {
+  int width = 1024, height = 768;
+  bool lod = true;      ///< Nodes of the hierarchy where blur hides single points.
+  double cutoff = 2.5;  ///< c, 1 to 8: Gaussians end where they are down to e^-c.
+  SplatPsf psf = SplatPsf::gaussian;
+  SplatMerge merge = SplatMerge::nearest;
+  /// Surfaces are seen from both sides; otherwise from where normals point. Where normals are
+  /// estimated, they have no outside: both.
+  bool two_sided = false;
+  double transparency = 0;  ///< 0 to 1: all that points let through, beside their alpha.
+};
+
+struct SplatReport {
+  std::size_t points = 0;  ///< Of the cloud.
+  std::size_t drawn = 0;   ///< Nodes of the hierarchy that stood for them.
+  std::size_t seen = 0;    ///< Of those, splats with pixels.
+  double fragments = 0;    ///< Of all pixels, up to where nothing shines through.
+  double nearest_units = 0, farthest_units = 0;    ///< Depths of the splats seen.
+  double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Their signed CoC radii.
+  std::vector<StageTime> stages;
+};
+
+/// Planes are row by row from the top, [height][width].
+struct SplatResult {
+  std::vector<std::vector<float>> colour;  ///< R G B A: linear, premultiplied.
+  std::vector<float> depth;      ///< Of the nearest splat in a pixel, scene units; +inf: none.
+  std::vector<float> fragments;  ///< How many a pixel had.
+  SplatReport report;
+};
+
+/// A cloud made ready: normals, radii, weights and the hierarchy.
+class DEFRAY_API SplatModel {
+ public:
+  /// Throws Error(input) for an empty cloud, values that are not finite, radii and normals of 0.
+  explicit SplatModel(const PointCloud& cloud, const Progress& progress = {});
+  SplatModel(SplatModel&&) noexcept;
+  SplatModel& operator=(SplatModel&&) noexcept;
+  ~SplatModel();
+
+  std::size_t points() const;  ///< Those with a place.
+  /// What was left out or estimated.
+  const std::vector<std::string>& notes() const;
+  /// Centre and radius of a sphere around all points, scene units.
+  std::array<double, 3> centre() const;
+  double radius() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+  friend DEFRAY_API SplatResult splat(Device&, const SplatModel&, const CameraPose&, const Lens&,
+                                      const SplatSettings&, const Progress&);
+};
+
+/// Renders the model through `lens`: the picture is as wide as its sensor. Throws Error(usage) for
+/// settings out of range, Error(device).
+DEFRAY_API SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pose,
+                             const Lens& lens, const SplatSettings& settings = {},
+                             const Progress& progress = {});
+
+/// A cloud from a file: PLY (ascii, binary of either byte order; vertex properties x y z, nx ny nz,
+/// red green blue alpha, radius) or text with columns x y z [nx ny nz] [r g b] [.xyz .txt .csv
+/// .pts]. 8-bit colours are sRGB, others linear. Throws Error(input).
+DEFRAY_API PointCloud read_point_cloud(const std::string& path);
+
+/// A built-in model: "plane", "figure", "crossing", "mask"; points beside each other as dense as
+/// `points` says (0: the model's own number). Throws Error(usage).
+DEFRAY_API PointCloud make_point_cloud(const std::string& name, std::size_t points = 0);
+
+/// A camera far enough away that all of the model is in a picture of this shape.
+DEFRAY_API CameraPose framing_pose(const SplatModel& model, const Lens& lens,
+                                   const SplatSettings& settings);
+
+}  // namespace defray

@@ -1,0 +1,83 @@
+#include "defray/splat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec3.h"
+#include "lens/lens.h"
+#include "library/backend_of.h"
+#include "splat/splat_picture.h"
+#include "splat/surfels.h"
+#include "splat/view.h"
+
+namespace defray {
+
+struct SplatModel::State {
+  Hierarchy tree;
+  std::array<double, 3> origin;
+  bool has_normals, has_colours;
+  std::vector<std::string> notes;
+};
+
+SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress) {
+  Surfels surfels = make_surfels(cloud, progress);
+  state_ = std::make_unique<State>(
+      State{{}, cloud.origin, surfels.has_normals, surfels.has_colours, std::move(surfels.notes)});
+  state_->tree = build_hierarchy(std::move(surfels.points), state_->has_normals);
+}
+
+SplatModel::SplatModel(SplatModel&&) noexcept = default;
+SplatModel& SplatModel::operator=(SplatModel&&) noexcept = default;
+SplatModel::~SplatModel() = default;
+
+std::size_t SplatModel::points() const { return state_->tree.points.size(); }
+const std::vector<std::string>& SplatModel::notes() const { return state_->notes; }
+
+std::array<double, 3> SplatModel::centre() const {
+  const DefraySplatNode& root = state_->tree.nodes.front().splat;
+  const auto& origin = state_->origin;
+  return {origin[0] + static_cast<double>(root.x), origin[1] + static_cast<double>(root.y),
+          origin[2] + static_cast<double>(root.z)};
+}
+
+double SplatModel::radius() const {
+  const DefraySplatNode& root = state_->tree.nodes.front().splat;
+  double radius = 0;
+  for (const DefraySplatNode& p : state_->tree.points) {
+    const double distance = length(Vec3{p.x, p.y, p.z} - Vec3{root.x, root.y, root.z});
+    radius = std::max(radius, distance + 2 * std::sqrt(static_cast<double>(p.variance)));
+  }
+  return radius;
+}
+
+SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pose, const Lens& lens,
+                  const SplatSettings& settings, const Progress& progress) {
+  validate(settings);
+  const SplatModel::State& m = *model.state_;
+  DefraySplatParams params = splat_params(pose, m.origin, lens, settings);
+  params.one_sided = m.has_normals && !settings.two_sided;
+  params.has_headlight = !m.has_colours;
+  SplatResult out;
+  SplatPlanes planes = draw_splats(backend_of(device), m.tree, params, settings.lod,
+                                   settings.transparency, out.report, progress);
+  out.colour = std::move(planes.colour);
+  out.depth = std::move(planes.depth);
+  out.fragments = std::move(planes.fragments);
+  return out;
+}
+
+CameraPose framing_pose(const SplatModel& model, const Lens& lens, const SplatSettings& settings) {
+  validate(lens);
+  validate(settings);
+  // All of the sphere around the model, with a tenth around it.
+  const double focal = pixel_focal_length(lens, settings.width);
+  const double half_side = std::min(settings.width, settings.height) / 2.0;
+  const double distance = 1.1 * model.radius() * std::hypot(focal, half_side) / half_side;
+  CameraPose pose;
+  pose.look_at = model.centre();
+  pose.from = model.centre();
+  pose.from[2] += distance;
+  return pose;
+}
+
+}  // namespace defray

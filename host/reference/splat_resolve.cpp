@@ -1,0 +1,97 @@
+// Twin of kernels/splat_resolve.cl: every splat into all of its pixels, one after the other,
+// without tiles.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "reference/twin_backend.h"
+#include "splat/splats.h"
+
+namespace defray::reference {
+namespace {
+
+/// What a pixel has come to.
+struct Pixel {
+  float weight = 0;
+  float layer[4] = {}, sum[4] = {};
+  float far = -std::numeric_limits<float>::infinity();
+  float depth = std::numeric_limits<float>::infinity();
+  float count = 0;
+  bool is_opaque = false;
+
+  void end_layer(bool averages) {
+    float share = 1 - sum[3];
+    if (averages) share /= std::fmax(weight, 1.0f);
+    for (int c = 0; c < 4; ++c) {
+      sum[c] += share * layer[c];
+      layer[c] = 0;
+    }
+    weight = 0;
+    is_opaque = 1 - sum[3] < DEFRAY_SPLAT_OPAQUE;
+  }
+
+  void add(const DefraySplat& s, float of_splat, bool averages) {
+    if (is_opaque || !(of_splat > 0)) return;
+    if (s.z_near > far) end_layer(averages);
+    if (is_opaque) return;
+    const float taken = averages ? of_splat : std::fmin(of_splat, 1 - weight);
+    weight += taken;
+    const float colour[] = {s.r, s.g, s.b, s.a};
+    for (int c = 0; c < 4; ++c) layer[c] += taken * colour[c];
+    far = std::fmax(far, s.z_far);
+    depth = std::fmin(depth, s.z);
+    ++count;
+  }
+};
+
+/// e^-power as the kernel has it: the same polynomial of 2^x about whole exponents.
+float falloff(float power) {
+  const float exponent = power * -1.44269504f;
+  const auto whole = static_cast<std::int32_t>(exponent - 0.5f);
+  const float x = exponent - static_cast<float>(whole);
+  float mantissa = 1.53533619e-4f;
+  for (const float c :
+       {1.33988744e-3f, 9.61843736e-3f, 5.55033247e-2f, 0.240226479f, 0.693147203f, 1.0f}) {
+    mantissa = mantissa * x + c;
+  }
+  return mantissa * std::bit_cast<float>((whole + 127) << 23);
+}
+
+float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) {
+  const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;
+  const float form = s.conic_xx * dx * dx + 2 * (s.conic_xy * dx * dy) + s.conic_yy * dy * dy;
+  const float inside = std::fmax(form, 0.0f);
+  if (s.disc_px > 0) {
+    const float within = (1 - std::sqrt(inside)) * s.disc_px + 0.5f;
+    return s.amplitude * std::fmin(std::fmax(within, 0.0f), 1.0f);
+  }
+  return form < p.cutoff ? s.amplitude * std::fmax(falloff(inside) - p.edge, 0.0f) : 0;
+}
+
+}  // namespace
+
+SplatPlanes TwinBackend::splat_resolve(const std::vector<DefraySplat>& splats,
+                                       const DefraySplatParams& p, const Progress& progress) {
+  std::vector<Pixel> pixels(std::size_t{p.width} * p.height);
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    const DefraySplat& s = splats[i];
+    for (int y = s.first_y; y < s.end_y; ++y) {
+      for (int x = s.first_x; x < s.end_x; ++x) {
+        pixels[size(y) * p.width + size(x)].add(s, weight_at(s, x, y, p), p.averages);
+      }
+    }
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(splats.size()));
+  }
+  SplatPlanes out;
+  out.colour.resize(4);
+  for (Pixel& pixel : pixels) {
+    if (!pixel.is_opaque) pixel.end_layer(p.averages);
+    for (std::size_t c = 0; c < 4; ++c) out.colour[c].push_back(pixel.sum[c]);
+    out.depth.push_back(pixel.depth);
+    out.fragments.push_back(pixel.count);
+  }
+  return out;
+}
+
+}  // namespace defray::reference

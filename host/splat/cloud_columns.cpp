@@ -1,0 +1,107 @@
+#include "splat/cloud_columns.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/srgb.h"
+#include "base/text.h"
+
+namespace defray {
+namespace {
+
+/// What a point takes until its cloud is a hierarchy, measured: the most at a time.
+constexpr std::uint64_t bytes_a_point = 400;
+
+std::optional<std::size_t> find(const std::vector<std::string>& names, const std::string& wanted) {
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+void check_memory_for(std::uint64_t points, const std::string& path) {
+  const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                               static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  if (points <= memory / bytes_a_point && points < 0xffffffffu) return;
+  fail(ErrorKind::input,
+       "{}: says it has {} points, which need about {:.0f} MiB of memory; there are {}: thin it "
+       "out, or split it",
+       path, points, static_cast<double>(points) * bytes_a_point / 1048576, memory >> 20);
+}
+
+CloudColumns::CloudColumns(const std::vector<std::string>& given_names,
+                           const std::vector<double>& whole_numbers, const std::string& path)
+    : whole_numbers_(whole_numbers) {
+  std::vector<std::string> names;
+  for (const std::string& name : given_names) names.push_back(lower_case(name));
+  const Group place = group(names, {"x", "y", "z"});
+  if (!place) {
+    fail(ErrorKind::input, "{}: points need x, y and z; it has {}", path, join(names, " "));
+  }
+  place_ = *place;
+  normal_ = group(names, {"nx", "ny", "nz"});
+  for (const auto& wanted : {std::array<const char*, 3>{"red", "green", "blue"},
+                             {"diffuse_red", "diffuse_green", "diffuse_blue"},
+                             {"r", "g", "b"}}) {
+    if (!colour_) colour_ = group(names, wanted);
+  }
+  alpha_ = find(names, "alpha");
+  if (!alpha_) alpha_ = find(names, "a");
+  radius_ = find(names, "radius");
+}
+
+CloudColumns::Group CloudColumns::group(const std::vector<std::string>& names,
+                                        std::array<const char*, 3> wanted) const {
+  std::array<std::size_t, 3> columns{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto column = find(names, wanted[i]);
+    if (!column) return std::nullopt;
+    columns[i] = *column;
+  }
+  return columns;
+}
+
+void CloudColumns::reserve(std::size_t points) {
+  cloud_.positions.reserve(points);
+  if (normal_) cloud_.normals.reserve(points);
+  if (colour_) cloud_.colours.reserve(points);
+}
+
+float CloudColumns::colour(std::span<const double> row, std::size_t column) const {
+  const double most = whole_numbers_[column];
+  return static_cast<float>(most > 0 ? srgb_decode(row[column] / most) : row[column]);
+}
+
+void CloudColumns::add(std::span<const double> row) {
+  const std::array<double, 3> place{row[place_[0]], row[place_[1]], row[place_[2]]};
+  if (!has_origin_ && std::isfinite(place[0] + place[1] + place[2])) {
+    cloud_.origin = place;
+    has_origin_ = true;
+  }
+  cloud_.positions.push_back({static_cast<float>(place[0] - cloud_.origin[0]),
+                              static_cast<float>(place[1] - cloud_.origin[1]),
+                              static_cast<float>(place[2] - cloud_.origin[2])});
+  const auto floats = [&](const std::array<std::size_t, 3>& columns) {
+    return std::array<float, 3>{static_cast<float>(row[columns[0]]),
+                                static_cast<float>(row[columns[1]]),
+                                static_cast<float>(row[columns[2]])};
+  };
+  if (normal_) cloud_.normals.push_back(floats(*normal_));
+  if (radius_) cloud_.radii.push_back(static_cast<float>(row[*radius_]));
+  if (colour_) {
+    cloud_.colours.push_back(
+        {colour(row, (*colour_)[0]), colour(row, (*colour_)[1]), colour(row, (*colour_)[2])});
+  }
+  if (alpha_) {
+    const double most = whole_numbers_[*alpha_];
+    cloud_.alpha.push_back(static_cast<float>(most > 0 ? row[*alpha_] / most : row[*alpha_]));
+  }
+}
+
+PointCloud CloudColumns::take() && { return std::move(cloud_); }
+
+}  // namespace defray

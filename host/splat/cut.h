@@ -1,0 +1,16 @@
+#pragma once
+// Which nodes of the hierarchy a view is drawn with.
+#include <vector>
+
+#include "kernels/params.h"
+#include "splat/hierarchy.h"
+
+namespace defray {
+
+/// The nodes that stand for what the view can show. With `lod` those whose width in the picture is
+/// below a pixel, or below their blur, stand for their points (Krivanek & Zara 2003, section 6.2);
+/// else every point stands for itself. In the hierarchy's order.
+std::vector<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySplatParams& view,
+                                           bool lod);
+
+}  // namespace defray

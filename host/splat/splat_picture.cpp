@@ -1,0 +1,109 @@
+#include "splat/splat_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/stopwatch.h"
+#include "splat/cut.h"
+#include "splat/view.h"
+
+namespace defray {
+namespace {
+
+void describe(const std::vector<DefraySplat>& splats, const DefraySplatParams& p,
+              SplatReport& report) {
+  report.seen = splats.size();
+  if (splats.empty()) return;
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (const DefraySplat& s : splats) {
+    nearest = std::min(nearest, static_cast<double>(s.z));
+    farthest = std::max(farthest, static_cast<double>(s.z));
+  }
+  report.nearest_units = nearest;
+  report.farthest_units = farthest;
+  report.nearest_coc_px = splat_coc_px(p, nearest);
+  report.farthest_coc_px = splat_coc_px(p, farthest);
+}
+
+void make_transparent(std::vector<DefraySplatNode>& nodes, double transparency) {
+  if (transparency == 0) return;
+  const auto kept = static_cast<float>(1 - transparency);
+  for (DefraySplatNode& n : nodes) {
+    for (float* value : {&n.r, &n.g, &n.b, &n.a}) *value *= kept;
+  }
+}
+
+/// The sharp picture from a point of the lens, (u, v) in units of its radius.
+DefraySplatParams view_from(DefraySplatParams p, double u, double v) {
+  // coc = K (z - z0) / z with K = A F / (2 z0): the lens's radius is K z0 / F.
+  const double focal = p.focal_px;
+  const double scale_px = p.focus_is_infinite ? static_cast<double>(p.infinite_focus_scale)
+                                              : static_cast<double>(p.coc_scale_px) * p.focus_units;
+  const double right = u * scale_px / focal, down = v * scale_px / focal;
+  const auto moved = [&](float from, float along_right, float along_down) {
+    return static_cast<float>(from + right * along_right + down * along_down);
+  };
+  p.eye_x = moved(p.eye_x, p.right_x, p.down_x);
+  p.eye_y = moved(p.eye_y, p.right_y, p.down_y);
+  p.eye_z = moved(p.eye_z, p.right_z, p.down_z);
+  if (!p.focus_is_infinite) {
+    p.centre_x += static_cast<float>(right * focal / p.focus_units);
+    p.centre_y += static_cast<float>(down * focal / p.focus_units);
+  }
+  p.focus_is_infinite = 0;
+  p.coc_scale_px = 0;
+  return p;
+}
+
+}  // namespace
+
+SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySplatParams& params,
+                        bool lod, double transparency, SplatReport& report,
+                        const Progress& progress) {
+  Stopwatch watch;
+  const auto done = [&](const char* stage) { report.stages.push_back({stage, watch.lap()}); };
+  report.points = tree.points.size();
+  std::vector<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
+  make_transparent(nodes, transparency);
+  report.drawn = nodes.size();
+  done("cut");
+  std::vector<DefraySplat> splats = backend.splat_project(nodes, params);
+  done("project");
+  splats = in_order(splats);
+  describe(splats, params, report);
+  done("order");
+  SplatPlanes planes = backend.splat_resolve(splats, params, progress);
+  for (const float count : planes.fragments) report.fragments += static_cast<double>(count);
+  done("resolve");
+  return planes;
+}
+
+std::vector<Plane> mean_of_views(Backend& backend, const Hierarchy& tree,
+                                 const DefraySplatParams& params, int views,
+                                 const Progress& progress) {
+  std::vector<std::vector<double>> sums(
+      4, std::vector<double>(size(static_cast<int>(params.width)) * params.height));
+  const double golden = M_PI * (3 - std::sqrt(5.0));
+  for (int i = 0; i < views; ++i) {
+    const double radius = std::sqrt((i + 0.5) / views), angle = golden * i;
+    SplatReport ignored;
+    const DefraySplatParams view =
+        view_from(params, radius * std::cos(angle), radius * std::sin(angle));
+    const SplatPlanes planes = draw_splats(backend, tree, view, true, 0, ignored);
+    for (std::size_t c = 0; c < 4; ++c) {
+      for (std::size_t k = 0; k < sums[c].size(); ++k) {
+        sums[c][k] += static_cast<double>(planes.colour[c][k]);
+      }
+    }
+    if (progress) progress(static_cast<double>(i + 1) / views);
+  }
+  std::vector<Plane> mean;
+  for (const std::vector<double>& sum : sums) {
+    Plane& plane = mean.emplace_back();
+    for (const double value : sum) plane.push_back(static_cast<float>(value / views));
+  }
+  return mean;
+}
+
+}  // namespace defray

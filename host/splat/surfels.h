@@ -1,0 +1,24 @@
+#pragma once
+// Points made ready to be splatted: each stands for a piece of surface, with a normal, an area and
+// the width of its basis function.
+#include <string>
+#include <vector>
+
+#include "defray/splat.h"
+#include "kernels/params.h"
+
+namespace defray {
+
+struct Surfels {
+  std::vector<DefraySplatNode> points;
+  bool has_normals = false;  ///< Given, so that surfaces have an outside.
+  bool has_colours = false;
+  std::vector<std::string> notes;
+};
+
+/// Leaves out points without a finite place, estimates what the cloud does not say, and weighs the
+/// points so that their basis functions add up to 1 all over the surface (Krivanek & Zara 2003,
+/// section 6.3, but on the surface itself instead of in rendered images). Throws Error(input).
+Surfels make_surfels(const PointCloud& cloud, const Progress& progress = {});
+
+}  // namespace defray

@@ -1,0 +1,112 @@
+#include "splat/view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "lens/lens.h"
+
+namespace defray {
+namespace {
+
+constexpr int largest_side = 16384;
+
+Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+/// Unit axes of the picture.
+struct Axes {
+  Vec3 right, down, forward;
+};
+
+Axes axes_of(const CameraPose& pose) {
+  for (const auto* v : {&pose.from, &pose.look_at, &pose.up}) {
+    for (const double value : *v) {
+      if (!std::isfinite(value)) {
+        fail(ErrorKind::usage, "{}, {} and {} must be finite numbers", field("from"),
+             field("look_at"), field("up"));
+      }
+    }
+  }
+  const Vec3 towards = vec(pose.look_at) - vec(pose.from);
+  if (!(length(towards) > 0)) {
+    fail(ErrorKind::usage, "{} and {} are the same place: the camera looks nowhere", field("from"),
+         field("look_at"));
+  }
+  const Vec3 forward = normalized(towards), right = cross(forward, vec(pose.up));
+  if (!(length(right) > 1e-9 * length(vec(pose.up)))) {
+    fail(ErrorKind::usage, "{} is 0, or where the camera looks: it must lie beside that",
+         field("up"));
+  }
+  const Vec3 unit = normalized(right);
+  return {unit, cross(forward, unit), forward};
+}
+
+void put(const Vec3& v, float& x, float& y, float& z) {
+  x = static_cast<float>(v.x);
+  y = static_cast<float>(v.y);
+  z = static_cast<float>(v.z);
+}
+
+void put_lens(const Lens& lens, int width, DefraySplatParams& p) {
+  validate(lens);
+  if (lens.focus_end_units != 0) {
+    fail(ErrorKind::usage, "{}: splats have one plane of focus", field("focus_end_units"));
+  }
+  // The largest CoC that a kernel's numbers hold without loss; more has left every picture.
+  constexpr double most_px = 1 << 20;
+  p.focal_px = static_cast<float>(pixel_focal_length(lens, width));
+  p.near_units = static_cast<float>(lens.focal_length_mm / 1000 / lens.metres_per_unit);
+  p.focus_is_infinite = std::isinf(lens.focus_distance_units);
+  p.coc_scale_px = static_cast<float>(background_coc_px(lens, width));
+  p.focus_units = p.focus_is_infinite ? 0 : static_cast<float>(lens.focus_distance_units);
+  p.infinite_focus_scale = static_cast<float>(infinite_focus_scale(lens, width));
+  p.limit_px =
+      static_cast<float>(lens.max_coc_px > 0 ? std::min(lens.max_coc_px, most_px) : most_px);
+}
+
+}  // namespace
+
+void validate(const SplatSettings& s) {
+  if (s.width < 1 || s.height < 1 || s.width > largest_side || s.height > largest_side) {
+    fail(ErrorKind::usage, "a picture of {}x{} pixels: allowed are 1 to {} a side", s.width,
+         s.height, largest_side);
+  }
+  if (!(s.cutoff >= 1 && s.cutoff <= 8)) {
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 8", field("cutoff"), s.cutoff);
+  }
+  if (!(s.transparency >= 0 && s.transparency < 1)) {
+    fail(ErrorKind::usage, "{} is {}: allowed are 0 to below 1", field("transparency"),
+         s.transparency);
+  }
+}
+
+DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 3>& origin,
+                               const Lens& lens, const SplatSettings& settings) {
+  DefraySplatParams p{};
+  p.width = static_cast<std::uint32_t>(settings.width);
+  p.height = static_cast<std::uint32_t>(settings.height);
+  const Axes axes = axes_of(pose);
+  put(axes.right, p.right_x, p.right_y, p.right_z);
+  put(axes.down, p.down_x, p.down_y, p.down_z);
+  put(axes.forward, p.forward_x, p.forward_y, p.forward_z);
+  put(vec(pose.from) - vec(origin), p.eye_x, p.eye_y, p.eye_z);
+  p.centre_x = static_cast<float>(settings.width) / 2;
+  p.centre_y = static_cast<float>(settings.height) / 2;
+  put_lens(lens, settings.width, p);
+  p.cutoff = static_cast<float>(settings.cutoff);
+  const double edge = std::exp(-settings.cutoff);
+  p.edge = static_cast<float>(edge);
+  p.gaussian_share = static_cast<float>(1 - edge * (1 + settings.cutoff));
+  p.has_discs = settings.psf == SplatPsf::disc;
+  p.averages = settings.merge == SplatMerge::average;
+  return p;
+}
+
+double splat_coc_px(const DefraySplatParams& p, double z) {
+  const double radius = p.focus_is_infinite ? -static_cast<double>(p.infinite_focus_scale) / z
+                                            : static_cast<double>(p.coc_scale_px) *
+                                                  (z - static_cast<double>(p.focus_units)) / z;
+  return std::clamp(radius, -static_cast<double>(p.limit_px), static_cast<double>(p.limit_px));
+}
+
+}  // namespace defray

@@ -1,0 +1,20 @@
+#pragma once
+// The camera's place and the lens, as splats need them.
+#include "base/vec3.h"
+#include "defray/splat.h"
+#include "kernels/params.h"
+
+namespace defray {
+
+/// Throws Error(usage).
+void validate(const SplatSettings& settings);
+
+/// What the kernels are told, but for `count`. Throws Error(usage) for a camera that looks nowhere
+/// and for lenses that no splat can have.
+DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 3>& origin,
+                               const Lens& lens, const SplatSettings& settings);
+
+/// The kernel's formula, in double. Signed radius at planar depth z > 0, px.
+double splat_coc_px(const DefraySplatParams& params, double z);
+
+}  // namespace defray

@@ -1,0 +1,52 @@
+// The table's entries for point clouds.
+#include "reference/twin_backend.h"
+#include "splat/splats.h"
+#include "validation/kernel_checks.h"
+#include "validation/splat_input.h"
+#include "validation/work.h"
+
+namespace defray::validation {
+namespace {
+
+/// Each field as a plane: its values differ in size from the others'.
+Outcome run_project(Backend& backend, const Case& c, const Input&) {
+  constexpr float DefraySplat::*fields[] = {
+      &DefraySplat::x,        &DefraySplat::y,        &DefraySplat::conic_xx,
+      &DefraySplat::conic_xy, &DefraySplat::conic_yy, &DefraySplat::amplitude,
+      &DefraySplat::disc_px,  &DefraySplat::z,        &DefraySplat::z_near,
+      &DefraySplat::z_far,    &DefraySplat::r,        &DefraySplat::g,
+      &DefraySplat::b,        &DefraySplat::a};
+  Outcome v;
+  v.planes.resize(std::size(fields));
+  for (const DefraySplat& s : backend.splat_project(splat_nodes(c), splat_params(c))) {
+    for (std::size_t i = 0; i < std::size(fields); ++i) v.planes[i].push_back(s.*fields[i]);
+    v.integers.insert(v.integers.end(), {s.first_x, s.end_x, s.first_y, s.end_y});
+  }
+  return v;
+}
+
+Outcome run_resolve(Backend& backend, const Case& c, const Input&) {
+  const DefraySplatParams params = splat_params(c);
+  auto splats = in_order(reference::TwinBackend().splat_project(splat_nodes(c), params));
+  // A splat's pixels are those that it names, whatever its shape.
+  for (DefraySplat& s : splats) s.end_x -= c.seed % 2 && s.end_x - s.first_x > 2;
+  SplatPlanes planes = backend.splat_resolve(splats, params);
+  Outcome v{{}, std::move(planes.colour)};
+  v.planes.push_back(std::move(planes.depth));
+  v.planes.push_back(std::move(planes.fragments));
+  return v;
+}
+
+/// A list's entry is a splat in a tile.
+std::size_t resolve_memory(const Case& c, const Input&) {
+  return static_cast<std::size_t>(c.band_rows) * 64;
+}
+
+}  // namespace
+
+std::vector<KernelCheck> splat_checks() {
+  return {{"splat_project", bits_rule, run_project, pixels},
+          {"splat_resolve", bits_rule, run_resolve, splat_work, nullptr, nullptr, resolve_memory}};
+}
+
+}  // namespace defray::validation

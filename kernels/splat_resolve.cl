@@ -1,0 +1,139 @@
+// splat_resolve: splats, the nearest first -> pixels (Krivanek & Zara 2003, sections 6.3, 6.4).
+//
+// The paper keeps fragments in an A-buffer, merges those whose depth ranges overlap and composites
+// what is left from front to back. Splats come here in the order of where their ranges begin: one
+// that begins beyond all before it begins a surface, and every other belongs to the last. So one
+// surface at a time is all that a pixel keeps, whatever number of fragments it has.
+//
+// A surface's weights estimate how much of the pixel it covers; beyond 1 the nearest count, or, as
+// the paper has it (`averages`), all of them, divided by their sum.
+//
+// splats   [count]           in order; DEFRAY_SPLAT_TILE-tiles know theirs
+// first    [tile_count + 1]  where a tile's part of `list` begins
+// list     splats that meet the tile, in order
+// out0..3  [height][width]   premultiplied colour and alpha
+// depth    [height][width]   of the nearest fragment's splat, +inf where there is none
+// count    [height][width]   fragments, up to where nothing shines through any more
+// One work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
+// DEFRAY_SPLAT_TILE).
+#include "any.clh"
+#include "params.h"
+
+// What a run of pixels has come to: `light` has four channels.
+typedef struct {
+  float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
+  float16 sum0, sum1, sum2, sum3;                  // those before it
+  float16 far, depth;
+  int16 count, opaque;
+} SplatRun;
+
+// e^-power for 0 <= power < 80, within 10^-6 of itself: 2^whole times a polynomial (Cephes' exp2f).
+INLINED float16 falloff(const float16 power) {
+  const float16 exponent = power * -1.44269504f;
+  const int16 whole = convert_int16(exponent - 0.5f);
+  const float16 x = exponent - convert_float16(whole);  // -1/2 to 1/2
+  const float16 mantissa =
+      (((((1.53533619e-4f * x + 1.33988744e-3f) * x + 9.61843736e-3f) * x + 5.55033247e-2f) * x +
+        0.240226479f) *
+           x +
+       0.693147203f) *
+          x +
+      1.0f;
+  return mantissa * as_float16((whole + 127) << 23);
+}
+
+// Puts the surface behind those before it.
+INLINED void end_layer(SplatRun* r, const int16 where, const bool averages) {
+  const float16 left = 1.0f - r->sum3;
+  const float16 share = averages ? left / fmax(r->weight, 1.0f) : left;
+  r->sum0 = select(r->sum0, r->sum0 + share * r->layer0, where);
+  r->sum1 = select(r->sum1, r->sum1 + share * r->layer1, where);
+  r->sum2 = select(r->sum2, r->sum2 + share * r->layer2, where);
+  r->sum3 = select(r->sum3, r->sum3 + share * r->layer3, where);
+  const float16 none = 0.0f;
+  r->weight = select(r->weight, none, where);
+  r->layer0 = select(r->layer0, none, where);
+  r->layer1 = select(r->layer1, none, where);
+  r->layer2 = select(r->layer2, none, where);
+  r->layer3 = select(r->layer3, none, where);
+  r->opaque |= where & (1.0f - r->sum3 < DEFRAY_SPLAT_OPAQUE);
+}
+
+// A splat's weight in each pixel; 0 beyond its cut-off.
+INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float dy,
+                             const DefraySplatTileParams p) {
+  const float16 form =
+      s->conic_xx * dx * dx + 2.0f * (s->conic_xy * dx * dy) + s->conic_yy * dy * dy;
+  if (s->disc_px > 0.0f) {
+    return s->amplitude * clamp((1.0f - sqrt(fmax(form, 0.0f))) * s->disc_px + 0.5f, 0.0f, 1.0f);
+  }
+  const float16 inside = fmin(fmax(form, 0.0f), p.cutoff);
+  return select((float16)(0.0f), s->amplitude * fmax(falloff(inside) - p.edge, 0.0f),
+                form < p.cutoff);
+}
+
+INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
+                       const bool averages) {
+  const int16 hits = (weight > 0.0f) & ~r->opaque;
+  if (!any_lane(hits)) return;
+  const int16 begins = hits & (s->z_near > r->far);
+  if (any_lane(begins)) end_layer(r, begins, averages);
+  const int16 joins = hits & ~r->opaque;
+  // Only where it joins: 0 times what is not finite is not 0.
+  const float16 taken = averages ? weight : fmin(weight, 1.0f - r->weight);
+  r->weight = select(r->weight, r->weight + taken, joins);
+  r->layer0 = select(r->layer0, r->layer0 + taken * s->r, joins);
+  r->layer1 = select(r->layer1, r->layer1 + taken * s->g, joins);
+  r->layer2 = select(r->layer2, r->layer2 + taken * s->b, joins);
+  r->layer3 = select(r->layer3, r->layer3 + taken * s->a, joins);
+  r->far = select(r->far, fmax(r->far, s->z_far), joins);
+  r->depth = select(r->depth, fmin(r->depth, s->z), joins);
+  r->count -= joins;
+}
+
+__kernel void splat_resolve(const DefraySplatTileParams p, __global const DefraySplat* splats,
+                            __global const uint* first, __global const uint* list,
+                            __global float* out0, __global float* out1, __global float* out2,
+                            __global float* out3, __global float* depth, __global float* count) {
+  if (get_global_id(0) >= p.tile_count) return;
+  const uint tile = p.first_tile + (uint)get_global_id(0);
+  const uint x = tile % p.tiles_x * DEFRAY_SPLAT_TILE;
+  const uint y = tile / p.tiles_x * DEFRAY_SPLAT_TILE + (uint)get_global_id(1);
+  if (y >= p.height || get_global_id(1) >= DEFRAY_SPLAT_TILE) return;
+
+  SplatRun r;
+  r.weight = r.layer0 = r.layer1 = r.layer2 = r.layer3 = 0.0f;
+  r.sum0 = r.sum1 = r.sum2 = r.sum3 = 0.0f;
+  r.far = -INFINITY;
+  r.depth = INFINITY;
+  r.count = 0;
+  r.opaque = 0;
+  const int16 column = (int)x + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const float16 centres = convert_float16(column) + 0.5f;
+  for (uint i = first[get_global_id(0)]; i < first[get_global_id(0) + 1]; ++i) {
+    __global const DefraySplat* s = splats + list[i];
+    if ((int)y < s->first_y || (int)y >= s->end_y) continue;
+    const int16 inside = (column >= s->first_x) & (column < s->end_x);
+    const float16 weight = splat_weight(s, centres - s->x, (float)y + 0.5f - s->y, p);
+    add_splat(&r, s, select((float16)(0.0f), weight, inside), p.averages);
+    if (all_lanes(r.opaque)) break;
+  }
+  end_layer(&r, ~r.opaque, p.averages);
+
+  float made[6][DEFRAY_RUN];
+  vstore16(r.sum0, 0, made[0]);
+  vstore16(r.sum1, 0, made[1]);
+  vstore16(r.sum2, 0, made[2]);
+  vstore16(r.sum3, 0, made[3]);
+  vstore16(r.depth, 0, made[4]);
+  vstore16(convert_float16(r.count), 0, made[5]);
+  const size_t row = (size_t)y * p.width + x;
+  for (uint k = 0; k < min((uint)DEFRAY_RUN, p.width - x); ++k) {
+    out0[row + k] = made[0][k];
+    out1[row + k] = made[1][k];
+    out2[row + k] = made[2][k];
+    out3[row + k] = made[3][k];
+    depth[row + k] = made[4][k];
+    count[row + k] = made[5][k];
+  }
+}

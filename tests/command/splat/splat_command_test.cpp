@@ -1,0 +1,164 @@
+// defray splat: every option changes a picture, every mistake has its line.
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command/program.h"
+
+namespace defray::test::splat_command_test {
+namespace {
+
+using nlohmann::json;
+
+const std::string figure = "splat --model figure --model-points 2000 --size 64x64 ";
+const std::string wide_lens = "--aperture-diameter 3000 --focal-length 50 ";
+
+class SplatCommand : public testing::Test {
+ protected:
+  json render(const std::string& options, const std::string& output = "o.exr") const {
+    const Result result = defray(folder_, figure + "--json -o " + output + " " + options);
+    expect_ok(result);
+    return json::parse(result.out.substr(0, result.out.find('\n')));
+  }
+  std::uint64_t hash(const std::string& options) const {
+    render(options);
+    return file_hash(folder_ / "o.exr");
+  }
+  void refused(const std::string& arguments, int code,
+               const std::vector<std::string>& words) const {
+    expect_refusal(defray(folder_, arguments), code, words, arguments);
+  }
+  Folder folder_;
+};
+
+TEST_F(SplatCommand, EveryOptionChangesThePicture) {
+  const std::uint64_t plain = hash(wide_lens);
+  EXPECT_EQ(hash(wide_lens), plain);
+  for (const std::string option :
+       {"--lod off", "--cutoff 3", "--psf disc", "--merge average", "--two-sided",
+        "--transparency 0.5", "--focus 3", "--from 1,1,4", "--look-at 0.3,0,0", "--up 1,0,0",
+        "--fov 20", "--sensor-width 30", "--unit ft"}) {
+    EXPECT_NE(hash(wide_lens + option), plain) << option;
+  }
+  EXPECT_NE(hash("--fstop 0.05 --focal-length 50"), hash("--fstop 0.1 --focal-length 50"));
+  // What a point cloud has no other picture for.
+  EXPECT_EQ(hash(wide_lens + "--device reference"), plain);
+  EXPECT_EQ(hash(wide_lens + "--quiet"), plain);
+}
+
+TEST_F(SplatCommand, ChannelsAndFormats) {
+  render(wide_lens + "--depth --fragments");
+  const ImageFile file = ImageFile::read(folder_ / "o.exr");
+  EXPECT_EQ(file.parts().front().channels,
+            (std::vector<std::string>{"R", "G", "B", "A", "Z", "fragments"}));
+  const Plane alpha = file.plane(0, 3), depth = file.plane(0, 4), fragments = file.plane(0, 5);
+  for (std::size_t i = 0; i < alpha.size(); ++i) {
+    EXPECT_EQ(std::isinf(depth[i]), fragments[i] == 0);
+    EXPECT_LE(alpha[i], 1.0001f);
+    EXPECT_TRUE(alpha[i] == 0 || fragments[i] > 0);
+  }
+  for (const std::string output : {"o.png", "o.jpg", "o.tif"}) {
+    render(wide_lens, output);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / output)) << output;
+  }
+}
+
+TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
+  const json sharp = render("--aperture-diameter 0 --focal-length 50");
+  const json blurred = render(wide_lens);
+  EXPECT_EQ(sharp["points"], 2000);
+  EXPECT_LE(blurred["drawn"], sharp["drawn"]);
+  EXPECT_EQ(sharp["nearest_coc_px"], 0);
+  EXPECT_LT(blurred["nearest_coc_px"], -1);
+  EXPECT_GT(blurred["farthest_coc_px"], 1);
+  EXPECT_GT(blurred["fragments"], sharp["fragments"]);
+  // Focused on what is looked at.
+  const double z = sharp["from"][2].get<double>() - sharp["look_at"][2].get<double>();
+  EXPECT_NEAR(sharp["focus_distance_units"], z, 1e-6);
+  const Result text = defray(folder_, figure + "-o o.exr " + wide_lens);
+  expect_ok(text);
+  EXPECT_NE(text.out.find("2000 points drawn as "), std::string::npos) << text.out;
+  const Result away =
+      defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + wide_lens);
+  expect_ok(away);
+  EXPECT_NE(away.out.find("nothing of the cloud is in the picture"), std::string::npos);
+}
+
+TEST_F(SplatCommand, ATurn) {
+  const Result result = defray(folder_, figure + "--json --turntable 4 -o t.####.exr " + wide_lens);
+  expect_ok(result);
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 4);
+  EXPECT_EQ(file_hash(folder_ / "t.0001.exr"), hash(wide_lens));
+  EXPECT_NE(file_hash(folder_ / "t.0001.exr"), file_hash(folder_ / "t.0003.exr"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.0005.exr"));
+}
+
+TEST_F(SplatCommand, ACameraFileHasLensAndPose) {
+  std::ofstream(folder_ / "c.json")
+      << R"({"focal_length_mm": 50, "focus_distance_m": 4, "aperture_diameter_m": 3,
+             "from_m": [1, 1, 4], "look_at_m": [0, 0.2, 0], "up": [0, 1, 0.1]})";
+  EXPECT_EQ(hash("--camera c.json"),
+            hash(wide_lens + "--focus 4 --from 1,1,4 --look-at 0,0.2,0 --up 0,1,0.1"));
+  EXPECT_NE(hash("--camera c.json --from 1,1,5"), hash("--camera c.json"));
+  for (const auto& [text, words] :
+       {std::pair{R"({"from_m": [1, 1]})", "'from_m' is no list of three numbers"},
+        {R"({"from_m": [1, 1, 2]})", "has 'from_m' alone"},
+        {R"({"look_at_m": [1, 1, 2]})", "has 'look_at_m' alone"},
+        {R"({"up": [1, 1, 2]})", "has 'up' alone"}}) {
+    std::ofstream(folder_ / "b.json") << text;
+    refused(figure + "-o o.exr --camera b.json " + wide_lens, 3, {"b.json", words});
+  }
+}
+
+TEST_F(SplatCommand, FilesAreRead) {
+  std::ofstream points(folder_ / "p.xyz");
+  for (int i = 0; i < 400; ++i) points << i % 20 * 0.1 << ' ' << i / 20 * 0.1 << " 0\n";
+  points << "nan 0 0\n";
+  points.close();
+  const Result result = defray(folder_, "splat p.xyz -o o.exr --size 48x32 " + wide_lens);
+  expect_ok(result);
+  EXPECT_NE(result.err.find("1 of 401 points have no finite place"), std::string::npos);
+  const ImageFile file = ImageFile::read(folder_ / "o.exr");
+  EXPECT_GT(file.plane(0, 3)[16 * 48 + 24], 0.95f);
+  // Seen from behind, too: estimated normals have no outside.
+  expect_ok(defray(
+      folder_,
+      "splat p.xyz -o b.exr --size 48x32 --from 0.95,0.95,-5 --look-at 0.95,0.95,0 " + wide_lens));
+  EXPECT_GT(ImageFile::read(folder_ / "b.exr").plane(0, 3)[16 * 48 + 24], 0.95f);
+}
+
+TEST_F(SplatCommand, MistakesAreNamed) {
+  refused("splat -o o.exr " + wide_lens, 2, {"a point cloud is missing"});
+  refused("splat a.ply --model figure -o o.exr " + wide_lens, 2, {"--model", "stands instead"});
+  refused("splat a.ply --model-points 3 -o o.exr " + wide_lens, 2,
+          {"--model-points", "goes with --model"});
+  refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "No such file"});
+  refused("splat --model figur -o o.exr " + wide_lens, 2,
+          {"no model 'figur'", "Did you mean 'figure'?"});
+  refused(figure + "-o o.abc " + wide_lens, 2, {"o.abc"});
+  refused(figure + "-o none/o.exr " + wide_lens, 4, {"none"});
+  refused(figure + wide_lens, 2, {"--output is missing"});
+  refused(figure + "-o o.exr --focal-length 50", 2, {"--fstop"});
+  refused(figure + "-o o.exr --from 1,2 " + wide_lens, 2, {"--from '1,2'", "1,2.5,-3"});
+  refused(figure + "-o o.exr --from 1,2,x " + wide_lens, 2, {"--from '1,2,x'"});
+  refused(figure + "-o o.exr --from 1,1,1 --look-at 1,1,1 " + wide_lens, 2,
+          {"--from and --look-at are the same place"});
+  refused(figure + "-o o.exr --up 0,0,1 " + wide_lens, 2, {"--up is 0, or where the camera looks"});
+  refused("splat --model figure --size 3 -o o.exr " + wide_lens, 2, {"--size '3'", "1920x1080"});
+  refused("splat --model figure --size 0x4 -o o.exr " + wide_lens, 2, {"0x4", "1 to 16384"});
+  refused(figure + "-o o.exr --cutoff 9 " + wide_lens, 2, {"--cutoff is 9"});
+  refused(figure + "-o o.exr --transparency 1 " + wide_lens, 2, {"--transparency is 1"});
+  refused(figure + "-o o.exr --psf dics " + wide_lens, 2, {"--psf", "Did you mean 'disc'?"});
+  refused(figure + "-o o.exr --turntable 3 " + wide_lens, 2,
+          {"o.exr", "3 frames would go to one file"});
+  refused(figure + "-o o.####.exr --turntable -1 " + wide_lens, 2, {"--turntable is -1"});
+}
+
+TEST_F(SplatCommand, ADeadOutputStaysAsItWas) {
+  std::ofstream(folder_ / "o.exr") << "old";
+  refused(figure + "-o o.exr --cutoff 9 " + wide_lens, 2, {"--cutoff"});
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "o.exr"), 3u);
+}
+
+}  // namespace
+}  // namespace defray::test::splat_command_test

@@ -1,0 +1,127 @@
+// Points made ready: what is estimated, what is left out.
+#include "splat/surfels.h"
+
+#include <cmath>
+
+#include "base/random.h"
+#include "support.h"
+
+namespace defray::test::surfels_test {
+namespace {
+
+/// Points of a plane z = x / 2, 0.1 apart along x and y.
+PointCloud slope(int side) {
+  PointCloud cloud;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      cloud.positions.push_back({0.1f * float(i), 0.1f * float(j), 0.05f * float(i)});
+    }
+  }
+  return cloud;
+}
+
+const DefraySplatNode& middle(const Surfels& surfels) {
+  return surfels.points[surfels.points.size() / 2];
+}
+
+double area_of(const DefraySplatNode& n) { return std::hypot(n.area_x, n.area_y, n.area_z); }
+
+TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
+  const Surfels surfels = make_surfels(slope(21));
+  const DefraySplatNode& n = middle(surfels);
+  const double area =
+      0.01 * std::sqrt(1.25);  // 3 % more than that, so that sums are no less than 1
+  EXPECT_NEAR(area_of(n), 1.03 * area, 0.02 * area);
+  EXPECT_NEAR(std::abs(n.area_z) / area_of(n), 1 / std::sqrt(1.25), 1e-4);
+  EXPECT_NEAR(n.area_x / n.area_z, -0.5, 1e-4);
+  EXPECT_NEAR(n.variance, std::pow(0.8, 2) * area, 0.15 * area);
+  EXPECT_FALSE(surfels.has_normals);
+  EXPECT_FALSE(surfels.has_colours);
+  EXPECT_EQ(n.r, 0.5f);
+  EXPECT_EQ(n.a, 1);
+  EXPECT_TRUE(surfels.notes.empty());
+  // At the edge no more than half as much again: there is no surface beyond to cover.
+  EXPECT_LT(area_of(surfels.points[10]), 1.5 * area);
+}
+
+TEST(Surfels, WhatIsGivenIsTaken) {
+  PointCloud cloud = slope(9);
+  const std::size_t count = cloud.positions.size();
+  cloud.normals.assign(count, {0, 0, -7});
+  cloud.radii.assign(count, 0.3f);
+  cloud.colours.assign(count, {0.2f, 0.4f, 0.8f});
+  cloud.alpha.assign(count, 0.5f);
+  const Surfels surfels = make_surfels(cloud);
+  const DefraySplatNode& n = middle(surfels);
+  EXPECT_LT(n.area_z, 0);
+  EXPECT_EQ(n.area_x, 0);
+  EXPECT_FLOAT_EQ(n.variance, 0.24f * 0.24f);
+  EXPECT_FLOAT_EQ(n.r, 0.1f);
+  EXPECT_FLOAT_EQ(n.b, 0.4f);
+  EXPECT_EQ(n.a, 0.5f);
+  EXPECT_TRUE(surfels.has_normals);
+  EXPECT_TRUE(surfels.has_colours);
+}
+
+TEST(Surfels, NotesWhatItLeavesOutOrEstimates) {
+  PointCloud cloud = slope(9);
+  const std::size_t count = cloud.positions.size();
+  cloud.positions[3][1] = NAN;
+  cloud.positions[5][0] = INFINITY;
+  cloud.normals.assign(count, {0, 0, 1});
+  cloud.normals[10] = {0, 0, 0};
+  cloud.normals[11] = {NAN, 0, 0};
+  cloud.radii.assign(count, 0.1f);
+  cloud.radii[20] = 0;
+  cloud.radii[21] = -1;
+  cloud.radii[22] = NAN;
+  const Surfels surfels = make_surfels(cloud);
+  EXPECT_EQ(surfels.points.size(), count - 2);
+  ASSERT_EQ(surfels.notes.size(), 3u);
+  EXPECT_EQ(surfels.notes[0], "2 of 81 points have no finite place: left out");
+  EXPECT_EQ(surfels.notes[1], "3 points have no radius above 0: estimated from those around");
+  EXPECT_EQ(surfels.notes[2], "2 points have no normal: estimated from those around");
+  for (const DefraySplatNode& n : surfels.points) EXPECT_GT(area_of(n), 0);
+}
+
+TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
+  PointCloud cloud = slope(9);
+  for (int i = 0; i < 40; ++i) cloud.positions.push_back({0.4f, 0.4f, 0.2f});
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    EXPECT_TRUE(std::isfinite(area_of(n)));
+    EXPECT_GT(n.variance, 0);
+  }
+}
+
+TEST(Surfels, WhatItRefuses) {
+  const auto refused = [](const PointCloud& cloud, ErrorKind kind, const std::string& words) {
+    try {
+      make_surfels(cloud);
+      ADD_FAILURE() << words;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), kind);
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  refused({}, ErrorKind::input, "no points");
+  PointCloud nowhere = slope(1);
+  nowhere.positions[0][2] = NAN;
+  refused(nowhere, ErrorKind::input, "no points with a finite place");
+  refused(slope(1), ErrorKind::input, "give them a radius");
+  PointCloud sized = slope(1);
+  sized.radii = {1};
+  EXPECT_EQ(make_surfels(sized).points.size(), 1u);
+  PointCloud odd = slope(3);
+  odd.normals.resize(8);
+  refused(odd, ErrorKind::usage, "normals has 8 values: the cloud has 9 points");
+  PointCloud coloured = slope(2);
+  coloured.colours.assign(4, {0, 0, 0});
+  coloured.colours[2][1] = INFINITY;
+  refused(coloured, ErrorKind::input, "point 2 has the colour 0 inf 0");
+  PointCloud clear = slope(2);
+  clear.alpha = {1, 1, 1, 1.5f};
+  refused(clear, ErrorKind::input, "point 3 has alpha 1.5");
+}
+
+}  // namespace
+}  // namespace defray::test::surfels_test

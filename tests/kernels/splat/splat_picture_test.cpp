@@ -1,0 +1,195 @@
+// Point clouds through the lens, whole: coverage, occlusion, the mean of views, levels of detail.
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "measure/metrics.h"
+#include "splat_support.h"
+
+namespace defray::test::splat_picture_test {
+namespace {
+
+double mean_over(const Plane& plane, int side, int x0, int x1, int y0, int y1) {
+  double sum = 0;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) sum += plane[size(y * side + x)];
+  }
+  return sum / ((x1 - x0) * (y1 - y0));
+}
+
+/// The least and the largest value of a square about the middle.
+std::pair<float, float> range_inside(const Plane& plane, int side, int half) {
+  float least = 1e9f, most = -1e9f;
+  for (int y = side / 2 - half; y < side / 2 + half; ++y) {
+    for (int x = side / 2 - half; x < side / 2 + half; ++x) {
+      least = std::min(least, plane[size(y * side + x)]);
+      most = std::max(most, plane[size(y * side + x)]);
+    }
+  }
+  return {least, most};
+}
+
+/// The built-in figure in white.
+PointCloud white_figure() {
+  PointCloud cloud = make_point_cloud("figure", is_slow_device() ? 3000 : 20000);
+  for (auto& colour : cloud.colours) colour = {1, 1, 1};
+  return cloud;
+}
+
+TEST(SplatPicture, AClosedSurfaceCoversItsInsideAtEveryApertureAndCutOff) {
+  const Hierarchy tree = tree_of(white_figure());
+  for (const double aperture : {0.0, 100.0, 400.0, 1200.0}) {
+    for (const double cutoff : {2.0, 2.5, 3.0}) {
+      for (const SplatPsf psf : {SplatPsf::gaussian, SplatPsf::disc}) {
+        SplatSettings settings;
+        settings.cutoff = cutoff;
+        settings.psf = psf;
+        const DefraySplatParams p = view_of(160, 4, aperture, settings);
+        const auto [least, most] = range_inside(draw(tree, p).colour[3], 160, 12);
+        EXPECT_GE(least, 0.99f) << aperture << " mm, c " << cutoff << ", psf " << int(psf);
+        EXPECT_LE(most, 1.01f) << aperture << " mm, c " << cutoff << ", psf " << int(psf);
+      }
+    }
+  }
+}
+
+TEST(SplatPicture, IrregularPointsCoverTheirSurface) {
+  // Random places on a wall: what weighing is for.
+  PointCloud cloud = wall(100, 1, 0, {1, 1, 1});
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    Random random(static_cast<int>(i), 0, 3);
+    cloud.positions[i][0] += static_cast<float>(0.02 * (random.next() - 0.5));
+    cloud.positions[i][1] += static_cast<float>(0.02 * (random.next() - 0.5));
+  }
+  const DefraySplatParams p = view_of(128, 4, 0);
+  const auto [least, most] = range_inside(draw(tree_of(cloud), p).colour[3], 128, 30);
+  EXPECT_GE(least, 0.92f);
+  EXPECT_LE(most, 1.0001f);
+}
+
+TEST(SplatPicture, AFlatPlaneIsTheMeanOfViews) {
+  SKIP_UNLESS_FULL();
+  const Hierarchy tree = tree_of(make_point_cloud("plane", 65536));
+  for (const auto& [aperture, gaussian_db, disc_db] :
+       {std::tuple{100.0, 43.0, 44.0}, {300.0, 40.5, 44.0}}) {
+    const DefraySplatParams p = view_of(256, 3.2, aperture);
+    const std::vector<Plane> views = mean_of_views(device(), tree, p, 200);
+    EXPECT_GT(compare(draw(tree, p).colour, views, 256).psnr_srgb_db, gaussian_db) << aperture;
+    SplatSettings discs;
+    discs.psf = SplatPsf::disc;
+    EXPECT_GT(
+        compare(draw(tree, view_of(256, 3.2, aperture, discs)).colour, views, 256).psnr_srgb_db,
+        disc_db)
+        << aperture;
+  }
+}
+
+TEST(SplatPicture, LevelsOfDetailShowWhatPointsShow) {
+  for (const std::string name : {"plane", "figure"}) {
+    const Hierarchy tree = tree_of(make_point_cloud(name, is_slow_device() ? 2000 : 30000));
+    for (const double aperture : {0.0, 200.0, 800.0}) {
+      const DefraySplatParams p = view_of(128, 3.2, aperture);
+      SplatReport with, without;
+      const SplatPlanes a = draw_splats(device(), tree, p, true, 0, with);
+      const SplatPlanes b = draw_splats(device(), tree, p, false, 0, without);
+      EXPECT_LT(with.drawn, without.drawn) << name << ", " << aperture;
+      EXPECT_GT(compare(a.colour, b.colour, 128).psnr_srgb_db, 38) << name << ", " << aperture;
+    }
+  }
+}
+
+TEST(SplatPicture, ASharpObjectBeforeABlurredOneKeepsItsEdge) {
+  // A black square in focus before a white wall far behind.
+  PointCloud cloud = both(wall(80, 0.4, 0, {0, 0, 0}), wall(160, 6, -6, {1, 1, 1}));
+  const Hierarchy tree = tree_of(cloud);
+  const int side = 128;
+  const Plane red = draw(tree, view_of(side, 4, 200)).colour[0];
+  const double focal = side * 50.0 / 36;
+  const int edge = static_cast<int>(side / 2 + focal * 0.4 / 4);
+  // The edge is as sharp as the prefilter, and nothing of the wall is on the square.
+  EXPECT_LT(mean_over(red, side, edge - 8, edge - 4, 60, 68), 0.01);
+  EXPECT_GT(mean_over(red, side, edge + 4, edge + 8, 60, 68), 0.97);
+}
+
+TEST(SplatPicture, ABlurredMaskBeforeASharpBodyShowsItThroughItsHole) {
+  // A near black wall with a hole as wide as its blur; behind it a white wall in focus. Truth: the
+  // share of the lens that the hole leaves open, from each pixel.
+  PointCloud mask = wall(160, 0.6, 2, {0, 0, 0}), body = wall(120, 1.5, 0, {1, 1, 1});
+  PointCloud pierced;
+  const double hole = 0.15;
+  for (std::size_t i = 0; i < mask.positions.size(); ++i) {
+    if (std::hypot(mask.positions[i][0], mask.positions[i][1]) < hole) continue;
+    pierced.positions.push_back(mask.positions[i]);
+    pierced.normals.push_back(mask.normals[i]);
+    pierced.colours.push_back(mask.colours[i]);
+    pierced.alpha.push_back(1);
+  }
+  const Hierarchy tree = tree_of(both(pierced, body));
+  const int side = 160;
+  SplatSettings settings;
+  settings.psf = SplatPsf::disc;
+  const double aperture_mm = 400;
+  const Plane red = draw(tree, view_of(side, 4, aperture_mm, settings)).colour[0];
+  double worst = 0;
+  for (int x = side / 2; x < side / 2 + 24; ++x) {
+    // The ray from lens point (u, v) to the body's point X at z = 4 crosses the mask, half way, at
+    // (u + X) / 2.
+    const double body_x = (x + 0.5 - side / 2.0) / (side * 50.0 / 36) * 4;
+    int open = 0, all = 0;
+    for (int j = 0; j < 100; ++j) {
+      for (int i = 0; i < 100; ++i) {
+        const double u = (2 * (i + 0.5) / 100 - 1), v = (2 * (j + 0.5) / 100 - 1);
+        if (u * u + v * v > 1) continue;
+        const double radius = aperture_mm / 2000;
+        ++all;
+        open += std::hypot((radius * u + body_x) / 2, radius * v / 2) < hole;
+      }
+    }
+    const double seen = red[size(side / 2 * side + x)];
+    worst = std::max(worst, std::abs(seen - double(open) / all));
+  }
+  EXPECT_LT(worst, 0.06);
+}
+
+TEST(SplatPicture, TransparencyIsWhatPointsLetThrough) {
+  const Hierarchy tree = tree_of(wall(80, 1, 0, {1, 1, 1}));
+  const DefraySplatParams p = view_of(96, 4, 0);
+  SplatReport ignored;
+  const Plane alpha = draw_splats(device(), tree, p, true, 0.3, ignored).colour[3];
+  EXPECT_NEAR(mean_over(alpha, 96, 40, 56, 40, 56), 0.7, 0.005);
+}
+
+TEST(SplatPicture, NearestMergesCrossingSurfacesBetterThanTheAverage) {
+  SKIP_UNLESS_FULL();
+  const Hierarchy tree = tree_of(make_point_cloud("crossing", 40000));
+  double better = 0;
+  for (const double aperture : {0.0, 300.0}) {
+    const std::vector<Plane> views =
+        mean_of_views(device(), tree, view_of(200, 3.6, aperture), 100);
+    SplatSettings average;
+    average.merge = SplatMerge::average;
+    const auto psnr = [&](const SplatSettings& s) {
+      return compare(draw(tree, view_of(200, 3.6, aperture, s)).colour, views, 200).rms;
+    };
+    better += psnr(average) - psnr({});
+  }
+  EXPECT_GT(better, 0);
+}
+
+TEST(SplatPicture, SameBitsForEveryWorkGroupAndByTheTwins) {
+  const Hierarchy tree = tree_of(make_point_cloud("mask", is_slow_device() ? 500 : 6000));
+  const DefraySplatParams p = view_of(is_slow_device() ? 40 : 100, 12, 300);
+  SplatReport ignored;
+  const auto twin = draw_splats(twins(), tree, p, true, 0, ignored);
+  const auto own = draw(tree, p);
+  EXPECT_EQ(hash_of(own.colour), hash_of(twin.colour));
+  EXPECT_EQ(own.depth, twin.depth);
+  for (const auto& [x, y] : {std::pair{1, 1}, {3, 5}, {8, 2}}) {
+    session().set_work_group(size(x), size(y));
+    EXPECT_EQ(hash_of(draw(tree, p).colour), hash_of(twin.colour)) << x << "x" << y;
+  }
+  session().set_work_group(0, 0);
+}
+
+}  // namespace
+}  // namespace defray::test::splat_picture_test

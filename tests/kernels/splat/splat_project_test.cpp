@@ -1,0 +1,173 @@
+// Kernel splat_project: what its splats must be, from geometry.
+#include <cmath>
+
+#include "base/random.h"
+#include "splat_support.h"
+
+namespace defray::test::splat_project_test {
+namespace {
+
+/// A surfel of a cloud, area and variance given.
+DefraySplatNode surfel(double x, double y, double z, std::array<double, 3> area, double variance) {
+  DefraySplatNode n{};
+  n.x = static_cast<float>(x);
+  n.y = static_cast<float>(y);
+  n.z = static_cast<float>(z);
+  n.area_x = static_cast<float>(area[0]);
+  n.area_y = static_cast<float>(area[1]);
+  n.area_z = static_cast<float>(area[2]);
+  n.variance = static_cast<float>(variance);
+  n.r = n.g = n.b = n.a = 1;
+  return n;
+}
+
+/// The variance that a splat's conic stands for; discs have a quarter of their square radius.
+std::array<double, 3> variance_of(const DefraySplat& s) {
+  const double form = s.disc_px > 0 ? 0.25 : 0.5;
+  const double determinant = double{s.conic_xx} * s.conic_yy - double{s.conic_xy} * s.conic_xy;
+  return {form * s.conic_yy / determinant, -form * s.conic_xy / determinant,
+          form * s.conic_xx / determinant};
+}
+
+DefraySplat project(const DefraySplatNode& node, const DefraySplatParams& p) {
+  const auto splats = device().splat_project({node}, p);
+  EXPECT_EQ(splats.size(), 1u);
+  return splats.front();
+}
+
+bool is_culled(const DefraySplat& s) { return s.first_x == s.end_x && s.first_y == s.end_y; }
+
+TEST(SplatProject, ASharpSplatIsItsSurfelAndAPixel) {
+  const DefraySplatParams p = view_of(256, 4, 0);
+  // Focal length 50 of 36 mm on 256 px; a piece of 0.1 x 0.1 turned by 60 degrees about y.
+  const double focal = 256 * 50.0 / 36, slant = std::cos(M_PI / 3);
+  const DefraySplat s =
+      project(surfel(0.3, -0.2, 0, {0.01 * std::sin(M_PI / 3), 0, 0.01 * slant}, 0.0036), p);
+  EXPECT_NEAR(s.x, 128 + focal * 0.3 / 4, 1e-3);
+  EXPECT_NEAR(s.y, 128 + focal * 0.2 / 4, 1e-3);
+  EXPECT_NEAR(s.z, 4, 1e-6);
+  // The piece in the picture, by its corners: tangents (cos, 0, -sin) and (0, 1, 0).
+  const auto place = [&](double a, double b) {
+    const double x = 0.3 + a * slant, y = -0.2 + b, z = 4 + a * std::sin(M_PI / 3);
+    return std::array<double, 2>{focal * x / z, -focal * y / z};
+  };
+  constexpr double step = 1e-4;
+  const auto a0 = place(-step, 0), a1 = place(step, 0), b0 = place(0, -step), b1 = place(0, step);
+  const double j[4] = {(a1[0] - a0[0]) / (2 * step), (b1[0] - b0[0]) / (2 * step),
+                       (a1[1] - a0[1]) / (2 * step), (b1[1] - b0[1]) / (2 * step)};
+  const auto w = variance_of(s);
+  EXPECT_NEAR(w[0], 0.0036 * (j[0] * j[0] + j[1] * j[1]) + 1, 2e-3);
+  EXPECT_NEAR(w[1], 0.0036 * (j[0] * j[2] + j[1] * j[3]), 2e-3);
+  EXPECT_NEAR(w[2], 0.0036 * (j[2] * j[2] + j[3] * j[3]) + 1, 2e-3);
+  // And it holds as much of the picture as the piece covers.
+  const double covered = 0.01 * std::abs(j[0] * j[3] - j[1] * j[2]);
+  const double root = std::sqrt(w[0] * w[2] - w[1] * w[1]);
+  EXPECT_NEAR(s.amplitude * 2 * M_PI * root * (1 - 3.5 * std::exp(-2.5)), covered, 1e-3 * covered);
+}
+
+TEST(SplatProject, BlurIsTheGaussianNearestToTheDisc) {
+  for (const double z : {2.0, 8.0}) {
+    const DefraySplatParams p = view_of(256, 4, 100);
+    const double coc = splat_coc_px(p, z);
+    EXPECT_NEAR(coc, 0.5 * 0.1 * (256 * 50.0 / 36) * (z - 4) / (4 * z), 1e-4);
+    const auto w = variance_of(project(surfel(0, 0, 4 - z, {0, 0, 1e-6}, 1e-9), p));
+    EXPECT_NEAR(w[0], coc * coc / (2 * std::log(4)) + 1, 1e-3 * w[0]);
+    EXPECT_NEAR(w[1], 0, 1e-4);
+  }
+}
+
+TEST(SplatProject, TheBlurOfFocusAtInfinity) {
+  DefraySplatParams p = view_of(256, 4, 100);
+  p.focus_is_infinite = 1;
+  p.infinite_focus_scale = 20;
+  EXPECT_DOUBLE_EQ(splat_coc_px(p, 5), -4);
+  const auto w = variance_of(project(surfel(0, 0, -1, {0, 0, 1e-6}, 1e-9), p));
+  EXPECT_NEAR(w[0], 16 / (2 * std::log(4)) + 1, 1e-3);
+}
+
+TEST(SplatProject, DiscsHaveTheirRadiusWhereBlurIsMostOfThem) {
+  SplatSettings settings;
+  settings.psf = SplatPsf::disc;
+  const DefraySplatParams p = view_of(256, 4, 300, settings);
+  const double coc = std::abs(splat_coc_px(p, 2));
+  ASSERT_GT(coc, 8);
+  const DefraySplat s = project(surfel(0, 0, 2, {0, 0, 1e-6}, 1e-9), p);
+  // Its own pixel widens it: the square of a radius 2 more in all.
+  EXPECT_NEAR(s.disc_px * s.disc_px, coc * coc + 4, 1e-3 * coc * coc);
+  EXPECT_EQ(project(surfel(0, 0, 0.1, {0, 0, 1e-6}, 1e-9), p).disc_px, 0);  // nearly in focus
+}
+
+/// An ellipse x^T V^-1 x = 1 holds another, touching it, or not.
+bool holds(const std::array<double, 3>& outer, const std::array<double, 3>& inner) {
+  // outer - inner has no eigenvalue below 0.
+  const double a = outer[0] - inner[0], b = outer[1] - inner[1], c = outer[2] - inner[2];
+  const double least = 0.5 * (a + c) - std::hypot(0.5 * (a - c), b);
+  return least >= -1e-4 * (outer[0] + outer[2]);
+}
+
+double area_of(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[2] - v[1] * v[1]); }
+
+TEST(SplatProject, CircumellipseIsTheSmallestAroundLowPassAndBlur) {
+  // A flat low-pass at the axis: its variance in the picture is scale^2 times its own.
+  const DefraySplatParams p = view_of(256, 4, 100);
+  const double scale = 256 * 50.0 / 36 / 2,
+               blur = std::pow(splat_coc_px(p, 2), 2) / (2 * std::log(4));
+  for (int i = 0; i < 200; ++i) {
+    Random random(i, 0, 7);
+    const double longer = 3 * blur * random.next(), shorter = longer * random.next();
+    const double turn = M_PI * random.next(), c = std::cos(turn), s = std::sin(turn);
+    const std::array<double, 3> low{longer * c * c + shorter * s * s, (longer - shorter) * c * s,
+                                    longer * s * s + shorter * c * c};
+    DefraySplatNode node = surfel(0, 0, 2, {0, 0, 1e-6}, 1e-12);
+    node.low_xx = static_cast<float>(low[0] / scale / scale);
+    node.low_xy = static_cast<float>(-low[1] / scale / scale);  // y points up in the scene
+    node.low_yy = static_cast<float>(low[2] / scale / scale);
+    std::array<double, 3> made = variance_of(project(node, p));
+    made[0] -= 1;
+    made[2] -= 1;
+    EXPECT_TRUE(holds(made, low)) << i;
+    EXPECT_TRUE(holds(made, {blur, 0, blur})) << i;
+    // Turned and squeezed a little, none that holds both is smaller.
+    for (int k = 0; k < 50; ++k) {
+      const double a = M_PI * random.next(), ca = std::cos(a), sa = std::sin(a);
+      const double p1 = 4 * blur * random.next(), p2 = 4 * blur * random.next();
+      const std::array<double, 3> other{p1 * ca * ca + p2 * sa * sa, (p1 - p2) * ca * sa,
+                                        p1 * sa * sa + p2 * ca * ca};
+      const auto strictly = [&](const std::array<double, 3>& inner) {
+        return holds(other, {inner[0] * 1.001, inner[1] * 1.001, inner[2] * 1.001});
+      };
+      if (strictly(low) && strictly({blur, 0, blur})) {
+        EXPECT_GE(area_of(other), area_of(made) * 0.999) << i;
+      }
+    }
+  }
+}
+
+TEST(SplatProject, WhatIsCulled) {
+  DefraySplatParams p = view_of(64, 4, 100);
+  const std::array<double, 3> facing{0, 0, 0.01}, away{0, 0, -0.01};
+  EXPECT_FALSE(is_culled(project(surfel(0, 0, 0, facing, 1e-4), p)));
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 0, away, 1e-4), p)));
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 0, {0.01, 0, 0}, 1e-4), p))) << "edge on";
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 0, {0, 0, 0}, 1e-4), p)));
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 4, facing, 1e-4), p))) << "in the camera";
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 5, facing, 1e-4), p))) << "behind it";
+  EXPECT_TRUE(is_culled(project(surfel(0, 0, 3.9, facing, 0.01), p))) << "reaches into it";
+  EXPECT_TRUE(is_culled(project(surfel(9, 0, 0, facing, 1e-4), p))) << "beside the picture";
+  p.one_sided = 0;
+  EXPECT_FALSE(is_culled(project(surfel(0, 0, 0, away, 1e-4), p)));
+}
+
+TEST(SplatProject, AHeadlightShadesBySlant) {
+  DefraySplatParams p = view_of(64, 4, 0);
+  p.has_headlight = 1;
+  EXPECT_NEAR(project(surfel(0, 0, 0, {0, 0, 0.01}, 1e-4), p).r, 1, 1e-5);
+  const double slanted = 1.0 / 3 + 2.0 / 3 * std::cos(M_PI / 3);
+  const DefraySplat s =
+      project(surfel(0, 0, 0, {0.01 * std::sin(M_PI / 3), 0, 0.01 * std::cos(M_PI / 3)}, 1e-4), p);
+  EXPECT_NEAR(s.g, slanted, 1e-5);
+  EXPECT_EQ(s.a, 1);
+}
+
+}  // namespace
+}  // namespace defray::test::splat_project_test

@@ -1,0 +1,177 @@
+// Kernel splat_resolve: splats to pixels, layer by layer.
+#include <cmath>
+
+#include "base/random.h"
+#include "splat_support.h"
+
+namespace defray::test::splat_resolve_test {
+namespace {
+
+DefraySplatParams picture(int width, int height, bool averages = false) {
+  DefraySplatParams p{};
+  p.width = word(width);
+  p.height = word(height);
+  p.cutoff = 2.5f;
+  p.averages = averages;
+  return p;
+}
+
+/// A wide Gaussian about a pixel's centre, so that its weight there is `weight`.
+DefraySplat splat_at(int x, int y, float weight, float z, float half_depth, float colour,
+                     float alpha = 1) {
+  DefraySplat s{};
+  s.x = static_cast<float>(x) + 0.5f;
+  s.y = static_cast<float>(y) + 0.5f;
+  s.conic_xx = s.conic_yy = 0.5f;
+  s.amplitude = weight;
+  s.z = z;
+  s.z_near = z - half_depth;
+  s.z_far = z + half_depth;
+  s.first_x = x;
+  s.end_x = x + 1;
+  s.first_y = y;
+  s.end_y = y + 1;
+  s.r = s.g = s.b = colour * alpha;
+  s.a = alpha;
+  return s;
+}
+
+/// Red and alpha of pixel (1, 1).
+std::array<float, 2> resolved(const std::vector<DefraySplat>& splats, bool averages = false) {
+  const SplatPlanes planes = device().splat_resolve(in_order(splats), picture(3, 3, averages));
+  return {planes.colour[0][4], planes.colour[3][4]};
+}
+
+TEST(SplatResolve, FragmentsOfOneSurfaceAddUp) {
+  const auto [red, alpha] =
+      resolved({splat_at(1, 1, 0.5f, 3, 0.1f, 1), splat_at(1, 1, 0.25f, 3.1f, 0.1f, 0)});
+  EXPECT_FLOAT_EQ(red, 0.5f);
+  EXPECT_FLOAT_EQ(alpha, 0.75f);
+}
+
+TEST(SplatResolve, WhatLiesBehindShowsThroughWhatIsLeft) {
+  const std::vector<DefraySplat> splats{splat_at(1, 1, 0.5f, 5, 0.1f, 0.8f),
+                                        splat_at(1, 1, 0.5f, 3, 0.1f, 0.2f),
+                                        splat_at(1, 1, 0.25f, 3, 0.1f, 0.2f)};
+  const auto [red, alpha] = resolved(splats);
+  EXPECT_FLOAT_EQ(red, 0.75f * 0.2f + 0.25f * 0.5f * 0.8f);
+  EXPECT_FLOAT_EQ(alpha, 0.75f + 0.25f * 0.5f);
+  // Their order in the list does not matter.
+  EXPECT_EQ(resolved({splats[2], splats[0], splats[1]}), resolved(splats));
+}
+
+TEST(SplatResolve, RangesThatMeetAreOneSurfaceEvenIfTheirEndsDoNot) {
+  // 3 +- 0.5, 3.8 +- 0.5, 4.6 +- 0.5: the first and the last meet through the second.
+  const auto [red, alpha] =
+      resolved({splat_at(1, 1, 0.4f, 3, 0.5f, 1), splat_at(1, 1, 0.4f, 3.8f, 0.5f, 1),
+                splat_at(1, 1, 0.2f, 4.6f, 0.5f, 0)});
+  EXPECT_FLOAT_EQ(red, 0.8f);
+  EXPECT_FLOAT_EQ(alpha, 1);
+}
+
+TEST(SplatResolve, MoreThanAWholeIsTheNearestOrTheAverage) {
+  const std::vector<DefraySplat> splats{splat_at(1, 1, 0.75f, 3, 0.2f, 1),
+                                        splat_at(1, 1, 0.75f, 3.1f, 0.2f, 0)};
+  EXPECT_FLOAT_EQ(resolved(splats)[0], 0.75f);
+  EXPECT_FLOAT_EQ(resolved(splats)[1], 1);
+  EXPECT_FLOAT_EQ(resolved(splats, true)[0], 0.5f);
+  EXPECT_FLOAT_EQ(resolved(splats, true)[1], 1);
+}
+
+TEST(SplatResolve, TransparentSurfacesLetThrough) {
+  const auto [red, alpha] =
+      resolved({splat_at(1, 1, 1, 3, 0.1f, 0.5f, 0.25f), splat_at(1, 1, 1, 5, 0.1f, 1)});
+  EXPECT_FLOAT_EQ(red, 0.25f * 0.5f + 0.75f);
+  EXPECT_FLOAT_EQ(alpha, 1);
+}
+
+TEST(SplatResolve, DepthIsTheNearestFragmentsAndFragmentsAreCounted) {
+  const std::vector<DefraySplat> splats{
+      splat_at(1, 1, 0.5f, 4, 2, 1), splat_at(1, 1, 0.4f, 3, 0.1f, 1),
+      splat_at(1, 1, 1, 9, 0.1f, 1), splat_at(1, 1, 1, 11, 0.1f, 1)};
+  const SplatPlanes planes = device().splat_resolve(in_order(splats), picture(3, 3));
+  EXPECT_EQ(planes.depth[4], 3);
+  EXPECT_EQ(planes.fragments[4], 3) << "nothing shows through the third";
+  EXPECT_EQ(planes.depth[0], INFINITY);
+  EXPECT_EQ(planes.fragments[0], 0);
+  EXPECT_EQ(planes.colour[3][0], 0);
+}
+
+TEST(SplatResolve, GaussiansAreExponentialsToTheirCutOff) {
+  DefraySplat s = splat_at(20, 0, 1, 3, 0.1f, 1);
+  s.conic_xx = s.conic_yy = 0.01f;
+  s.first_x = 0;
+  s.end_x = 41;
+  const SplatPlanes planes = device().splat_resolve({s}, picture(41, 1));
+  for (int x = 0; x < 41; ++x) {
+    const double form = 0.01 * (x - 20) * (x - 20);
+    const double exact = form < 2.5 ? std::exp(-form) : 0;
+    // Roundings of the exponent, up to 3.6, and of the polynomial's last three terms.
+    EXPECT_NEAR(planes.colour[0][size(x)], exact, exact * 1e-6) << x;
+  }
+}
+
+TEST(SplatResolve, DiscsAreEvenAndHoldTheirLight) {
+  DefraySplat s = splat_at(20, 20, 1, 3, 0.1f, 1);
+  constexpr float radius = 9.3f;
+  s.conic_xx = s.conic_yy = 1 / (radius * radius);
+  s.disc_px = radius;
+  s.amplitude = 0.5f;
+  s.first_x = s.first_y = 0;
+  s.end_x = s.end_y = 41;
+  const SplatPlanes planes = device().splat_resolve({s}, picture(41, 41));
+  double sum = 0;
+  for (const float value : planes.colour[0]) sum += value;
+  EXPECT_NEAR(sum / (0.5 * M_PI * (radius * radius + 1.0 / 12)), 1, 2e-3);
+  EXPECT_EQ(planes.colour[0][20 * 41 + 20], 0.5f);
+  EXPECT_EQ(planes.colour[0][20 * 41 + 28], 0.5f);
+  EXPECT_EQ(planes.colour[0][20 * 41 + 30], 0);
+}
+
+/// Splats of all sizes over a picture of this size.
+std::vector<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
+  std::vector<DefraySplatNode> nodes;
+  for (int i = 0; i < count; ++i) {
+    Random random(i, 5, seed);
+    DefraySplatNode n{};
+    const double z = 1 + 3 * random.next();
+    n.x = static_cast<float>(z * (random.next() - 0.5));
+    n.y = static_cast<float>(z * (random.next() - 0.5));
+    n.z = static_cast<float>(4 - z);
+    n.area_z = static_cast<float>(0.002 * random.next());
+    n.variance = n.area_z;
+    n.r = static_cast<float>(random.next());
+    n.a = 1;
+    nodes.push_back(n);
+  }
+  DefraySplatParams p = view_of(std::max(size.width, size.height), 4, 40);
+  p.width = word(size.width);
+  p.height = word(size.height);
+  return in_order(twins().splat_project(nodes, p));
+}
+
+TEST(SplatResolve, EqualsTwinAtAwkwardSizesAndInGroupsOfTiles) {
+  for (const Size size : awkward_sizes()) {
+    if (is_slow_device() && size.width > 64) continue;
+    const auto splats = random_splats(size, is_slow_device() ? 60 : 600, 3);
+    const DefraySplatParams p = picture(size.width, size.height);
+    const SplatPlanes twin = twins().splat_resolve(splats, p),
+                      own = device().splat_resolve(splats, p);
+    EXPECT_EQ(hash_of(own.colour), hash_of(twin.colour)) << size.width << "x" << size.height;
+    EXPECT_EQ(own.depth, twin.depth);
+    EXPECT_EQ(own.fragments, twin.fragments);
+    const InBands bands(session(), 256);  // a tile's list at a time
+    const SplatPlanes in_groups = device().splat_resolve(splats, p);
+    EXPECT_EQ(hash_of(in_groups.colour), hash_of(twin.colour)) << size.width << "x" << size.height;
+  }
+}
+
+TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
+  const SplatPlanes planes = device().splat_resolve({}, picture(5, 3));
+  EXPECT_EQ(planes.colour[3], Plane(15, 0.0f));
+  EXPECT_EQ(planes.depth, Plane(15, INFINITY));
+  EXPECT_TRUE(device().splat_project({}, picture(5, 3)).empty());
+}
+
+}  // namespace
+}  // namespace defray::test::splat_resolve_test

@@ -1,0 +1,62 @@
+#pragma once
+// What tests of point clouds share.
+#include <cmath>
+
+#include "splat/hierarchy.h"
+#include "splat/splat_picture.h"
+#include "splat/surfels.h"
+#include "splat/view.h"
+#include "support.h"
+
+namespace defray::test {
+
+/// A square camera on the z axis, which looks at the origin and is focused on it.
+inline DefraySplatParams view_of(int side, double distance, double aperture_mm,
+                                 const SplatSettings& given = {}) {
+  CameraPose pose;
+  pose.from = {0, 0, distance};
+  Lens lens;
+  lens.aperture_diameter_mm = aperture_mm;
+  lens.focus_distance_units = distance;
+  SplatSettings settings = given;
+  settings.width = settings.height = side;
+  DefraySplatParams p = splat_params(pose, {}, lens, settings);
+  p.one_sided = 1;
+  return p;
+}
+
+inline Hierarchy tree_of(const PointCloud& cloud, bool one_sided = true) {
+  return build_hierarchy(make_surfels(cloud).points, one_sided);
+}
+
+/// A square grid that faces the camera, of one colour; `half` is half its side.
+inline PointCloud wall(int side, double half, double z, const std::array<float, 3>& colour,
+                       float alpha = 1) {
+  PointCloud cloud;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      cloud.positions.push_back({static_cast<float>(half * (2 * (i + 0.5) / side - 1)),
+                                 static_cast<float>(half * (2 * (j + 0.5) / side - 1)),
+                                 static_cast<float>(z)});
+      cloud.normals.push_back({0, 0, 1});
+      cloud.colours.push_back(colour);
+      cloud.alpha.push_back(alpha);
+    }
+  }
+  return cloud;
+}
+
+inline PointCloud both(PointCloud a, const PointCloud& b) {
+  a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+  a.colours.insert(a.colours.end(), b.colours.begin(), b.colours.end());
+  a.alpha.insert(a.alpha.end(), b.alpha.begin(), b.alpha.end());
+  return a;
+}
+
+inline SplatPlanes draw(const Hierarchy& tree, const DefraySplatParams& p, bool lod = true) {
+  SplatReport ignored;
+  return draw_splats(device(), tree, p, lod, 0, ignored);
+}
+
+}  // namespace defray::test
