@@ -1,123 +1,77 @@
 // Krivanek & Zara 2003, table 1 and figure 6: time and error of point clouds against aperture, with
 // and without levels of detail, beside the mean of 200 sharp views.
-#include <cmath>
+#include <algorithm>
 
-#include "base/error.h"
 #include "experiments.h"
 #include "measure/metrics.h"
-#include "splat/hierarchy.h"
-#include "splat/splat_picture.h"
-#include "splat/surfels.h"
-#include "splat/view.h"
+#include "splat_shots.h"
+#include "tables.h"
 
 namespace defray::perf {
 namespace {
 
 constexpr int views = 200;
 
-/// A model before the camera, and lenses that blur it as the paper's did: fragments a splat.
-struct Shot {
-  std::string name;
-  double distance;                   ///< Scene units, along z.
+/// The paper's models, and lenses that blur them at least as its own did (fragments a splat); what
+/// it says of the largest: time over the sharp picture's, without levels of detail over with, views
+/// over that.
+struct Row {
+  const char* model;
   std::vector<double> apertures_mm;  ///< 0 first.
+  const char *sharp, *points, *views;
 };
 
-const std::vector<Shot>& shots() {
-  static const std::vector<Shot> all{{"plane", 3.2, {0, 225, 900}},
-                                     {"figure", 3.2, {0, 300, 1200}}};
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all{{"plane", {0, 225, 900}, "0.99", "26.9", "196"},
+                                    {"figure", {0, 300, 1200}, "1.30", "15.9", "148"},
+                                    {"crossing", {0, 300}, "", "", ""}};
   return all;
 }
 
-struct Model {
-  Shot shot;
-  Hierarchy tree;
-  std::size_t side;  ///< Of the picture, px.
+/// All that is drawn through one aperture.
+struct Pictures {
+  SplatRun lod, points, discs, averaged;
+  std::vector<Plane> truth;
+  double truth_s = 0;
 };
 
-Model make_model(const Bench& bench, const Shot& shot) {
-  PointCloud cloud = make_point_cloud(shot.name, bench.is_quick ? 10000 : 0);
-  return {shot, build_hierarchy(make_surfels(cloud).points, true), size(bench.size(512))};
-}
-
-DefraySplatParams params_of(const Model& model, double aperture_mm, SplatMerge merge,
-                            SplatPsf psf = SplatPsf::gaussian) {
-  CameraPose pose;
-  pose.from = {0, 0, model.shot.distance};
-  Lens lens;
-  lens.aperture_diameter_mm = aperture_mm;
-  lens.focus_distance_units = model.shot.distance;
-  SplatSettings settings;
-  settings.width = settings.height = static_cast<int>(model.side);
-  settings.merge = merge;
-  settings.psf = psf;
-  DefraySplatParams p = splat_params(pose, {}, lens, settings);
-  p.one_sided = 1;
+Pictures draw(const Bench& bench, const SplatShot& shot, double aperture_mm) {
+  const auto view = [&](const SplatSettings& settings) {
+    return splat_view(shot, bench.size(512), bench.size(512), aperture_mm, settings);
+  };
+  SplatSettings discs, averaged;
+  discs.psf = SplatPsf::disc;
+  averaged.merge = SplatMerge::average;
+  Pictures p;
+  p.truth_s =
+      seconds_of([&] { p.truth = mean_of_views(bench.backend, shot.tree, view({}), views); });
+  p.lod = run_splats(bench, shot, view({}), true);
+  p.points = run_splats(bench, shot, view({}), false);
+  p.discs = run_splats(bench, shot, view(discs), true);
+  p.averaged = run_splats(bench, shot, view(averaged), true);
   return p;
 }
 
-/// One way of drawing, measured.
-struct Row {
-  SplatReport report;
-  Timing timing;
-  std::vector<Plane> picture;
-};
-
-/// Throws Error(internal) where a picture is not that of the run before.
-Row measure(const Bench& bench, const Model& model, const DefraySplatParams& params, bool lod) {
-  Row row;
-  bool repeats = true;
-  row.timing = time_of(bench.repetitions(), [&] {
-    row.report = {};
-    SplatPlanes planes = draw_splats(bench.backend, model.tree, params, lod, 0, row.report);
-    repeats = repeats && (row.picture.empty() || row.picture == planes.colour);
-    row.picture = std::move(planes.colour);
-  });
-  if (!repeats) fail(ErrorKind::internal, "a timed picture differs from run to run");
-  return row;
+void add_row(const Bench& bench, const SplatShot& shot, double aperture_mm, const Pictures& p,
+             Table& table) {
+  const auto psnr = [&](const SplatRun& run) {
+    return fixed(compare(run.picture, p.truth, bench.size(512)).psnr_srgb_db);
+  };
+  const auto count = [](const SplatRun& run) {
+    return fmt::format("{:.1f}M, {}k", run.report.fragments / 1e6, run.report.drawn / 1000);
+  };
+  table.rows.push_back({shot.name, fixed(aperture_mm, 0), to_text(p.lod.timing), count(p.lod),
+                        to_text(p.points.timing), count(p.points), fixed(p.truth_s, 1) + " s",
+                        psnr(p.lod), psnr(p.points), psnr(p.discs), psnr(p.averaged)});
 }
 
-std::string psnr(const std::vector<Plane>& a, const std::vector<Plane>& b, std::size_t side) {
-  return fixed(compare(a, b, static_cast<int>(side)).psnr_srgb_db);
-}
-
-/// What the findings are about, of one model.
-struct Ratios {
-  double sharp_s = 0, lod_s = 0, points_s = 0, views_s = 0;
-};
-
-Ratios add_rows(const Bench& bench, const Model& model, Table& table, Section& section) {
-  Ratios r;
-  for (const double aperture : model.shot.apertures_mm) {
-    bench.step(fmt::format("{}, aperture {} mm", model.shot.name, aperture));
-    const DefraySplatParams params = params_of(model, aperture, SplatMerge::nearest);
-    std::vector<Plane> truth;
-    const double truth_s =
-        seconds_of([&] { truth = mean_of_views(bench.backend, model.tree, params, views); });
-    const std::vector<Plane> average =
-        measure(bench, model, params_of(model, aperture, SplatMerge::average), true).picture;
-    const Row discs = measure(
-        bench, model, params_of(model, aperture, SplatMerge::nearest, SplatPsf::disc), true);
-    for (const bool lod : {true, false}) {
-      const Row row = measure(bench, model, params, lod);
-      table.rows.push_back({model.shot.name, fixed(aperture, 0), lod ? "on" : "off",
-                            fmt::format("{:.0f}", row.report.fragments / 1000),
-                            std::to_string(row.report.drawn), to_text(row.timing),
-                            psnr(row.picture, truth, model.side),
-                            lod ? psnr(average, truth, model.side) : "",
-                            lod ? psnr(discs.picture, truth, model.side) : "",
-                            lod ? to_text(discs.timing) : "", fixed(truth_s)});
-      (lod ? r.lod_s : r.points_s) = row.timing.median_s;
-      if (aperture == 0 && lod) r.sharp_s = row.timing.median_s;
-      r.views_s = truth_s;
-      if (!lod || aperture == 0) continue;
-      const std::string name = fmt::format("splat_{}_{:.0f}", model.shot.name, aperture);
-      section.figures.push_back(sheet(
-          bench, name, fmt::format("{}, {:.0f} mm: splats, 200 views", model.shot.name, aperture),
-          {{"splats", &row.picture}, {"discs", &discs.picture}, {"200 views", &truth}}, static_cast<int>(model.side),
-          static_cast<int>(model.side)));
-    }
-  }
-  return r;
+std::string finding(const Row& row, const Pictures& sharp, const Pictures& blurred) {
+  const double lod = blurred.lod.timing.median_s;
+  return fmt::format(
+      "{}, largest aperture: {:.2f} times the sharp picture's time (the paper {}); every point by "
+      "itself takes {:.1f} times as long ({}), {} views {:.0f} times ({}).",
+      row.model, lod / sharp.lod.timing.median_s, row.sharp, blurred.points.timing.median_s / lod,
+      row.points, views, blurred.truth_s / lod, row.views);
 }
 
 }  // namespace
@@ -133,20 +87,32 @@ Section splat_table1(const Bench& bench) {
   Table table{"splat_table1",
               fmt::format("{0}x{0}, c = 2.5; PSNR against {1} views, dB, sRGB-encoded",
                           bench.size(512), views),
-              {"model", "aperture, mm", "LOD", "fragments, 1000", "splats", "time", "PSNR",
-               "PSNR, averaged", "PSNR, discs", "time, discs", "200 views, s"},
+              {"model", "aperture, mm", "time", "fragments, splats", "LOD off", "fragments, splats",
+               "200 views", "PSNR", "LOD off", "discs", "averaged"},
               {}};
-  for (const Shot& shot : shots()) {
-    const Ratios r = add_rows(bench, make_model(bench, shot), table, section);
-    section.findings.push_back(fmt::format(
-        "{}, largest aperture: {:.2f} times the sharp picture's time (paper {}); without levels of "
-        "detail {:.1f} times as long (paper {}); 200 views {:.0f} times as long (paper {}).",
-        shot.name, r.lod_s / r.sharp_s, shot.name == "plane" ? "0.99" : "1.30",
-        r.points_s / r.lod_s, shot.name == "plane" ? "26.9" : "15.9", r.views_s / r.lod_s,
-        shot.name == "plane" ? "196" : "148"));
+  for (const Row& row : rows()) {
+    const SplatShot shot = make_splat_shot(row.model, 3.2, bench.is_quick ? 10000 : 0);
+    std::vector<Pictures> all;
+    for (const double aperture : row.apertures_mm) {
+      bench.step(fmt::format("{}, aperture {} mm", row.model, aperture));
+      const Pictures& p = all.emplace_back(draw(bench, shot, aperture));
+      add_row(bench, shot, aperture, p, table);
+      if (aperture == 0) continue;
+      section.figures.push_back(
+          sheet(bench, fmt::format("splat_{}_{:.0f}", row.model, aperture),
+                fmt::format("{}, {:.0f} mm: splats, discs, {} views", row.model, aperture, views),
+                {{"splats", &p.lod.picture}, {"discs", &p.discs.picture}, {"views", &p.truth}},
+                bench.size(512), bench.size(512)));
+    }
+    if (*row.sharp) section.findings.push_back(finding(row, all.front(), all.back()));
   }
   section.tables.push_back(table);
   return section;
+}
+
+Figures measure_splats(TableBench& b) {
+  const Section section = experiments().at("splat-table1").run(b.bench());
+  return {section.tables[0], section.findings};
 }
 
 }  // namespace defray::perf

@@ -17,6 +17,8 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"left", {"what is left of the error", measure_left}},
       {"motion", {"error of the change from frame to frame", measure_motion}},
       {"roofline", {"kernels beside the machine's memory and arithmetic", measure_roofline}},
+      {"splats", {"point clouds: time and error by aperture", measure_splats}},
+      {"splat-speed", {"point clouds: time by points and pixels", measure_splat_speed}},
       {"papers", {"the papers' claims beside our figures", measure_papers}},
       {"arithmetic", {"relaxed builds of the kernels", measure_arithmetic}},
       {"validate", {"kernels against twins on every device", measure_validation}},

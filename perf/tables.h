@@ -35,16 +35,18 @@ struct Figures {
   std::vector<std::string> notes;
 };
 
-Figures measure_accuracy(TableBench& bench);    ///< All methods, built-in plate1 and given scenes.
-Figures measure_methods(TableBench& bench);     ///< All methods on three built-in scenes.
-Figures measure_stages(TableBench& bench);      ///< Gain and cost of each stage of the RDB.
-Figures measure_left(TableBench& bench);        ///< What is left of the default's error.
-Figures measure_motion(TableBench& bench);      ///< From frame to frame.
-Figures measure_roofline(TableBench& bench);    ///< Kernels beside the machine's limits.
-Figures measure_papers(TableBench& bench);      ///< The papers' claims beside our figures.
-Figures measure_arithmetic(TableBench& bench);  ///< Other builds of the kernels.
-Figures measure_validation(TableBench& bench);  ///< Kernels against twins, on every device.
-Figures measure_speed(TableBench& bench);       ///< Rays a second, by the benchmark beside us.
+Figures measure_accuracy(TableBench& bench);     ///< All methods, built-in plate1 and given scenes.
+Figures measure_methods(TableBench& bench);      ///< All methods on three built-in scenes.
+Figures measure_stages(TableBench& bench);       ///< Gain and cost of each stage of the RDB.
+Figures measure_left(TableBench& bench);         ///< What is left of the default's error.
+Figures measure_motion(TableBench& bench);       ///< From frame to frame.
+Figures measure_roofline(TableBench& bench);     ///< Kernels beside the machine's limits.
+Figures measure_splats(TableBench& bench);       ///< Point clouds: time and error by aperture.
+Figures measure_splat_speed(TableBench& bench);  ///< The same: time by points and pixels.
+Figures measure_papers(TableBench& bench);       ///< The papers' claims beside our figures.
+Figures measure_arithmetic(TableBench& bench);   ///< Other builds of the kernels.
+Figures measure_validation(TableBench& bench);   ///< Kernels against twins, on every device.
+Figures measure_speed(TableBench& bench);        ///< Rays a second, by the benchmark beside us.
 
 struct ReadmeTable {
   std::string about;

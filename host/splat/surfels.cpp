@@ -24,7 +24,7 @@ constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
 constexpr double deviation = 0.8;
 /// Steps in which weights are found, and where around a point sums are looked at: as far as this
 /// along two axes, in distances of points.
-constexpr int weighing_steps = 8;
+constexpr int weighing_steps = 4;
 constexpr double look_at = 0.5;
 /// Sums should be no less than 1, where what is behind would shine through; what is more does not
 /// count (SplatMerge).

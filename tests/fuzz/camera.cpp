@@ -13,5 +13,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CameraValues values = parse_camera_json(text, "camera.json", setting, 0.01);
     fuzz::require(!(values.fstop && values.aperture_diameter_mm));
   });
+  fuzz::run_parser([&] { parse_camera_pose(text, "camera.json", 0.01); });
   return 0;
 }

@@ -10,10 +10,8 @@ int main(int count, char** names) try {
   picture.colour = {in.colour[0], in.colour[1], in.colour[2]};
   picture.depth = in.depth;
   defray::Lens lens{.focal_length_mm = 50, .aperture_diameter_mm = 35, .focus_distance_units = 1.2};
-  defray::Options options;
-  options.chain->aperture.blades = 6;
   auto device = defray::Device::open();
-  const auto result = defray::render(device, picture, lens, options);
+  const auto result = defray::render(device, picture, lens);
   std::printf("CoC from %.1f px on\n", result.report.nearest_coc_px);
   file.write(names[2], result.colour);
 } catch (const defray::Error& error) {

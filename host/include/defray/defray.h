@@ -8,6 +8,7 @@
 #include "defray/lens.h"     // IWYU pragma: export
 #include "defray/options.h"  // IWYU pragma: export
 #include "defray/report.h"   // IWYU pragma: export
+#include "defray/splat.h"    // IWYU pragma: export
 
 namespace defray {
 

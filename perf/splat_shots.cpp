@@ -1,0 +1,66 @@
+#include "splat_shots.h"
+
+#include "base/error.h"
+#include "splat/surfels.h"
+#include "splat/view.h"
+#include "tables.h"
+
+namespace defray::perf {
+
+SplatShot make_splat_shot(const std::string& name, double distance, std::size_t points) {
+  return {name, distance,
+          build_hierarchy(make_surfels(make_point_cloud(name, points)).points, true)};
+}
+
+DefraySplatParams splat_view(const SplatShot& shot, int width, int height, double aperture_mm,
+                             const SplatSettings& settings) {
+  CameraPose pose;
+  pose.from = {0, 0, shot.distance};
+  Lens lens;
+  lens.aperture_diameter_mm = aperture_mm;
+  lens.focus_distance_units = shot.distance;
+  SplatSettings sized = settings;
+  sized.width = width;
+  sized.height = height;
+  DefraySplatParams p = splat_params(pose, {}, lens, sized);
+  p.one_sided = 1;
+  return p;
+}
+
+SplatRun run_splats(const Bench& bench, const SplatShot& shot, const DefraySplatParams& view,
+                    bool lod) {
+  SplatRun run;
+  bool repeats = true;
+  run.timing = time_of(bench.repetitions(), [&] {
+    run.report = {};
+    SplatPlanes planes = draw_splats(bench.backend, shot.tree, view, lod, 0, run.report);
+    repeats = repeats && (run.picture.empty() || run.picture == planes.colour);
+    run.picture = std::move(planes.colour);
+  });
+  if (!repeats) fail(ErrorKind::internal, "a timed picture differs from run to run");
+  return run;
+}
+
+Figures measure_splat_speed(TableBench& b) {
+  const Bench& bench = b.bench();
+  Table table{"", "", {"points", "512×512, sharp", "500 mm", "1920×1080, sharp", "500 mm"}, {}};
+  for (const std::size_t points : {81458, 1000000, 10000000}) {
+    if (bench.is_quick && points > 100000) continue;
+    const SplatShot shot = make_splat_shot("figure", 3.2, points);
+    std::vector<std::string> row{std::to_string(points)};
+    for (const auto& [width, height] : {std::pair{512, 512}, {1920, 1080}}) {
+      for (const double aperture : {0.0, 500.0}) {
+        const DefraySplatParams view =
+            splat_view(shot, bench.size(width), bench.size(height), aperture);
+        const SplatRun run = run_splats(bench, shot, view, true);
+        row.push_back(fmt::format("{} ({:.0f}k splats, {:.1f}M fragments)", to_text(run.timing),
+                                  static_cast<double>(run.report.drawn) / 1e3,
+                                  run.report.fragments / 1e6));
+      }
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return {table, {}};
+}
+
+}  // namespace defray::perf
