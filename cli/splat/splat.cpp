@@ -1,6 +1,6 @@
 // defray splat: a point cloud through the lens.
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -19,6 +19,8 @@
 
 namespace defray::cli {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr const char* footer =
     R"(Lens, focus and units are those of 'defray render': focus and places in scene units (--unit says what
@@ -166,7 +168,7 @@ void check(const SplatCommand& job) {
     fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", job.output,
          job.turntable);
   }
-  lens_of(job, 1);
+  lens_of(job, infinity);  // what is looked at is not known yet
 }
 
 int run(const SplatCommand& job) {
@@ -178,7 +180,7 @@ int run(const SplatCommand& job) {
     return SplatModel(cloud_of(job), [&](double share) { bar.update(0, share); });
   }();
   for (const std::string& note : model.notes()) fmt::print(stderr, "defray: note: {}\n", note);
-  const CameraPose start = pose_of(job, model, lens_of(job, 1));
+  const CameraPose start = pose_of(job, model, lens_of(job, infinity));
   const double distance = length(vec(start.look_at) - vec(start.from));
   const Lens lens = lens_of(job, distance > 0 ? distance : 1);
   const int frames = std::max(1, job.turntable);

@@ -54,7 +54,7 @@ cmake --build user/build --parallel 2 >build.log || { cat build.log; complain "f
 [ "$(pkg-config --modversion defray)" = 0.1.0 ] || complain "pkg-config has another version"
 
 defray scene fence -o scene --width 96 --height 64 --truth-samples 1 >scene.log
-defray render scene/pinhole.exr -o cli.exr --focus 1.2 --aperture-diameter 35 --focal-length 50 --blades 6 -q
+defray render scene/pinhole.exr -o cli.exr --focus 1.2 --aperture-diameter 35 --focal-length 50 -q
 user/build/example scene/pinhole.exr cmake.exr
 ./with_pkg_config scene/pinhole.exr pkg_config.exr
 same cmake.exr cli.exr

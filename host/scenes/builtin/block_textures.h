@@ -1,7 +1,7 @@
 #pragma once
 // What the faces of blocks look like.
-#include "scenes/builtin/block_world.h"
 #include "base/vec3.h"
+#include "scenes/builtin/block_world.h"
 
 namespace defray {
 
