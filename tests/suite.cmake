@@ -67,7 +67,7 @@ set_property(TEST rusticl_1 rusticl_2 APPEND PROPERTY ENVIRONMENT "RUSTICL_ENABL
              "DEFRAY_TEST_DEVICE=llvmpipe")
 
 # Under Oclgrind those whose frames lead kernels where validate's random ones hardly do.
-set(drawn "Extreme*:Fill.*:Mixed.*:Nearest.OnlyOnDemand:Repair.Sharp*:Soften.*:Split.*:Stages.*")
+set(drawn "Extreme*:Fill.*:Mixed.*:Nearest.OnlyOnDemand:Repair.Sharp*:Soften.*:SplatProject.*:SplatResolve.*:Split.*:Stages.*")
 add_check(oclgrind 60 full bash ${here}/oclgrind.sh $<TARGET_FILE:kernels_tests> "${drawn}")
 add_check(oclgrind_races 10 full oclgrind $<TARGET_FILE:faults_tests> --gtest_filter=*Races*)
 # Nothing run, or skipped, is "PASSED 0 tests" and exit code 0.

@@ -31,7 +31,7 @@ std::pair<float, float> range_inside(const Plane& plane, int side, int half) {
 
 /// The built-in figure in white.
 PointCloud white_figure() {
-  PointCloud cloud = make_point_cloud("figure", is_slow_device() ? 3000 : 20000);
+  PointCloud cloud = make_point_cloud("figure", 20000);
   for (auto& colour : cloud.colours) colour = {1, 1, 1};
   return cloud;
 }
@@ -86,7 +86,7 @@ TEST(SplatPicture, AFlatPlaneIsTheMeanOfViews) {
 
 TEST(SplatPicture, LevelsOfDetailShowWhatPointsShow) {
   for (const std::string name : {"plane", "figure"}) {
-    const Hierarchy tree = tree_of(make_point_cloud(name, is_slow_device() ? 2000 : 30000));
+    const Hierarchy tree = tree_of(make_point_cloud(name, 30000));
     for (const double aperture : {0.0, 200.0, 800.0}) {
       const DefraySplatParams p = view_of(128, 3.2, aperture);
       SplatReport with, without;
@@ -177,8 +177,8 @@ TEST(SplatPicture, NearestMergesCrossingSurfacesBetterThanTheAverage) {
 }
 
 TEST(SplatPicture, SameBitsForEveryWorkGroupAndByTheTwins) {
-  const Hierarchy tree = tree_of(make_point_cloud("mask", is_slow_device() ? 500 : 6000));
-  const DefraySplatParams p = view_of(is_slow_device() ? 40 : 100, 12, 300);
+  const Hierarchy tree = tree_of(make_point_cloud("mask", 6000));
+  const DefraySplatParams p = view_of(100, 12, 300);
   SplatReport ignored;
   const auto twin = draw_splats(twins(), tree, p, true, 0, ignored);
   const auto own = draw(tree, p);
