@@ -49,14 +49,16 @@ Figures measure_motion(TableBench& b) {
 
 Figures measure_roofline(TableBench& b) {
   const Section section = experiments().at("roofline").run(b.bench());
-  Table table{"", "", {"kernel", "fence bg", "spheres f2"}, {}};
-  std::map<std::string, std::array<std::string, 2>> cells;
-  for (std::size_t scene = 0; scene < 2; ++scene) {
+  Table table{"", "", {"kernel", "fence bg", "spheres f2", "points, 512×512"}, {}};
+  std::map<std::string, std::array<std::string, 3>> cells;
+  for (std::size_t scene = 0; scene < section.tables.size(); ++scene) {
     for (const auto& row : section.tables[scene].rows) {
       cells[row[0]][scene] = fmt::format("{} (× {})", row[1], row[4]);
     }
   }
-  for (const auto& [kernel, of] : cells) table.rows.push_back({"`" + kernel + "`", of[0], of[1]});
+  for (const auto& [kernel, of] : cells) {
+    table.rows.push_back({"`" + kernel + "`", of[0], of[1], of[2]});
+  }
   return {table, section.findings};
 }
 

@@ -131,6 +131,32 @@ void check_methods(Device& device) {
   expect(defray::to_string(options.method) == std::string("tiltshift"), "methods have names");
 }
 
+void check_splats(Device& device) {
+  const defray::SplatModel model(defray::make_point_cloud("figure", 500));
+  expect(model.points() == 500 && model.notes().empty(), "all points have a place");
+  defray::SplatSettings settings;
+  settings.width = 40;
+  settings.height = 30;
+  defray::Lens lens = wide_open();
+  const defray::CameraPose pose = defray::framing_pose(model, lens, settings);
+  lens.focus_distance_units = pose.from[2];
+  double share = 0;
+  const auto result =
+      defray::splat(device, model, pose, lens, settings, [&](double done) { share = done; });
+  expect(share == 1, "progress of splats ends at 1");
+  expect(result.colour.size() == 4 && result.colour[3].size() == 1200, "splats make four planes");
+  expect(result.colour[3][15 * 40 + 20] > 0.9f, "the model is in the middle");
+  expect(result.report.points == 500 && result.report.seen > 0, "splats are counted");
+  Device reference = Device::reference();
+  expect(defray::splat(reference, model, pose, lens, settings).colour == result.colour,
+         "the reference's splats have the same bits");
+  expect_error(ErrorKind::input, "the cloud has no points", [] { defray::SplatModel({}); });
+  expect_error(ErrorKind::usage, "cutoff is 0", [&] {
+    settings.cutoff = 0;
+    defray::splat(device, model, pose, lens, settings);
+  });
+}
+
 void check_inputs(Device& device) {
   Scene scene;
   const auto colour = [&](const defray::Options& options) {
@@ -250,6 +276,7 @@ int main(int, char** arguments) try {
   check_methods(device);
   check_inputs(device);
   check_messages(device);
+  check_splats(device);
   check_files(device, arguments[1], arguments[2]);
   return failures > 0;
 } catch (const defray::Error& error) {

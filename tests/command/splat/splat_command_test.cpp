@@ -154,6 +154,13 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused(figure + "-o o.####.exr --turntable -1 " + wide_lens, 2, {"--turntable is -1"});
 }
 
+TEST_F(SplatCommand, WithoutAScreenThereIsNothingToShow) {
+  const Result result =
+      defray(folder_, figure + "-o o.png --show " + wide_lens, "env -u DISPLAY -u WAYLAND_DISPLAY");
+  expect_ok(result);
+  EXPECT_NE(result.err.find("--show skipped"), std::string::npos) << result.err;
+}
+
 TEST_F(SplatCommand, ADeadOutputStaysAsItWas) {
   std::ofstream(folder_ / "o.exr") << "old";
   refused(figure + "-o o.exr --cutoff 9 " + wide_lens, 2, {"--cutoff"});
