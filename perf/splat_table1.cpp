@@ -15,16 +15,16 @@ constexpr int views = 200;
 /// The paper's models, and lenses that blur them at least as its own did (fragments a splat); what
 /// it says of the largest: time over the sharp picture's, without levels of detail over with, views
 /// over that.
-struct Row {
+struct PaperRow {
   const char* model;
   std::vector<double> apertures_mm;  ///< 0 first.
   const char *sharp, *points, *views;
 };
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all{{"plane", {0, 225, 900}, "0.99", "26.9", "196"},
-                                    {"figure", {0, 300, 1200}, "1.30", "15.9", "148"},
-                                    {"crossing", {0, 300}, "", "", ""}};
+const std::vector<PaperRow>& rows() {
+  static const std::vector<PaperRow> all{{"plane", {0, 225, 900}, "0.99", "26.9", "196"},
+                                         {"figure", {0, 300, 1200}, "1.30", "15.9", "148"},
+                                         {"crossing", {0, 300}, "", "", ""}};
   return all;
 }
 
@@ -65,7 +65,7 @@ void add_row(const Bench& bench, const SplatShot& shot, double aperture_mm, cons
                         psnr(p.lod), psnr(p.points), psnr(p.discs), psnr(p.averaged)});
 }
 
-std::string finding(const Row& row, const Pictures& sharp, const Pictures& blurred) {
+std::string finding(const PaperRow& row, const Pictures& sharp, const Pictures& blurred) {
   const double lod = blurred.lod.timing.median_s;
   return fmt::format(
       "{}, largest aperture: {:.2f} times the sharp picture's time (the paper {}); every point by "
@@ -90,7 +90,7 @@ Section splat_table1(const Bench& bench) {
               {"model", "aperture, mm", "time", "fragments, splats", "LOD off", "fragments, splats",
                "200 views", "PSNR", "LOD off", "discs", "averaged"},
               {}};
-  for (const Row& row : rows()) {
+  for (const PaperRow& row : rows()) {
     const SplatShot shot = make_splat_shot(row.model, 3.2, bench.is_quick ? 10000 : 0);
     std::vector<Pictures> all;
     for (const double aperture : row.apertures_mm) {
