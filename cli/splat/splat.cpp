@@ -33,12 +33,14 @@ Examples:
 
 Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-PointCloud cloud_of(const SplatCommand& job) {
+SplatModel model_of(const SplatCommand& job, bool has_bar) {
   if (job.input.empty() == job.model.empty()) {
     fail(ErrorKind::usage, "a point cloud is missing: name a file, or a model with --model");
   }
-  return job.model.empty() ? read_point_cloud(job.input)
-                           : make_point_cloud(job.model, job.model_points);
+  ProgressBar bar(1, "points", has_bar);
+  const auto update = [&](double share) { bar.update(0, share); };
+  return job.model.empty() ? SplatModel::read(job.input, job.has_cache, update)
+                           : SplatModel(make_point_cloud(job.model, job.model_points), update);
 }
 
 /// Options win over the camera file's pose, and that over the default.
@@ -135,10 +137,7 @@ int run(const SplatCommand& job) {
   check(job);
   Device device = Device::open(job.device);
   const bool has_bar = !job.quiet && !job.json;
-  const SplatModel model = [&] {
-    ProgressBar bar(1, "points", has_bar);
-    return SplatModel(cloud_of(job), [&](double share) { bar.update(0, share); });
-  }();
+  const SplatModel model = model_of(job, has_bar);
   for (const std::string& note : model.notes()) fmt::print(stderr, "defray: note: {}\n", note);
   const CameraPose start = pose_of(job, model, lens_of(job, infinity));
   const double distance = length(vec(start.look_at) - vec(start.from));

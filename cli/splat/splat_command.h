@@ -11,6 +11,7 @@ namespace defray::cli {
 
 struct SplatCommand {
   std::string input, model;
+  bool has_cache = false;
   std::size_t model_points = 0;  ///< 0: the model's own number.
   std::string output;
   std::optional<std::array<double, 3>> from, look_at, up;

@@ -6,24 +6,38 @@
 #include "base/vec3.h"
 #include "lens/lens.h"
 #include "library/backend_of.h"
+#include "splat/cloud_cache.h"
 #include "splat/splat_picture.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
 
 namespace defray {
 
-struct SplatModel::State {
-  Hierarchy tree;
-  std::array<double, 3> origin;
-  bool has_normals, has_colours;
-  std::vector<std::string> notes;
-};
+struct SplatModel::State : CachedCloud {};
 
-SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress) {
+SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
+    : state_(std::make_unique<State>()) {
   Surfels surfels = make_surfels(cloud, progress);
-  state_ = std::make_unique<State>(
-      State{{}, cloud.origin, surfels.has_normals, surfels.has_colours, std::move(surfels.notes)});
-  state_->tree = build_hierarchy(std::move(surfels.points), state_->has_normals);
+  state_->origin = cloud.origin;
+  state_->has_normals = surfels.has_normals;
+  state_->has_colours = surfels.has_colours;
+  state_->notes = std::move(surfels.notes);
+  state_->tree = build_hierarchy(std::move(surfels.points), surfels.has_normals);
+}
+
+SplatModel::SplatModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+SplatModel SplatModel::read(const std::string& path, bool has_cache, const Progress& progress) {
+  std::string why;
+  if (has_cache) {
+    if (std::optional<CachedCloud> cached = read_cache(path, why)) {
+      return SplatModel(std::make_unique<State>(State{std::move(*cached)}));
+    }
+  }
+  SplatModel model(read_point_cloud(path), progress);
+  if (has_cache) write_cache(path, *model.state_);
+  if (!why.empty()) model.state_->notes.push_back(why);
+  return model;
 }
 
 SplatModel::SplatModel(SplatModel&&) noexcept = default;

@@ -150,7 +150,8 @@ void check_splats(Device& device) {
   Device reference = Device::reference();
   expect(defray::splat(reference, model, pose, lens, settings).colour == result.colour,
          "the reference's splats have the same bits");
-  expect_error(ErrorKind::input, "the cloud has no points", [] { defray::SplatModel({}); });
+  expect_error(ErrorKind::input, "the cloud has no points",
+               [] { defray::SplatModel model{defray::PointCloud{}}; });
   expect_error(ErrorKind::usage, "cutoff is 0", [&] {
     settings.cutoff = 0;
     defray::splat(device, model, pose, lens, settings);

@@ -79,6 +79,12 @@ class DEFRAY_API SplatModel {
  public:
   /// Throws Error(input) for an empty cloud, values that are not finite, radii and normals of 0.
   explicit SplatModel(const PointCloud& cloud, const Progress& progress = {});
+
+  /// Of a file (read_point_cloud). With `has_cache` it is read from, or written to, a cache beside
+  /// it, PATH.surfels, as long as the file stays as it is; a stale or damaged one is made anew, and
+  /// noted. Throws Error(output) where it cannot be written.
+  static SplatModel read(const std::string& path, bool has_cache, const Progress& progress = {});
+
   SplatModel(SplatModel&&) noexcept;
   SplatModel& operator=(SplatModel&&) noexcept;
   ~SplatModel();
@@ -92,6 +98,7 @@ class DEFRAY_API SplatModel {
 
  private:
   struct State;
+  explicit SplatModel(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
   friend DEFRAY_API SplatResult splat(Device&, const SplatModel&, const CameraPose&, const Lens&,
                                       const SplatSettings&, const Progress&);

@@ -127,11 +127,55 @@ TEST_F(SplatCommand, FilesAreRead) {
   EXPECT_GT(ImageFile::read(folder_ / "b.exr").plane(0, 3)[16 * 48 + 24], 0.95f);
 }
 
+TEST_F(SplatCommand, ACacheGivesTheSamePictureUntilItsFileChanges) {
+  const auto write = [&](int side) {
+    std::ofstream points(folder_ / "p.xyz");
+    for (int i = 0; i < side * side; ++i) points << i % side << ' ' << i / side << " 0\n";
+    points << "inf 0 0\n";
+  };
+  const auto notes = [&](const std::string& options) {
+    const Result result =
+        defray(folder_, "splat p.xyz -o o.exr --size 48x32 " + wide_lens + options);
+    expect_ok(result);
+    return result.err;
+  };
+  write(20);
+  notes("");
+  const std::uint64_t plain = file_hash(folder_ / "o.exr");
+  const std::string cache = folder_ / "p.xyz.surfels";
+  EXPECT_FALSE(std::filesystem::exists(cache));
+  const std::string first = notes("--cache");
+  ASSERT_TRUE(std::filesystem::exists(cache));
+  const auto time = std::filesystem::last_write_time(cache);
+  EXPECT_EQ(notes("--cache"), first) << "notes are kept";
+  EXPECT_EQ(file_hash(folder_ / "o.exr"), plain);
+  EXPECT_EQ(std::filesystem::last_write_time(cache), time) << "read";
+  // Damaged, in its length, its mark and its last node; of another file.
+  const auto bytes = std::filesystem::file_size(cache);
+  const auto damage = [&](std::streamoff at) {
+    std::fstream file(cache, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(at);
+    for (int i = 0; i < 4; ++i) file.put('\x7f');
+  };
+  std::filesystem::resize_file(cache, bytes - 3);
+  EXPECT_NE(notes("--cache").find("is damaged: made anew"), std::string::npos);
+  damage(0);
+  EXPECT_NE(notes("--cache").find("no cache of this version"), std::string::npos);
+  const auto notes_bytes = static_cast<std::streamoff>(first.find('\n') + 1 - first.find("1 of"));
+  damage(static_cast<std::streamoff>(bytes) - notes_bytes - 4);
+  EXPECT_NE(notes("--cache").find("is damaged: made anew"), std::string::npos);
+  EXPECT_EQ(file_hash(folder_ / "o.exr"), plain);
+  write(21);
+  EXPECT_NE(notes("--cache").find("was made of an older p.xyz"), std::string::npos);
+  EXPECT_NE(file_hash(folder_ / "o.exr"), plain);
+}
+
 TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat -o o.exr " + wide_lens, 2, {"a point cloud is missing"});
   refused("splat a.ply --model figure -o o.exr " + wide_lens, 2, {"--model", "stands instead"});
   refused("splat a.ply --model-points 3 -o o.exr " + wide_lens, 2,
           {"--model-points", "goes with --model"});
+  refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "No such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,
           {"no model 'figur'", "Did you mean 'figure'?"});
