@@ -150,8 +150,12 @@ TEST(KernelChecks, CompareAllThatAKernelWrites) {
     std::size_t integers, floats;  // a pixel
   };
   constexpr std::size_t colour = 3;
-  for (const Row& row : {Row{"fill", 1, 1 + colour}, Row{"rdb_gather", 1, colour},
-                         Row{"rdb_merge", 1, colour}, Row{"split", 2 * 3, 2 * colour}}) {
+  for (const Row& row :
+       {Row{"coc", 1, 0}, Row{"fill", 1, 1 + colour}, Row{"gather_aware", 0, colour},
+        Row{"gather_literal", 0, colour}, Row{"highlights", 0, 2}, Row{"highlights_add", 0, colour},
+        Row{"linear_psf", 0, colour}, Row{"mixed", 1, 0}, Row{"patterns_match", 0, colour},
+        Row{"rdb_gather", 1, colour}, Row{"rdb_merge", 1, colour}, Row{"repair", 1, 0},
+        Row{"soften", 0, 2 * colour}, Row{"split", 2 * 3, 2 * colour}, Row{"tiltshift", 1, 0}}) {
     const Compared compared(row.kernel);
     EXPECT_EQ(compared.integers, 13 * 7 * row.integers) << row.kernel;
     EXPECT_EQ(compared.floats, 13 * 7 * row.floats) << row.kernel;
