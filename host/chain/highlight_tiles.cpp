@@ -14,10 +14,7 @@ struct LightTile {
   std::int32_t largest_coc = 0;
   float darkest = HUGE_VALF;
 
-  void add(const LightTile& other) {
-    largest_coc = std::max(largest_coc, other.largest_coc);
-    darkest = std::min(darkest, other.darkest);
-  }
+  void add(const LightTile& other) { darkest = std::min(darkest, other.darkest); }
 };
 
 /// A tile that sees farther takes the darkest of the whole frame.
