@@ -167,6 +167,10 @@ TEST(WorstPicture, ShowsThePlaneThatHoldsTheWorstValue) {
   run.kernel.integers.resize(240);
   const auto infinite = worst_picture(c, run, 489);
   EXPECT_NEAR(infinite->panels[0].planes[0][size(4 * infinite->width)], 4 / 1009.0, 1e-6);
+  run.kernel.planes[1][0] = -91;  // the darkest, 0 no longer
+  const Plane negative = worst_picture(c, run, 489)->panels[0].planes[0];
+  EXPECT_EQ(negative[0], 0);
+  EXPECT_NEAR(negative[size(4 * infinite->width)], (4 + 91) / 1100.0, 1e-6);
 }
 
 VariantResult variant(const std::string& name, double psnr_db, double time) {
