@@ -1,6 +1,7 @@
 // What the chain's host code decides, pixel by pixel against its definition, on random frames:
 // tiles to fill, units of `patterns` to compute, how far matches move a colour.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -100,6 +101,42 @@ TEST(FillTiles, TheNearestAndTheFarthestPixelCount) {
   EXPECT_EQ(active(), 3);
   coc[159] = 1 << 30;
   EXPECT_EQ(active(), 10);
+}
+
+/// How far a pixel is from those of all runs of a row that begin in a cell.
+int away_from_runs(int x, int y, int cell_x, int cell_y) {
+  const int left = cell_x * DEFRAY_FILL_CELL, right = left + DEFRAY_FILL_CELL + DEFRAY_RUN - 2;
+  const int top = cell_y * DEFRAY_FILL_CELL, bottom = top + DEFRAY_FILL_CELL - 1;
+  return std::max({0, left - x, x - right, top - y, y - bottom});
+}
+
+/// `fill` passes over what lies within: a mixed pixel there would be missed.
+TEST(FillTiles, SoManyPixelsAroundARunNoneIsMixedAndNoFewerByMuch) {
+  constexpr int width = 93, height = 70, across = 24, down = 18;
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    std::vector<std::uint32_t> mixed(size(width) * size(height));
+    Random random(1, 2, seed);
+    std::vector<std::array<int, 2>> places;
+    for (int i = 0; i < 3; ++i) {
+      const auto& [x, y] = places.emplace_back(std::array{
+          static_cast<int>(random.next() * width), static_cast<int>(random.next() * height)});
+      mixed[size(y * width + x)] = 1;
+    }
+    const auto pure =
+        pure_around_runs({width, height, std::vector<std::int32_t>(mixed.size())}, mixed);
+    ASSERT_EQ(pure.size(), size(across * down));
+    for (int y = 0; y < down; ++y) {
+      for (int x = 0; x < across; ++x) {
+        int away = width;
+        for (const auto& place : places) {
+          away = std::min(away, away_from_runs(place[0], place[1], x, y));
+        }
+        const int around = pure[size(y * across + x)];
+        EXPECT_LE(around, std::max(0, away - 1)) << x << " " << y << " " << seed;
+        EXPECT_GE(around, away - DEFRAY_FILL_CELL - 1) << x << " " << y << " " << seed;
+      }
+    }
+  }
 }
 
 /// Two layers of random light, some of it not a number, some fragments made up.
