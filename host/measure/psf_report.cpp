@@ -115,11 +115,10 @@ std::string band_name(const PsfReport& report) {
 
 }  // namespace
 
-PsfReport measure_psf(Lens lens, double depth_units, int width_px,
+PsfReport measure_psf(const Lens& lens, double depth_units, int width_px,
                       const std::vector<double>& wavelengths_nm,
                       const std::function<void(double)>& progress) {
   validate(wavelengths_nm);
-  lens.model = LensModel::breathing;
   const PointImage image = image_of_point(lens, depth_units, width_px);
   const auto [low, high] = std::minmax_element(wavelengths_nm.begin(), wavelengths_nm.end());
   const double shortest_m = *low * metres_per_nm, longest_m = *high * metres_per_nm;

@@ -36,7 +36,7 @@ struct PsfReport {
 /// PSFs of a point at planar `depth_units`, of a lens taken as LensModel::breathing. Throws
 /// Error(usage) as image_of_point and DiffractionPsf do, and on no wavelength or one outside 100 to
 /// 20000 nm. `progress` gets the share done, 0 to 1.
-PsfReport measure_psf(Lens lens, double depth_units, int width_px,
+PsfReport measure_psf(const Lens& lens, double depth_units, int width_px,
                       const std::vector<double>& wavelengths_nm,
                       const std::function<void(double)>& progress = {});
 
