@@ -33,7 +33,11 @@ Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point) {
   cv::Vec3d values;
   cv::Matx33d vectors;
   cv::eigen(covariance, values, vectors);  // the largest first
-  return {vectors(2, 0), vectors(2, 1), vectors(2, 2)};
+  if (values[1] > 1e-12 * values[0]) return {vectors(2, 0), vectors(2, 1), vectors(2, 2)};
+  // Along a line, or alone: any direction across will do.
+  const Vec3 line = values[0] > 0 ? Vec3{vectors(0, 0), vectors(0, 1), vectors(0, 2)} : Vec3{};
+  const Vec3 towards = std::abs(line.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  return normalized(towards - line * dot(line, towards));
 }
 
 double covered_share(const CloudPoints& cloud, std::size_t point) {

@@ -33,7 +33,8 @@ struct CloudPoints {
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 };
 
-/// The direction in which the places around a point vary least.
+/// The direction in which the places around a point vary least; of points along a line, or alone,
+/// one across it, along z if it can be.
 Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point);
 
 /// Share of a basis function's reach where there is a surface, from where the neighbours lie.

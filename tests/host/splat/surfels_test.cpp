@@ -93,6 +93,23 @@ TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
   }
 }
 
+TEST(Surfels, PointsAlongALineOrAloneFaceAcrossIt) {
+  PointCloud cloud;
+  cloud.positions = {{0, 0, 0}};
+  cloud.radii = {1};
+  EXPECT_FLOAT_EQ(std::abs(make_surfels(cloud).points[0].area_z),
+                  area_of(make_surfels(cloud).points[0]));
+  for (const std::array<float, 3> along : {std::array<float, 3>{1, 0, 0}, {0, 0, 1}, {1, 1, 1}}) {
+    PointCloud line;
+    for (int i = 0; i < 30; ++i) {
+      line.positions.push_back({float(i) * along[0], float(i) * along[1], float(i) * along[2]});
+    }
+    const DefraySplatNode& n = middle(make_surfels(line));
+    const double across = n.area_x * along[0] + n.area_y * along[1] + n.area_z * along[2];
+    EXPECT_NEAR(across / area_of(n), 0, 1e-5);
+  }
+}
+
 TEST(Surfels, WhatItRefuses) {
   const auto refused = [](const PointCloud& cloud, ErrorKind kind, const std::string& words) {
     try {
