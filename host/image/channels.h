@@ -30,7 +30,8 @@ std::vector<ChannelName> depth_candidates(const std::vector<PartInfo>& parts,
                                           const ColourChoice& colour);
 
 /// The depth channel that goes with `colour`. A Z beside X and Y is a vector, not a depth.
-/// The only channel of a file is its depth, whatever its name.
+/// The only channel of a file is its depth, whatever its name; but none that is `colour` is, which
+/// has no channels where it is another file's.
 /// Throws Error(input) when there is none, or with the candidates when there are several.
 ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,
                          const ChannelRequest& request, const ColourChoice& colour);

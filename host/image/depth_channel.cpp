@@ -10,6 +10,13 @@
 namespace defray {
 namespace {
 
+/// "VRayAtmospheric Effects" -> "atmosphericeffects".
+std::string bare_word(const std::string& name) {
+  std::string word = lower_case(name);
+  std::erase_if(word, [](char c) { return c == ' ' || c == '_'; });
+  return word.starts_with("vray") ? word.substr(4) : word;
+}
+
 /// "Mist.Z is a mist pass, …" for the first one there is.
 std::string about_mist(const std::vector<ChannelName>& names) {
   const auto mist = std::find_if(names.begin(), names.end(), is_mist);
@@ -20,11 +27,17 @@ std::string about_mist(const std::vector<ChannelName>& names) {
       mist->full);
 }
 
+bool is_of(const ColourChoice& colour, const ChannelName& name) {
+  return name.part == colour.part && std::find(colour.channels.begin(), colour.channels.end(),
+                                               name.channel) != colour.channels.end();
+}
+
 /// How sure a name is to be the depth of `colour`: smaller is surer, -1: it is no depth.
 int depth_rank(const std::vector<ChannelName>& names, const ChannelName& name,
                const ColourChoice& colour) {
   static const std::set<std::string> depth_words{"depth", "z", "zdepth", "vrayzdepth", "pz"};
-  if (is_mist(name)) return -1;
+  if (is_mist(name) || is_of(colour, name)) return -1;
+  if (names.size() == 1) return 0;  // nothing but depth
   const std::string base = lower_case(name.base);
   const std::string own_layer = last_token(name.layer);
   const std::vector<ChannelName> group = group_of(names, name);
@@ -88,16 +101,16 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
 }  // namespace
 
 bool is_mist(const ChannelName& name) {
-  static const std::set<std::string> words{"mist", "fog", "vrayatmosphere", "atmosphere",
-                                           "vrayfog"};
-  return is_one_of(last_token(name.layer), words) || (is_one_of(name.base, words));
+  static const std::set<std::string> words{"mist", "fog", "atmosphere", "atmospherics",
+                                           "atmosphericeffects"};
+  return words.count(bare_word(last_token(name.layer))) > 0 ||
+         words.count(bare_word(name.base)) > 0;
 }
 
 ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,
                          const ChannelRequest& request, const ColourChoice& colour) {
   const std::vector<ChannelName> names = channel_names(parts);
   if (!request.depth_channel.empty()) return asked_depth(path, parts, names, request, colour);
-  if (names.size() == 1 && !is_mist(names.front())) return names.front();  // nothing but depth
   std::vector<ChannelName> best;
   int best_rank = -1;
   for (const ChannelName& name : names) {
@@ -129,8 +142,8 @@ std::vector<ChannelName> depth_candidates(const std::vector<PartInfo>& parts,
   const std::vector<ChannelName> names = channel_names(parts);
   std::vector<std::pair<int, ChannelName>> ranked;
   for (const ChannelName& name : names) {
-    const bool is_alone = names.size() == 1;
-    const int rank = is_mist(name) ? 99 : is_alone ? 0 : depth_rank(names, name, colour);
+    if (is_of(colour, name)) continue;
+    const int rank = is_mist(name) ? 99 : depth_rank(names, name, colour);
     if (rank >= 0) ranked.emplace_back(rank, name);
   }
   std::stable_sort(ranked.begin(), ranked.end(),

@@ -11,7 +11,9 @@ DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
   std::optional<ImageFile> other;
   if (!depth_path.empty()) other = ImageFile::read(depth_path, Content::data);
   const ImageFile& file = other ? *other : colour_file;
-  const ChannelName name = choose_depth(file.path(), file.parts(), request, colour);
+  ColourChoice beside = colour;
+  if (other) beside.channels.clear();  // numbers of the colour's file
+  const ChannelName name = choose_depth(file.path(), file.parts(), request, beside);
   const std::string channel = describe(name, file.parts());
   const Window& data = file.parts()[static_cast<std::size_t>(name.part)].data;
   const Window& colour_data = colour_file.parts()[static_cast<std::size_t>(colour.part)].data;

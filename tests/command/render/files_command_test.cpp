@@ -102,6 +102,19 @@ TEST_F(Files, APictureOfOneChannel) {
   EXPECT_NE(file_hash(folder_ / "out.exr"), file_hash(folder_ / "ya.exr"));
 }
 
+TEST_F(Files, AGreyPictureIsNotItsOwnDepth) {
+  write_picture_file(folder_, "grey.exr", {"Y"});
+  write_picture_file(folder_, "ya.exr", {"Y", "A"});
+  for (const std::string name : {"grey.exr", "ya.exr"}) {
+    expect_refused(name + " -o none.exr", 3, {name + ": no depth", "--depth FILE"});
+    const Result info = defray(folder_, "info " + name);
+    expect_ok(info);
+    EXPECT_NE(info.out.find("no depth: give it with --depth FILE"), std::string::npos) << info.out;
+  }
+  expect_ok(render("in.exr --depth grey.exr -o out.exr"));
+  expect_ok(render("ya.exr --depth grey.exr -o out.exr"));
+}
+
 TEST_F(Files, NamesThatAreNoPatterns) {
   expect_ok(render("in.exr -o hero@2x.png"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "hero@2x.png"));

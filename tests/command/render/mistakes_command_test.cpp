@@ -47,7 +47,8 @@ TEST_F(Mistakes, AMistPassIsNeverChosen) {
   EXPECT_NE(said("both.exr -o o.exr" + usual_).find("depth ViewLayer.Depth.Z"), std::string::npos);
   ImageFile::from_planes({"Mist.Z"}, {mist}, width, height).write(folder_ / "alone.exr");
   expect_refused("both.exr --depth alone.exr -o o.exr" + usual_, {"alone.exr", "mist pass"});
-  for (const std::string name : {"VRayAtmosphere.Z", "fog.Z", "mist"}) {
+  for (const std::string name :
+       {"VRayAtmosphere.Z", "VRayMist.Z", "AtmosphericEffects.Z", "fog.Z", "mist"}) {
     write("other.exr", {name}, {mist});
     expect_refused("other.exr -o o.exr" + usual_, {name + " is a mist pass"});
   }

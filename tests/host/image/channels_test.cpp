@@ -190,6 +190,32 @@ TEST(Channels, WithoutRgbTheLuminanceIsGrey) {
   }
 }
 
+TEST(Channels, WhatIsColourIsNoDepth) {
+  for (const auto& names :
+       {std::vector<std::string>{"Y"}, {"A", "Y"}, {"depth.R", "depth.G", "depth.B"}}) {
+    const std::vector<PartInfo> parts{part(names)};
+    expect_error(ErrorKind::input, {"no depth", names.front()}, [&] { depth(parts); });
+    EXPECT_TRUE(depth_candidates(parts, colour(parts)).empty()) << names.front();
+  }
+  // Of a file of its own, and by its name, it is.
+  EXPECT_EQ(choose_depth("f.exr", {part({"Y"})}, {}, {}).full, "Y");
+  EXPECT_EQ(depth({part({"Y"})}, {"", "", "Y"}), "Y");
+}
+
+TEST(Channels, MistByItsNames) {
+  const auto is_mist_name = [](const std::string& full) {
+    return is_mist(channel_names({part({full})})[0]);
+  };
+  for (const char* name : {"Mist.Z", "ViewLayer.Mist.Z", "VRayMist.Z", "VRayMist.Y", "VRayFog.R",
+                           "VRayAtmosphere.Z", "AtmosphericEffects.Z", "Atmospheric Effects.R",
+                           "VRayAtmospheric_Effects.Z", "fog", "mist"}) {
+    EXPECT_TRUE(is_mist_name(name)) << name;
+  }
+  for (const char* name : {"Z", "VRayZDepth.R", "misty.Z", "VRay.Z"}) {
+    EXPECT_FALSE(is_mist_name(name)) << name;
+  }
+}
+
 TEST(Channels, ErrorsListWhatThereIs) {
   expect_error(ErrorKind::input, {"no colour", "V", "Z"}, [] { colour({part({"V", "Z"})}); });
   expect_error(ErrorKind::input, {"layer 'specular'"}, [] {
