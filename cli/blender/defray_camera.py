@@ -1,6 +1,6 @@
 """Prepares a Blender scene for defray: blender -b SHOT.blend -P defray_camera.py -- -o FOLDER [--render]
 
-Writes FOLDER/camera.0001.json and so on, the lens of each frame of the scene (or of --frames 1-24),
+Writes FOLDER/camera.0001.json and so on, the lens of each frame of the scene (or of --frames 1-24,30),
 and sets up the render that defray takes: passes Combined and Z, depth of field and motion blur off,
 OpenEXR multilayer in 32-bit floats at FOLDER/0001.exr and so on. --render renders it too. At the end
 it prints the command that makes the pictures. In Blender's text editor it takes the folder of the
@@ -11,6 +11,8 @@ Lengths are Blender units, which Cycles takes for metres.
 import argparse
 import json
 import os
+import re
+import struct
 import sys
 
 import bpy
@@ -71,6 +73,12 @@ def set_up(scene, folder):
     scene.render.filepath = os.path.join(folder, "####")
 
 
+def border_pixel(share, size):
+    """Where Blender begins or ends a region: it multiplies in single precision and cuts off, so
+    that 0.7 of 90 is 63."""
+    return int(struct.unpack("f", struct.pack("f", share * size))[0])
+
+
 def lens_options(scene):
     """What of the lens is an option: the aperture's shape, and a cut-out."""
     dof = scene.camera.data.dof
@@ -82,25 +90,40 @@ def lens_options(scene):
         options += " --squeeze %g" % dof.aperture_ratio
     render = scene.render
     if render.use_border and render.use_crop_to_border:
-        width = int(render.resolution_x * render.resolution_percentage / 100)
-        height = int(render.resolution_y * render.resolution_percentage / 100)
+        width = render.resolution_x * render.resolution_percentage // 100
+        height = render.resolution_y * render.resolution_percentage // 100
         options += " --full-size %dx%d+%d+%d" % (
-            width, height, int(render.border_min_x * width),
-            height - int(render.border_max_y * height))
+            width, height, border_pixel(render.border_min_x, width),
+            height - border_pixel(render.border_max_y, height))
     return options
 
 
-def frames_of(scene, text):
-    if not text:
-        return range(scene.frame_start, scene.frame_end + 1)
-    first, _, last = text.partition("-")
-    return range(int(first), int(last or first) + 1)
+def frames_of_range(part):
+    """7, 1-8, 8-1, 1-10x2, 1-10y2 (what x leaves out), as 'defray render --frames' has them."""
+    match = re.fullmatch(r"(-?\d{1,9})(?:-(-?\d{1,9})(?:([xy])(-?[1-9]\d{0,8}))?)?", part)
+    if not match:
+        raise argparse.ArgumentTypeError(
+            "'%s' is not a frame range; allowed: 7, 1-8, 1-10x2, 1,5,9-12" % part)
+    first, last = int(match[1]), int(match[2] or match[1])
+    step = int(match[4] or 1)
+    if step < 0 and first < last:
+        first, last = last, first
+    every = range(first, last + 1) if first <= last else range(first, last - 1, -1)
+    kept = every[::abs(step)]
+    return [frame for frame in every if frame not in kept] if match[3] == "y" else list(kept)
+
+
+def frames_of(text):
+    """Each once."""
+    return list(dict.fromkeys(
+        frame for part in text.split(",") for frame in frames_of_range(part)))
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(prog="defray_camera.py")
     parser.add_argument("-o", "--output", default=bpy.path.abspath("//"), help="folder")
-    parser.add_argument("--frames", default="", help="1-24; without it, the scene's")
+    parser.add_argument("--frames", type=frames_of,
+                        help="1-24, 1-10x2, 1,5,9-12; without it, the scene's")
     parser.add_argument("--render", action="store_true", help="render the frames, too")
     options = parser.parse_args(arguments)
     scene = bpy.context.scene
@@ -109,7 +132,7 @@ def main(arguments):
     check(scene)
     extra = lens_options(scene)
     set_up(scene, folder)
-    for frame in frames_of(scene, options.frames):
+    for frame in options.frames or range(scene.frame_start, scene.frame_end + 1):
         scene.frame_set(frame)
         check(scene)
         name = os.path.join(folder, "camera.%04d.json" % frame)

@@ -1,9 +1,11 @@
 // cli/blender/defray_camera.py, in Blender where it is installed (Debian's, in the background).
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "command/program.h"
+#include "image/channel_names.h"
 
 namespace defray::test::blender_test {
 namespace {
@@ -25,6 +27,12 @@ class Blender : public testing::Test {
   }
   void build(const std::string& size) const {
     blender("--factory-startup -P '" + here + "' -- scene.blend " + size);
+  }
+  static Plane depth_of(const ImageFile& file) {
+    const auto names = channel_names(file.parts());
+    const auto z = std::find_if(names.begin(), names.end(),
+                                [](const auto& name) { return name.full == "ViewLayer.Depth.Z"; });
+    return file.plane(z->part, z->channel);
   }
   json camera(int frame) const {
     std::ifstream stream(folder_ / fmt::format("shot/camera.000{}.json", frame));
@@ -56,6 +64,60 @@ TEST_F(Blender, TheScriptWritesTheLensOfEveryFrame) {
   expect_ok(tall);
   EXPECT_EQ(tall.out.find("is not known"), std::string::npos) << tall.out;
   EXPECT_NE(tall.out.find("sensor 24 mm"), std::string::npos) << "36 mm upright: " << tall.out;
+}
+
+TEST_F(Blender, ARegionIsWhereBlenderRendersIt) {
+  build("160 90");
+  const std::string set =
+      " --python-expr \"import bpy; r = bpy.context.scene.render; r.use_border = True; "
+      "bpy.context.scene.cycles.samples = 1; r.use_crop_to_border = {}; r.border_min_x, "
+      "r.border_max_x, r.border_min_y, r.border_max_y = {}\" ";
+  const std::string run = "-P '" + script + "' -- --frames 2 --render -o ";
+  blender("scene.blend" + fmt::format(fmt::runtime(set), "False", "0, 1, 0, 1") + run + "whole");
+  const ImageFile whole = ImageFile::read(folder_ / "whole/0002.exr");
+  for (const auto& [border, region] :
+       {std::pair{"0.3, 0.8, 0, 0.7", Window{48, 27, 80, 63}},  // 0.7 is a little less as a float
+        {"0.2, 0.7, 0.2, 0.7", {32, 27, 80, 45}},
+        {"0.301, 0.799, 0.113, 0.689", {48, 28, 79, 52}}}) {
+    const std::string said =
+        blender("scene.blend" + fmt::format(fmt::runtime(set), "True", border) + run + "cut");
+    const std::string words = fmt::format("--full-size 160x90+{}+{}\n", region.x, region.y);
+    EXPECT_NE(said.find(words), std::string::npos) << border << said;
+    const ImageFile cut = ImageFile::read(folder_ / "cut/0002.exr");
+    ASSERT_EQ(cut.parts()[0].data.width, region.width) << border;
+    ASSERT_EQ(cut.parts()[0].data.height, region.height) << border;
+    // The depths there are those of the whole frame.
+    const Plane all = depth_of(whole), part = depth_of(cut);
+    for (int y = 0; y < region.height; ++y) {
+      for (int x = 0; x < region.width; ++x) {
+        const auto from = static_cast<std::size_t>((y + region.y) * 160 + x + region.x);
+        const auto to = static_cast<std::size_t>(y * region.width + x);
+        ASSERT_NEAR(part[to], all[from], 1e-3 * static_cast<double>(all[from]))
+            << border << " " << x << "," << y;
+      }
+    }
+  }
+}
+
+TEST_F(Blender, FramesAreListedAsForDefray) {
+  build("32 48");
+  const auto write = [&](const std::string& frames) {
+    shell(folder_, "rm -rf shot");
+    return shell(folder_, "blender -noaudio -b scene.blend -P '" + script +
+                              "' -- -o shot --frames=" + frames + "; ls shot | tr '\\n' ' '");
+  };
+  for (const auto& [frames, files] :
+       {std::pair{"1,3", "camera.0001.json camera.0003.json "},
+        {"1-5x2", "camera.0001.json camera.0003.json camera.0005.json "},
+        {"3-2,7", "camera.0002.json camera.0003.json camera.0007.json "},
+        {"1-4y2", "camera.0002.json camera.0004.json "}}) {
+    const Result result = write(frames);
+    EXPECT_TRUE(result.out.ends_with(files)) << frames << result.out << result.err;
+  }
+  const Result bad = write("1,b");
+  EXPECT_NE(bad.err.find("'b' is not a frame range; allowed: 7, 1-8"), std::string::npos)
+      << bad.err;
+  EXPECT_EQ(bad.err.find("Traceback"), std::string::npos) << bad.err;
 }
 
 TEST_F(Blender, RendersThroughTheLensAreCyclesOwn) {
