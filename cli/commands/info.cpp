@@ -41,6 +41,13 @@ void print_depth(const DepthCandidate& d) {
              d.is_mist ? ", a mist pass: no depth" : "");
 }
 
+/// As stored, but in the field's unit: Redshift has radians.
+std::string value_of(const FoundAttribute& found) {
+  const bool is_converted =
+      found.value && found.attribute.factor > 0 && found.attribute.factor != 1;
+  return is_converted ? fmt::format("{:.6g}", *found.value) : found.text;
+}
+
 void print_text(const FileInfo& info) {
   fmt::print("{}\n", info.path);
   for (std::size_t i = 0; i < info.parts.size(); ++i) print_part(info.parts[i], i);
@@ -52,8 +59,9 @@ void print_text(const FileInfo& info) {
   if (info.depth.empty()) fmt::print("  no depth: give it with --depth FILE\n");
   for (const DepthCandidate& d : info.depth) print_depth(d);
   for (const FoundAttribute& found : info.camera) {
-    fmt::print("  {} {} ({}, {})\n", found.attribute.field, found.value, found.attribute.name,
-               found.attribute.written);
+    fmt::print("  {} {} ({}, {}){}\n", found.attribute.field, value_of(found), found.attribute.name,
+               found.attribute.written,
+               found.value ? "" : ", not usable: it must be a number above 0");
   }
   if (info.camera.empty()) fmt::print("  no lens among the metadata\n");
   if (!info.command.empty()) fmt::print("try:\n  {}\n", info.command);
@@ -83,7 +91,8 @@ void print_json(const FileInfo& info) {
   for (const FoundAttribute& found : info.camera) {
     camera.push_back({{"field", found.attribute.field},
                       {"attribute", found.attribute.name},
-                      {"value", found.value}});
+                      {"value", value_of(found)},
+                      {"usable", found.value.has_value()}});
   }
   const Json line = {
       {"file", info.path},         {"parts", parts},   {"colour", colour_names(info)},

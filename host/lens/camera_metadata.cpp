@@ -23,14 +23,24 @@ const std::pair<const char*, MetadataField> metadata_fields[] = {
     {"focus_distance_units", &CameraValues::focus_distance_units},
 };
 
-double attribute_value(const ImageFile& file, const CameraAttribute& attribute,
-                       const std::string& text) {
-  const std::optional<double> value = file.metadata_number(attribute.name);
-  if (value && *value > 0) return *value;
-  fail(ErrorKind::input,
-       "{}: its metadata has '{}' = '{}', which is no {} ({}): it must be a number "
-       "above 0; options win over metadata",
-       file.path(), attribute.name, text, attribute.field, attribute.written);
+double usable_value(const ImageFile& file, const FoundAttribute& found) {
+  if (found.value) return *found.value;
+  const CameraAttribute& attribute = found.attribute;
+  fail(
+      ErrorKind::input,
+      "{}: its metadata has '{}' = '{}', which is no {} ({}): it must be a number above 0; {} wins "
+      "over it",
+      file.path(), attribute.name, found.text, attribute.field, attribute.written,
+      field(attribute.field));
+}
+
+/// Whether these say what the field does, by this number or another.
+bool is_stated(const CameraValues& by, MetadataField field) {
+  const bool is_sensor = field == &CameraValues::sensor_width_mm || field == &CameraValues::fov_deg;
+  if (is_sensor) {
+    return by.sensor_width_mm || by.sensor_height_mm || by.fov_deg || by.pixels_per_metre;
+  }
+  return by.*field || (field == &CameraValues::fstop && by.aperture_diameter_mm);
 }
 
 }  // namespace
@@ -71,23 +81,36 @@ const std::vector<CameraAttribute>& camera_attributes() {
   return all;
 }
 
-CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit) {
+std::optional<FoundAttribute> find_attribute(const ImageFile& file,
+                                             const CameraAttribute& attribute) {
+  const std::optional<std::string> text = file.metadata_text(attribute.name);
+  if (!text) return std::nullopt;
+  const std::optional<double> number = file.metadata_number(attribute.name);
+  FoundAttribute found{attribute, *text, {}};
+  if (!number || !(*number > 0)) return found;
+  const bool is_focus = attribute.field == std::string("focus_distance_units");
+  if (is_focus && *number >= no_distance) return std::nullopt;
+  found.value = *number * (attribute.factor > 0 ? attribute.factor : 1);
+  return found;
+}
+
+CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit,
+                                  const CameraValues& stated) {
   CameraValues values;
   values.source = file.path() + "'s metadata";
   for (const auto& [name, field] : metadata_fields) {
+    if (is_stated(stated, field) || is_stated(values, field)) continue;
     std::vector<std::string> sought;
     for (const CameraAttribute& attribute : camera_attributes()) {
       if (attribute.field != std::string(name)) continue;
       sought.emplace_back(attribute.name);
-      const std::optional<std::string> text = file.metadata_text(attribute.name);
-      if (!text || values.*field) continue;
-      const double number = attribute_value(file, attribute, *text);
-      if (number >= no_distance && field == &CameraValues::focus_distance_units) continue;
-      values.*field = number * (attribute.factor > 0 ? attribute.factor : 1 / metres_per_unit);
+      const auto found = values.*field ? std::nullopt : find_attribute(file, attribute);
+      if (!found) continue;
+      const double value = usable_value(file, *found);
+      values.*field = attribute.factor > 0 ? value : value / metres_per_unit;
     }
     if (!(values.*field)) values.sought[name] = join(sought, " ");
   }
-  if (values.sensor_width_mm) values.fov_deg.reset();  // the same, by another number
   return values;
 }
 

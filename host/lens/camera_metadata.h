@@ -1,5 +1,6 @@
 #pragma once
 // Lens values among an image's metadata, by the names that renderers write.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,21 @@ struct CameraAttribute {
 /// All names that are looked for, the first that is there counts.
 const std::vector<CameraAttribute>& camera_attributes();
 
-/// Empty where absent. `source` of the values names the file.
+/// A value of the lens among the metadata.
+struct FoundAttribute {
+  CameraAttribute attribute;
+  std::string text;             ///< As stored.
+  std::optional<double> value;  ///< Times the factor; empty where it is no number above 0.
+};
+
+/// Empty where the file has no such attribute, or it says that there is no such value.
+std::optional<FoundAttribute> find_attribute(const ImageFile& file,
+                                             const CameraAttribute& attribute);
+
+/// Empty where absent, and where `stated` says the same: what is stated wins, and what it wins over
+/// may be anything. `source` of the values names the file.
 /// Throws Error(input), with file, attribute and value, for one that is no number or not above 0.
-CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit);
+CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit,
+                                  const CameraValues& stated = {});
 
 }  // namespace defray

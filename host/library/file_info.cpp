@@ -49,21 +49,36 @@ std::string depth_options(const FileInfo& info, const DepthCandidate& depth) {
   return options;
 }
 
-bool has(const FileInfo& info, const std::string& field) {
-  return std::any_of(info.camera.begin(), info.camera.end(),
-                     [&](const FoundAttribute& found) { return found.attribute.field == field; });
+const FoundAttribute* found_in(const FileInfo& info, const std::string& field) {
+  const auto found =
+      std::find_if(info.camera.begin(), info.camera.end(),
+                   [&](const FoundAttribute& f) { return f.attribute.field == field; });
+  return found == info.camera.end() ? nullptr : &*found;
 }
 
-/// What the metadata does not say, with usual values to begin with.
+/// Whether `render` takes the field from the metadata.
+bool has(const FileInfo& info, const std::string& field) {
+  const FoundAttribute* found = found_in(info, field);
+  return found && found->value;
+}
+
+/// What the metadata does not say, or not so that it can be used, with usual values to begin with.
 std::string lens_options(const FileInfo& info, const PartInfo& part) {
+  const bool has_sensor =
+      has(info, "sensor_width_mm") || (has(info, "fov_deg") && !found_in(info, "sensor_width_mm"));
+  const std::pair<bool, std::string> values[] = {
+      {has(info, "focus_distance_units"),
+       fmt::format(" --focus-at {},{}", part.display.width / 2, part.display.height / 2)},
+      {has(info, "fstop"), " --fstop 2.8"},
+      {has(info, "focal_length_mm"), " --focal-length 50"},
+      {has_sensor, " --sensor-width 36"}};
   std::string options;
-  if (!has(info, "focus_distance_units")) {
-    options += fmt::format(" --focus-at {},{}", part.display.width / 2, part.display.height / 2);
+  bool is_any_there = false;
+  for (const auto& [is_there, option] : values) {
+    is_any_there |= is_there;
+    if (!is_there) options += option;
   }
-  if (!has(info, "fstop")) options += " --fstop 2.8";
-  if (!has(info, "focal_length_mm")) options += " --focal-length 50";
-  if (!has(info, "sensor_width_mm") && !has(info, "fov_deg")) options += " --sensor-width 36";
-  return (info.camera.empty() ? "" : " --camera from-metadata") + options;
+  return (is_any_there ? " --camera from-metadata" : "") + options;
 }
 
 std::string command_of(const FileInfo& info) {
@@ -88,8 +103,8 @@ FileInfo describe_file(const std::string& path) {
     info.depth.push_back(candidate_of(file, name));
   }
   for (const CameraAttribute& attribute : camera_attributes()) {
-    const auto text = file.metadata_text(attribute.name);
-    if (text && !has(info, attribute.field)) info.camera.push_back({attribute, *text});
+    if (found_in(info, attribute.field)) continue;
+    if (const auto found = find_attribute(file, attribute)) info.camera.push_back(*found);
   }
   info.command = command_of(info);
   return info;

@@ -17,19 +17,13 @@ struct DepthCandidate {
   std::size_t background = 0, negative = 0, pixels = 0;
 };
 
-/// A value of the lens among the metadata.
-struct FoundAttribute {
-  CameraAttribute attribute;
-  std::string value;  ///< As stored.
-};
-
 struct FileInfo {
   std::string path;
   std::vector<PartInfo> parts;
   std::optional<ColourChoice> colour;
   std::string no_colour;  ///< Why there is none.
   std::vector<DepthCandidate> depth;
-  std::vector<FoundAttribute> camera;
+  std::vector<FoundAttribute> camera;  ///< The first of each field, usable or not.
   std::string command;  ///< That renders it, as a shell takes it; empty where something is missing.
 };
 

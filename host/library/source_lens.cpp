@@ -45,9 +45,20 @@ double depth_at(const PixelPlace& place, const Plane& depth, const PartInfo& par
   return static_cast<double>(*middle);
 }
 
+/// The camera without what a focus decides: enough to tell distances along rays.
+CameraValues before_focus(CameraValues camera) {
+  camera.focus_distance_units = std::numeric_limits<double>::infinity();
+  camera.focus_end_units.reset();
+  camera.perceived_distance_m.reset();
+  return camera;
+}
+
 CameraValues camera_of(const ImageFile& file, const RenderSettings& settings) {
   if (!settings.camera_from_metadata) return settings.camera;
-  return camera_from_metadata(file, settings.metres_per_unit).overridden_by(settings.camera);
+  const CameraValues& stated = settings.camera;
+  return camera_from_metadata(file, settings.metres_per_unit,
+                              settings.focus_at ? before_focus(stated) : stated)
+      .overridden_by(stated);
 }
 
 /// Takes the steps out of depth in half floats, where they would show.
@@ -58,14 +69,6 @@ void smooth_steps(Plane& depth, int width, FrameReport& report) {
       "the depth is in half floats, whose steps change the CoC by up to {:.3g} px: smoothed within "
       "a step in {} px; render it as 32-bit float",
       steps.largest_px, steps.smoothed));
-}
-
-/// The camera without what a focus decides: enough to tell distances along rays.
-CameraValues before_focus(CameraValues camera) {
-  camera.focus_distance_units = std::numeric_limits<double>::infinity();
-  camera.focus_end_units.reset();
-  camera.perceived_distance_m.reset();
-  return camera;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "command/program.h"
@@ -89,9 +90,45 @@ TEST_F(Info, OfALensAmongTheMetadata) {
             "defray render lens.exr -o out.exr --depth-kind negative-z --camera from-metadata "
             "--focus-at 4,4 --fstop 2.8");
   EXPECT_EQ(suggested("lens.exr")["focal_length_mm"], 35);
-  EXPECT_EQ(
-      data("lens.exr")["camera"][0],
-      (json{{"field", "focal_length_mm"}, {"attribute", "cameraFocalLength"}, {"value", "35"}}));
+  EXPECT_EQ(data("lens.exr")["camera"][0], (json{{"field", "focal_length_mm"},
+                                                 {"attribute", "cameraFocalLength"},
+                                                 {"value", "35"},
+                                                 {"usable", true}}));
+}
+
+TEST_F(Info, OfALensThatIsNotUsable) {
+  write("plain.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
+  const auto with = [&](const std::function<void(OIIO::ImageSpec&)>& change) {
+    OIIO::ImageBuf file(folder / "plain.exr");
+    file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+    change(file.specmod());
+    file.write(folder / "lens.exr");
+  };
+  with([](OIIO::ImageSpec& spec) { spec.attribute("nominalFocalLength", "fifty"); });
+  expect_lines("lens.exr", {"  focal_length_mm fifty (nominalFocalLength, OpenEXR), not usable: it "
+                            "must be a number above 0"});
+  EXPECT_EQ(data("lens.exr")["camera"][0]["usable"], false);
+  EXPECT_EQ(suggested("lens.exr")["focal_length_mm"], 50);
+  with([](OIIO::ImageSpec& spec) {
+    spec.attribute("nominalFocalLength", 0.0f);
+    spec.attribute("cameraAperture", "wide");
+    spec.attribute("cameraFov", 40.0f);  // not looked at beside an aperture
+    spec.attribute("aperture", 4.0f);
+    spec.attribute("cameraTargetDistance", 1e18f);  // none
+  });
+  EXPECT_EQ(data("lens.exr")["command"],
+            "defray render lens.exr -o out.exr --camera from-metadata --focus-at 4,4 "
+            "--focal-length 50 --sensor-width 36");
+  EXPECT_EQ(suggested("lens.exr")["aperture_diameter_mm"], 12.5);
+}
+
+TEST_F(Info, RadiansAreShownInDegrees) {
+  write("plain.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
+  OIIO::ImageBuf file(folder / "plain.exr");
+  file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  file.specmod().attribute("rs/camera/fov", 1.0f);
+  file.write(folder / "redshift.exr");
+  expect_lines("redshift.exr", {"  fov_deg 57.2958 (rs/camera/fov, Redshift)"});
 }
 
 TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {

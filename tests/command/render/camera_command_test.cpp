@@ -143,6 +143,37 @@ TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
                   "exr/nuke/camera/focal"});
 }
 
+TEST_F(Metadata, OptionsWinOverWhatCannotBeRead) {
+  const struct {
+    const char *attribute, *option, *stated;
+  } mistakes[] = {{"nominalFocalLength", "--focal-length", "--focal-length 40"},
+                  {"cameraFNumber", "--fstop", "--fstop 2"},
+                  {"cameraFNumber", "--fstop", "--aperture-diameter 20"},
+                  {"cameraFocusDistance", "--focus", "--focus 3"},
+                  {"cameraFocusDistance", "--focus", "--focus-at 4,4"},
+                  {"cameraFocusDistance", "--focus", "--focus-range 2,4"},
+                  {"cameraAperture", "--sensor-width", "--sensor-width 30"},
+                  {"cameraAperture", "--sensor-width", "--sensor-height 20"},
+                  {"cameraFov", "--fov", "--fov 40"},
+                  {"rs/camera/fov", "--fov", "--sensor-width 30"}};
+  for (const auto& mistake : mistakes) {
+    for (const std::string value : {"fifty", "0"}) {
+      write("bad.exr", [&](OIIO::ImageSpec& spec) {
+        // What no option states.
+        if (mistake.option != std::string("--focal-length"))
+          spec.attribute("IFM_focalLength", 35.0f);
+        if (mistake.option != std::string("--fstop")) spec.attribute("cameraFNumber", 4.0f);
+        if (mistake.option != std::string("--focus")) spec.attribute("cameraFocusDistance", 3.0f);
+        spec.attribute(mistake.attribute, value);
+      });
+      const std::string command = "bad.exr -o o.exr --camera from-metadata ";
+      expect_refused(command, 3,
+                     {"' = '" + value + "'", std::string(mistake.option) + " wins over it"});
+      report(command + mistake.stated);
+    }
+  }
+}
+
 class Sequences : public Camera {
  protected:
   Sequences() {
