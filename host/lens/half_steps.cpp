@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "lens/half_slopes.h"
+
 namespace defray {
 namespace {
 
@@ -18,9 +20,13 @@ constexpr float smallest_normal_half = 0x1p-14f;
 /// A float with no more digits than a half's.
 bool is_half(float z) { return (std::bit_cast<std::uint32_t>(z) & 0x1fff) == 0; }
 
-/// The next half float.
-float next_half(float z) {
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(z) + (1u << 13));
+/// By how much the CoC changes from a depth to the next half float.
+double step_px(float z, const Lens& lens, int lens_width) {
+  const double here = static_cast<double>(z), next = static_cast<double>(next_half(z));
+  const double scale = std::isinf(lens.focus_distance_units)
+                           ? infinite_focus_scale(lens, lens_width)
+                           : background_coc_px(lens, lens_width) * lens.focus_distance_units;
+  return scale * (1 / here - 1 / next);
 }
 
 /// Each pixel's way to the next higher and the next lower step, within its terrace, in px.
@@ -28,21 +34,6 @@ class Terraces {
  public:
   Terraces(const Plane& depth, int width)
       : depth_(depth), width_(width), height_(static_cast<int>(depth.size()) / width) {}
-
-  /// The largest depth that has a step, 0 without any, by the CoC's change there.
-  double largest_step_px(const Lens& lens, int lens_width) const {
-    double largest = 0;
-    for (std::size_t i = 0; i < depth_.size(); ++i) {
-      if (distance_to(i, true) != 0.5f) continue;
-      const double z = static_cast<double>(depth_[i]),
-                   next = static_cast<double>(next_half(depth_[i]));
-      const double scale = std::isinf(lens.focus_distance_units)
-                               ? infinite_focus_scale(lens, lens_width)
-                               : background_coc_px(lens, lens_width) * lens.focus_distance_units;
-      largest = std::max(largest, scale * (1 / z - 1 / next));
-    }
-    return largest;
-  }
 
   /// Of all pixels, to a step up or down; infinite where the terrace has none.
   std::vector<float> distances(bool up) const {
@@ -109,15 +100,23 @@ HalfSteps smooth_half_steps(Plane& depth, int width, const Lens& lens, int lens_
   });
   HalfSteps report;
   if (!are_halves) return report;
-  const Plane before = depth;
-  const Terraces terraces(before, width);
-  report.largest_px = terraces.largest_step_px(lens, lens_width);
+  for (const float z : depth) {
+    if (std::isfinite(z))
+      report.largest_px = std::max(report.largest_px, step_px(z, lens, lens_width));
+  }
   if (report.largest_px <= visible_px) return report;
+  const Plane before = depth, on_slopes = smoothed_slopes(before, width);
+  const Terraces terraces(before, width);
   const std::vector<float> higher = terraces.distances(true), lower = terraces.distances(false);
+  report.largest_px = 0;  // of what is no step at all: a level surface, whatever its depth
   for (std::size_t i = 0; i < depth.size(); ++i) {
     if (!std::isfinite(before[i])) continue;
-    depth[i] += height_of(lower[i], higher[i]) * (next_half(before[i]) - before[i]);
-    report.smoothed += depth[i] != before[i];
+    depth[i] = on_slopes[i] > 0 ? on_slopes[i]
+                                : before[i] + height_of(lower[i], higher[i]) *
+                                                  (next_half(before[i]) - before[i]);
+    if (depth[i] == before[i]) continue;
+    report.smoothed += 1;
+    report.largest_px = std::max(report.largest_px, step_px(before[i], lens, lens_width));
   }
   return report;
 }

@@ -9,14 +9,15 @@
 namespace defray {
 
 struct HalfSteps {
-  double largest_px = 0;     ///< By how much the CoC changes at a step; 0: there are none.
+  double largest_px = 0;     ///< By how much the CoC changes at a step of what is seen.
   std::size_t smoothed = 0;  ///< Pixels whose depth was changed, by half a step at the most.
 };
 
-/// Where depths are half floats and a step that is seen changes the CoC by more than half a pixel:
-/// terraces become slopes, between the middles of their steps. A step is two neighbours whose
-/// depths are next to each other among half floats; what is farther apart is an edge, or steep
-/// enough. `depth` is planar, `lens_width` the frame that the lens spans.
+/// Where depths are half floats and a step at a depth that is seen changes the CoC by more than
+/// half a pixel: terraces become slopes, between the middles of their steps, and slopes that are
+/// steeper than a step a pixel (half_slopes.h) lose what rounding put on them. Level surfaces stay,
+/// and nothing is smoothed across an edge. `depth` is planar, `lens_width` the frame that the lens
+/// spans.
 HalfSteps smooth_half_steps(Plane& depth, int width, const Lens& lens, int lens_width);
 
 }  // namespace defray

@@ -1,6 +1,7 @@
 // defray render: what looks like a mistake is an error or a note, with the number.
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "command/program.h"
@@ -198,6 +199,36 @@ TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
     EXPECT_NEAR(alpha[i], exact[i], 0.01) << i % across;
   EXPECT_EQ(said("halves.exr -o h.exr --focus 6 --fstop 8 --focal-length 50").find("half floats"),
             std::string::npos);
+}
+
+/// A plane so steep that each pixel's depth is another half float. Where its CoC changes by less
+/// than a pixel a pixel it is one surface, as in floats; where by more, it is what stages take for
+/// edges, and rounding still decides about some of them.
+TEST_F(Mistakes, HalfFloatDepthOfASteepPlane) {
+  const struct {
+    const char *size, *fstop;
+    double psnr;
+    int most_behind;
+  } cases[] = {{"--width 640 --height 96", "0.7", 50, 0},
+               {"--width 480 --height 300", "0.5", 40, 9000}};
+  for (const auto& c : cases) {
+    expect_ok(defray(folder_, fmt::format("scene slanted -o . {} --truth-samples 1", c.size)));
+    const ImageFile scene = ImageFile::read(folder_ / "pinhole.exr");
+    const Window& data = scene.parts()[0].data;
+    std::vector<Plane> planes;
+    for (int channel = 0; channel < 4; ++channel) planes.push_back(scene.plane(0, channel));
+    ImageFile::from_planes(scene.parts()[0].channels, planes, data.width, data.height)
+        .write(folder_ / "halves.exr");
+    const std::string telephoto =
+        fmt::format(" --focus 3 --focal-length 300 --fstop {} --json", c.fstop);
+    expect_ok(defray(folder_, "render pinhole.exr -o f.exr" + telephoto));
+    const Result halves = defray(folder_, "render halves.exr -o h.exr" + telephoto);
+    expect_ok(halves);
+    const auto report = nlohmann::json::parse(halves.out);
+    EXPECT_NE(halves.out.find("the depth is in half floats"), std::string::npos) << halves.out;
+    EXPECT_LE(report["chain"]["behind_px"], c.most_behind) << c.fstop;
+    expect_ok(defray(folder_, fmt::format("compare h.exr f.exr --min-psnr {}", c.psnr)));
+  }
 }
 
 TEST_F(Mistakes, WeakSpellings) {

@@ -87,6 +87,48 @@ TEST(HalfSteps, EdgesAndWhatIsNoStepStay) {
   }
 }
 
+/// A plane: 1/z is linear, 2 to 3 steps a pixel across and one down; from `edge` on another one.
+Plane steep_planes(int edge, float other) {
+  Plane z;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float inverse =
+          0.24f - 0.00028f * static_cast<float>(x) - 0.0001f * static_cast<float>(y);
+      z.push_back(1 / (x < edge ? inverse : inverse * other));
+    }
+  }
+  return z;
+}
+
+TEST(HalfSteps, SteepSlopesAreSmoothedUpToTheFramesEnds) {
+  const Plane exact = steep_planes(width, 1), stepped = halves(exact);
+  Plane z = stepped;
+  const HalfSteps report = smooth_half_steps(z, width, telephoto(), frame_width);
+  EXPECT_GT(report.smoothed, z.size() * 9 / 10);
+  EXPECT_GT(report.largest_px, 0.5);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto step = static_cast<double>(stepped[i] < 8 ? 1.0f / 256 : 1.0f / 128);
+    EXPECT_LE(std::fabs(z[i] - stepped[i]), step / 2 * 1.0001);
+    before = std::max(before, std::fabs(static_cast<double>(stepped[i] - exact[i])) / step);
+    after = std::max(after, std::fabs(static_cast<double>(z[i] - exact[i])) / step);
+  }
+  EXPECT_GT(before, 0.45);
+  EXPECT_LT(after, 0.25);
+}
+
+TEST(HalfSteps, NoSlopeGoesOnAcrossAnEdge) {
+  constexpr int edge = 70;
+  Plane near = halves(steep_planes(edge, 1.5f)), far = halves(steep_planes(edge, 0.6f));
+  Plane thin = near;  // of a pixel's width, in front
+  for (int y = 0; y < height; ++y) thin[static_cast<std::size_t>(y * width + 30)] = 3;
+  for (Plane* z : {&near, &far, &thin}) smooth_half_steps(*z, width, telephoto(), frame_width);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (i % width < edge) EXPECT_EQ(near[i], far[i]) << i % width;
+    if (i % width == 30) EXPECT_EQ(thin[i], 3);
+  }
+}
+
 TEST(HalfSteps, NothingIsDoneWhereNoStepShows) {
   Plane z = halves(slope());
   const Plane before = z;
