@@ -89,6 +89,8 @@ struct Viewer::State {
         s.events.push_back(e);
       }
     } else if (event == cv::EVENT_MOUSEWHEEL) {
+      // Qt's view, whatever the window's flags, scales itself by a tenth as well, up and down to
+      // where it was; OpenCV 4.6 has no call that undoes it. Places of the mouse are the picture's.
       e.kind = ViewerEvent::Kind::wheel;
       e.steps = cv::getMouseWheelDelta(flags) > 0 ? 1 : -1;
       e.has_control = (flags & cv::EVENT_FLAG_CTRLKEY) != 0;
