@@ -178,8 +178,11 @@ int run(const CompareOptions& o) {
     const std::vector<std::uint8_t> mask = read_band(o, a);
     band = {errors_where(a.planes, b.planes, mask, 1), errors_where(a.planes, b.planes, mask, 0)};
   }
-  const Comparison comparison = o.mask.empty() ? compare(a.planes, b.planes, a.data.width)
-                                               : compare_where(a, b, read_mask(o, a.data));
+  Comparison comparison = o.mask.empty() ? compare(a.planes, b.planes, a.data.width)
+                                         : compare_where(a, b, read_mask(o, a.data));
+  // From the display window's left upper corner, as --crop is.
+  comparison.worst_x += a.data.x - a.display.x;
+  comparison.worst_y += a.data.y - a.display.y;
   if (o.json) {
     print_json(comparison, band);
   } else {

@@ -218,6 +218,9 @@ TEST_F(Compare, APartOfThePictures) {
   const json part = compared("a.exr b.exr --crop 4x32+0+0");
   EXPECT_EQ(part["worst_x"], 2);
   EXPECT_NEAR(part["rms"], 0.5 / std::sqrt(12), 1e-6);
+  // Places are the whole picture's.
+  EXPECT_EQ(compared("a.exr b.exr --crop 4x4+1+5")["worst_x"], 2);
+  EXPECT_EQ(compared("a.exr b.exr --crop 4x4+1+5")["worst_y"], 5);
   EXPECT_EQ(code("a.exr b.exr --crop 10x10+3+4 --max-error 0"), 0);
   refuse("a.exr b.exr --crop 9x9+48+0", 3, {"--crop lies outside"});
   refuse("a.exr b.exr --crop 9x9", 2, {"--crop '9x9'", "3840x2160+100+50"});
@@ -258,6 +261,8 @@ TEST_F(Compare, DataWindowsThatDiffer) {
   EXPECT_EQ(compared("l.exr r.exr --windows overlap")["equal"], true);
   const json all = compared("l.exr r.exr");
   EXPECT_NEAR(all["rms"], 0.5 * std::sqrt(8.0 / 12), 1e-6);
+  EXPECT_EQ(all["worst_x"], 2) << "of the display window";
+  EXPECT_EQ(compared("l.exr r.exr --crop 6x4+8+0")["worst_x"], 10);
   write("far.exr", 12, 0.5f);
   refuse("l.exr far.exr --windows overlap", 3, {"the data windows do not overlap"});
   refuse("l.exr a.exr", 3, {"display window 20x4+0+0", "48x32+0+0"});
