@@ -59,7 +59,9 @@ struct Line {
 class Slopes {
  public:
   Slopes(const Plane& depth, int width)
-      : depth_(depth), inverse_(depth.size()), width_(width),
+      : depth_(depth),
+        inverse_(depth.size()),
+        width_(width),
         height_(static_cast<int>(depth.size()) / width) {
     std::transform(depth.begin(), depth.end(), inverse_.begin(), [](float z) { return 1 / z; });
   }
@@ -71,7 +73,8 @@ class Slopes {
     const auto middle = static_cast<double>(inverse_[i]);
     const double step = middle - 1 / static_cast<double>(next_half(depth_[i]));
     double height = 0, weight = 0;
-    for (const Line& line : {line_at(i, x, width_, 1, step), line_at(i, y, height_, width_, step)}) {
+    for (const Line& line :
+         {line_at(i, x, width_, 1, step), line_at(i, y, height_, width_, step)}) {
       const double n = line.count + 1, spread = n * line.sum_kk - line.sum_k * line.sum_k;
       // A level line was rounded as the pixel itself all along.
       const bool is_steep = std::fabs(n * line.sum_kw - line.sum_k * line.sum_w) >= steep * spread;
@@ -90,7 +93,8 @@ class Slopes {
   Line side(std::size_t i, int direction, int room, int stride, double step) const {
     Line line;
     for (int k = direction; std::abs(k) <= std::min(reach, room); k += direction) {
-      const float there = inverse_[i + static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) * stride)];
+      const float there =
+          inverse_[i + static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) * stride)];
       const double w = (static_cast<double>(there) - static_cast<double>(inverse_[i])) / step;
       if (there == 0 || !line.takes(k, w)) break;
     }

@@ -10,9 +10,9 @@ namespace defray {
 /// A float's next neighbour among half floats, away from 0.
 float next_half(float z);
 
-/// The depth of each pixel on such a slope, half a step at the most from what is stored: on the line
-/// that goes through it and its neighbours, all within their rounding, across or down. 0 elsewhere.
-/// What lies beyond an edge is on no such line.
+/// The depth of each pixel on such a slope, half a step at the most from what is stored: on the
+/// line that goes through it and its neighbours, all within their rounding, across or down. 0
+/// elsewhere. What lies beyond an edge is on no such line.
 Plane smoothed_slopes(const Plane& depth, int width);
 
 }  // namespace defray
