@@ -135,6 +135,11 @@ void refuse_empty_values(const CLI::App& command) {
   }
 }
 
+/// Commands that do nothing but print; others write files beside what they print.
+bool is_for_its_text(const CLI::App& command) {
+  return command.get_name() == "info" || command.get_name() == "devices";
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app{what_it_is, "defray"};
   app.footer(examples);
@@ -161,7 +166,7 @@ int run_command(int argc, char** argv) {
     if (!app_of->parsed()) continue;
     refuse_empty_values(*app_of);
     const int code = command();
-    if (is_output_lost()) {
+    if (is_output_lost() || (was_output_closed() && is_for_its_text(*app_of))) {
       return fail_with(ErrorKind::output, "cannot write to standard output");
     }
     return code;

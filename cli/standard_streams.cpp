@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -18,6 +19,8 @@
 
 namespace defray::cli {
 namespace {
+
+bool is_output_closed = false;
 
 std::string read_all(int file) {
   std::string bytes;
@@ -52,8 +55,9 @@ std::string extension_of(const std::string& bytes) {
 
 void open_standard_streams() {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    // The lowest number that is free is this one's.
-    if (fcntl(file, F_GETFD) == -1) (void)!open("/dev/null", O_RDWR);
+    if (fcntl(file, F_GETFD) != -1) continue;
+    if (file == STDOUT_FILENO) is_output_closed = true;
+    (void)!open("/dev/null", O_RDWR);  // the lowest number that is free is this one's
   }
   std::signal(SIGPIPE, SIG_IGN);
 }
@@ -70,12 +74,17 @@ bool is_output_lost() {
   return std::ferror(stdout) != 0;
 }
 
+bool was_output_closed() { return is_output_closed; }
+
 void print_error(const std::string& line) noexcept {
   std::fputs((line + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 
 PictureStreams::PictureStreams(std::string& input, std::string& output) {
+  if (output == name && was_output_closed()) {
+    fail(ErrorKind::output, "standard output: is closed: no picture can be written there");
+  }
   if (input == name || output == name) folder_.emplace("defray-stream");
   std::string extension = ".exr";
   if (input == name) {
@@ -85,16 +94,37 @@ PictureStreams::PictureStreams(std::string& input, std::string& output) {
       fail(ErrorKind::input, "standard input: {}; a picture is EXR, PNG, JPEG, TIFF or HDR",
            bytes.empty() ? "is empty" : "is no picture");
     }
-    input = folder_->path() + "/standard-input" + found;
-    std::ofstream stream(input, std::ios::binary);
-    stream << bytes;
-    if (!stream.flush()) fail(ErrorKind::output, "{}: cannot write", input);
+    copy_input(bytes, found);
+    input = input_;
   }
   if (output != name) return;
   if (lower_extension(input) == ".png") extension = ".png";
   output = output_ = folder_->path() + "/standard-output" + extension;
   standard_output_ = dup(STDOUT_FILENO);
   dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+void PictureStreams::copy_input(const std::string& bytes, const std::string& extension) {
+  input_ = folder_->path() + "/standard-input" + extension;
+  errno = 0;
+  std::ofstream stream(input_, std::ios::binary);
+  stream << bytes;
+  if (stream.flush()) return;
+  fail(ErrorKind::output,
+       "standard input: cannot copy its {} bytes to {}: {}; TMPDIR names another folder",
+       bytes.size(), std::filesystem::temp_directory_path().string(), std::strerror(errno));
+}
+
+std::string PictureStreams::named(std::string text) const {
+  for (const auto& [path, words] :
+       {std::pair{input_, "standard input"}, {output_, "standard output"}}) {
+    if (path.empty()) continue;
+    if (text == path) return name;
+    for (auto at = text.find(path); at != text.npos; at = text.find(path)) {
+      text.replace(at, path.size(), words);
+    }
+  }
+  return text;
 }
 
 void PictureStreams::finish() {

@@ -18,6 +18,9 @@ bool flush_output();
 /// Whether something that was printed was lost: a full disk.
 bool is_output_lost();
 
+/// Whether standard output was closed when the program began.
+bool was_output_closed();
+
 /// A line to standard error, whatever is wrong there.
 void print_error(const std::string& line) noexcept;
 
@@ -27,15 +30,22 @@ class PictureStreams {
  public:
   static constexpr const char* name = "-";
 
-  /// Replaces names that are "-". Throws Error(input) where standard input holds no picture.
+  /// Replaces names that are "-". Throws Error(input) where standard input holds no picture,
+  /// Error(output) where it cannot be copied or standard output is closed.
   PictureStreams(std::string& input, std::string& output);
 
   /// Writes the output, if it is to go there. Throws Error(output).
   void finish();
 
+  /// A text in which the files are called what their user calls them: "-", or "standard input" in a
+  /// sentence.
+  std::string named(std::string text) const;
+
  private:
+  void copy_input(const std::string& bytes, const std::string& extension);
+
   std::optional<TemporaryFolder> folder_;  ///< Where there is something to put into it.
-  std::string output_;
+  std::string input_, output_;
   int standard_output_ = -1;
 };
 

@@ -81,10 +81,7 @@ void take_focus_of_frame(RenderCommand& job) {
   job.settings.focus_at.reset();
 }
 
-int run(const OptionTable& options, RenderCommand& job) {
-  options.set();
-  job.given = options.given();
-  PictureStreams streams(job.paths.input, job.paths.output);
+int render(const OptionTable& options, RenderCommand& job, PictureStreams& streams) {
   const auto frames = frames_of(job);
   options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
   finish(job);
@@ -100,6 +97,18 @@ int run(const OptionTable& options, RenderCommand& job) {
     return ExitCode::failed;
   }
   return ExitCode::ok;
+}
+
+int run(const OptionTable& options, RenderCommand& job) {
+  options.set();
+  job.given = options.given();
+  PictureStreams streams(job.paths.input, job.paths.output);
+  job.named = [&](const std::string& text) { return streams.named(text); };
+  try {
+    return render(options, job, streams);
+  } catch (const Error& error) {
+    throw Error(error.kind(), streams.named(error.marked()));
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // What `defray render` is asked to do, and its options: one table of rows a group, each in its own
 // file (options_*.cpp).
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,10 @@ struct RenderCommand {
   std::optional<int> focus_frame;  ///< Of settings.focus_at; without one, each its own.
   bool make_folders = false, no_pattern = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< The options, as typed.
+  /// A text with standard input and output in it as such, for people.
+  std::function<std::string(const std::string&)> named = [](const std::string& text) {
+    return text;
+  };
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
   std::string device;
   Math math = Math::strict;

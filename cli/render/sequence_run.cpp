@@ -113,7 +113,7 @@ std::size_t SequenceRun::render() {
 void SequenceRun::finish(Work work) {
   if (work.error) {
     work.outcome.status = "failed";
-    work.outcome.error = message_of(*work.error);
+    work.outcome.error = job_.named(message_of(*work.error));
     if (job_.json) report(work.outcome);
     bar_.clear();
     if (!job_.skip_bad_frames || work.error->kind() == ErrorKind::device) throw *work.error;
@@ -126,7 +126,7 @@ void SequenceRun::finish(Work work) {
     last_data_ = work.outcome.report.data;
     last_display_ = work.outcome.report.display;
   }
-  report(work.outcome);
+  report(std::move(work.outcome));
 }
 
 void SequenceRun::show_last() {
@@ -142,9 +142,15 @@ void SequenceRun::show_last() {
   fmt::print(job_.quiet || job_.json ? stderr : stdout, "{}\n", session.command());
 }
 
-void SequenceRun::report(const FrameOutcome& outcome) {
+void SequenceRun::report(FrameOutcome outcome) {
   bar_.clear();
   if (is_mute_) return;
+  FrameReport& about = outcome.report;
+  for (FramePaths* paths : {&outcome.paths, &about.paths}) {
+    paths->input = job_.named(paths->input);
+    paths->output = job_.named(paths->output);
+  }
+  for (std::string& note : about.notes) note = job_.named(note);
   try {
     if (job_.json) {
       print_json_line(outcome, device_->name());

@@ -42,7 +42,7 @@ class SequenceRun {
 
   Work read(std::optional<int> frame) const;
   void finish(Work work);
-  void report(const FrameOutcome& outcome);
+  void report(FrameOutcome outcome);
 
   const RenderCommand& job_;
   std::vector<std::optional<int>> frames_;

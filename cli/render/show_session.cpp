@@ -56,7 +56,8 @@ void ShowSession::run(const std::vector<Plane>& rendered) {
   find_lens();
   view_.after = in_rgb(rendered);
   fmt::print(stderr, "{}\n", keys);
-  Viewer viewer("defray: " + job_.paths.output, view_.display.width, view_.display.height);
+  Viewer viewer("defray: " + job_.named(job_.paths.output), view_.display.width,
+                view_.display.height);
   do {
     draw(viewer);
   } while (!handle(viewer.wait()));
@@ -123,7 +124,7 @@ void ShowSession::draw(Viewer& viewer) const {
           : fmt::format(", focus {:.4g}, f/{:.4g}", view_.lens.focus_distance_units,
                         view_.lens.focal_length_mm / view_.lens.aperture_diameter_mm);
   viewer.show(planes, view_.display.width, view_.display.height, is_actual_size_,
-              fmt::format("defray: {}{}{}{}{}", job_.paths.output, frame, lens,
+              fmt::format("defray: {}{}{}{}{}", job_.named(job_.paths.output), frame, lens,
                           shows_before_ ? ", before" : "", shows_coc_ ? ", CoC" : ""));
 }
 

@@ -1,4 +1,6 @@
 // Standard streams: closed, without a reader, full, and with pictures in them.
+#include <unistd.h>
+
 #include <fstream>
 
 #include "command/program.h"
@@ -25,8 +27,50 @@ TEST_F(Streams, ClosedOnesEndNothingAndGetNoFilesNumber) {
     EXPECT_EQ(file_hash(folder / "out.exr"), file_hash(folder / "usual.exr")) << closed;
     EXPECT_EQ(run("render none.exr -o o.exr" + lens, closed).code, 3) << closed;
     EXPECT_EQ(run("render --focsu 3", closed).code, 2) << closed;
-    EXPECT_EQ(run("devices", closed).code, 0) << closed;
+    // What only prints has lost it all; a picture is there without its log.
+    const int code = closed.find(">&-") == 0 || closed.find(" >&-") != closed.npos ? 4 : 0;
+    EXPECT_EQ(run("devices", closed).code, code) << closed;
+    EXPECT_EQ(run("info in.exr", closed).code, code) << closed;
   }
+  EXPECT_EQ(run("info in.exr", ">&-").err, run("info in.exr", ">/dev/full").err);
+}
+
+TEST_F(Streams, APictureForAClosedOutputIsRefused) {
+  const Result closed = run("render in.exr -o -" + lens, ">&-");
+  EXPECT_EQ(closed.code, 4);
+  EXPECT_EQ(closed.err,
+            "defray: error: standard output: is closed: no picture can be written there\n");
+}
+
+TEST_F(Streams, MessagesCallTheStreamsByTheirNames) {
+  const std::string to_null = " <in.exr >/dev/null";
+  const Result text = run("render - -o -" + lens, to_null);
+  EXPECT_EQ(text.err.substr(0, text.err.find('\n')), "- -> -");
+  const Result data = run("render - -o - --json" + lens, to_null);
+  EXPECT_NE(data.err.find(R"("input":"-","output":"-")"), std::string::npos) << data.err;
+  EXPECT_EQ((text.err + data.err).find("defray-stream"), std::string::npos) << data.err;
+  write_picture_file(folder, "flat.exr", {"R", "G", "B"});
+  for (const std::string more : {"", " --json --skip-bad-frames"}) {
+    const Result flat = run("render - -o o.exr" + lens + more, "<flat.exr");
+    EXPECT_NE(flat.err.find("defray: error: standard input: no depth"), std::string::npos)
+        << flat.err;
+    EXPECT_EQ((flat.out + flat.err).find("defray-stream"), std::string::npos) << flat.out;
+  }
+}
+
+TEST_F(Streams, AFullTemporaryFolderIsNamed) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root to mount a small file system";
+  std::filesystem::create_directory(folder / "disk");
+  if (shell(folder, "mount -t tmpfs -o size=8k tmpfs disk").code != 0) {
+    GTEST_SKIP() << "cannot mount here";
+  }
+  const Result full =
+      run("render - -o o.exr" + lens, "<in.exr", "TMPDIR='" + (folder / "disk") + "' ");
+  shell(folder, "umount disk");
+  EXPECT_EQ(full.code, 4);
+  EXPECT_NE(full.err.find("standard input: cannot copy its "), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("No space left on device; TMPDIR names another"), std::string::npos)
+      << full.err;
 }
 
 TEST_F(Streams, AReaderThatGoesAwayStopsNoFrame) {
