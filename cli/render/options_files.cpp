@@ -25,12 +25,16 @@ std::vector<OptionRow> depth_rows(RenderSettings& s) {
                       return d.kind == DepthKind::normalized || d.kind == DepthKind::zbuffer;
                     },
                     "goes with --depth-kind normalized or zbuffer only"};
+  const Needs ends{[&d](const Given& given) {
+                     return d.kind != DepthKind::normalized || (given("--near") && given("--far"));
+                   },
+                   "normalized needs --near, which may be 0, and --far, in scene units"};
   return {
       {"--depth-kind",
        word(d.kind, depth_words),
        "z: planar; distance: along the ray; inverse: 1/z; normalized: 0 near, 1 far; negative-z: "
        "-z of camera space; zbuffer: as a GPU stores it, 0 near, 1 far, linear in 1/z",
-       {.field = "depth.kind", .scope = of_depth}},
+       {.field = "depth.kind", .scope = of_depth, .needs = ends}},
       {"--near",
        with_default(value(d.near_units), ""),
        "Depth of 0, scene units (normalized, where it may be 0; zbuffer)",

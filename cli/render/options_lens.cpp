@@ -81,8 +81,15 @@ void set_range(CameraValues& camera, const std::string& text) {
   if (ends.size() != 2) {
     fail(ErrorKind::usage, "--focus-range '{}': write its two ends as 2,4.5", text);
   }
-  camera.focus_distance_units = Curve("--focus-range", ends[0]).at(0);
-  camera.focus_end_units = Curve("--focus-range", ends[1]).at(0);
+  const Curve near("--focus-range", ends[0]), far("--focus-range", ends[1]);
+  if (!near.is_constant() || !far.is_constant()) {
+    fail(ErrorKind::usage,
+         "--focus-range '{}': takes no frames, its ends are those of all: write them as 2,4.5; "
+         "--focus may change",
+         text);
+  }
+  camera.focus_distance_units = near.at(0);
+  camera.focus_end_units = far.at(0);
 }
 
 std::vector<OptionRow> focus_rows(RenderCommand& job) {

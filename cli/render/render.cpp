@@ -42,6 +42,13 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
       fail(ErrorKind::usage, "--focus-frame needs a pattern in the input name: {} is one picture",
            p.input);
     }
+    if (is_pattern(job, job.camera, false)) {
+      fail(
+          ErrorKind::usage,
+          "--camera {}: is one a frame, the input {} is one picture: put #### in its name, or give "
+          "the camera of its frame",
+          job.camera, p.input);
+    }
     for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
       if (is_pattern(job, name, false)) {
         fail(ErrorKind::usage,

@@ -23,7 +23,7 @@ void stop_this_thread() noexcept {
 }
 
 void stop_other_threads() noexcept {
-  struct sigaction action{};
+  struct sigaction action {};
   action.sa_handler = stay;
   sigfillset(&action.sa_mask);
   const int tasks = open("/proc/self/task", O_RDONLY | O_DIRECTORY);

@@ -56,6 +56,8 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 
 std::string nearest_spelling(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0; };
+  if (std::none_of(word.begin(), word.end(), is_letter)) return "";  // a number is no misspelling
   // Of a word of one letter any other is one edit away.
   std::size_t best_distance = std::min(std::max<std::size_t>(1, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : candidates) {

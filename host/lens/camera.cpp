@@ -31,6 +31,7 @@ CameraValues CameraValues::overridden_by(const CameraValues& over) const {
   values.sensor_height_mm = sensor.sensor_height_mm;
   values.fov_deg = sensor.fov_deg;
   values.pixels_per_metre = sensor.pixels_per_metre;
+  values.sensor_source = sensor.sensor_source;
   values.fit = over.fit || over.sensor_height_mm ? over.fit : fit;
   values.perceived_scale = either(over.perceived_scale, perceived_scale);
   values.perceived_distance_m = either(over.perceived_distance_m, perceived_distance_m);
@@ -108,6 +109,11 @@ void refuse_doubled(const CameraValues& v) {
     fail(ErrorKind::usage, "{} and {} say the same thing: give one of them", field(name),
          field(other));
   };
+  const auto refuse_sensors = [&](bool first, const char* name, bool second, const char* other) {
+    if (!first || !second || v.sensor_source.empty()) return refuse(first, name, second, other);
+    fail(ErrorKind::input, "{}: keys '{}' and '{}' say the same thing: leave one of them",
+         v.sensor_source, name, other);
+  };
   refuse(v.fstop.has_value(), "fstop", v.aperture_diameter_mm.has_value(), "aperture_diameter_mm");
   const std::pair<const char*, bool> sensors[] = {
       {"sensor_width_mm", v.sensor_width_mm.has_value() && v.fit != SensorFit::vertical},
@@ -118,9 +124,19 @@ void refuse_doubled(const CameraValues& v) {
   for (const auto& [name, is_there] : sensors) {
     for (const auto& [other, is_other_there] : sensors) {
       if (other == name) break;
-      refuse(is_other_there, other, is_there, name);
+      refuse_sensors(is_other_there, other, is_there, name);
     }
   }
+}
+
+/// Throws Error(usage) for a height that would span nothing.
+void refuse_idle_height(const CameraValues& v) {
+  const bool is_of_width = v.fit && *v.fit != SensorFit::vertical;
+  if (!v.sensor_height_mm || v.sensor_width_mm || !is_of_width) return;
+  const std::string from = v.sensor_source.empty() ? "" : v.sensor_source + ": ";
+  fail(ErrorKind::usage, "{}{} goes with {} vertical, found {}: give {}, or another {}", from,
+       field("sensor_height_mm"), field("fit"), *v.fit == SensorFit::longer ? "auto" : "horizontal",
+       field("sensor_width_mm"), field("fit"));
 }
 
 /// The sensor across the display window's width, mm.
@@ -153,6 +169,7 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
                double max_coc_px, const Window& display) {
   refuse_missing(values);
   refuse_doubled(values);
+  refuse_idle_height(values);
   if (values.fstop && !(*values.fstop > 0)) {
     fail(ErrorKind::usage, "f-number is {}: it must be above 0", *values.fstop);
   }

@@ -98,8 +98,9 @@ std::optional<SensorFit> sensor_fit(const std::string& path, const json& root) {
   const std::pair<const char*, SensorFit> words[] = {{"horizontal", SensorFit::horizontal},
                                                      {"vertical", SensorFit::vertical},
                                                      {"auto", SensorFit::longer}};
+  const json& said = root["sensor_fit"];
   for (const auto& [word, fit] : words) {
-    if (root["sensor_fit"] == word) return fit;
+    if (said.is_string() && lower_case(said.get<std::string>()) == word) return fit;
   }
   fail(ErrorKind::input, "{}: 'sensor_fit' is none of horizontal, vertical, auto", path);
 }
@@ -140,7 +141,7 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   if (!root.is_object()) fail(ErrorKind::input, "{}: not a JSON object", path);
   const json& focus = choose_setting(path, root, setting);
   CameraValues values;
-  values.source = path;
+  values.source = values.sensor_source = path;
   values.focal_length_mm = number(path, root, "focal_length_mm");
   values.sensor_width_mm = number(path, root, "sensor_width_mm");
   values.sensor_height_mm = number(path, root, "sensor_height_mm");

@@ -19,9 +19,9 @@ void note_unusual(const Usual& usual, const std::optional<double>& value,
                   std::vector<std::string>& notes) {
   if (!value || (*value >= usual.smallest && *value <= usual.largest)) return;
   notes.push_back(
-      fmt::format("{} {:g}{} is ten times off any real one ({:g} to {:g}): is the unit "
-                  "right?",
-                  usual.what, *value, usual.unit, usual.smallest * 10, usual.largest / 10));
+      fmt::format("{} {:g}{} is ten times off any real one ({:g} to {:g}): is {} right?",
+                  usual.what, *value, usual.unit, usual.smallest * 10, usual.largest / 10,
+                  usual.unit[0] == '\0' ? "it" : "the unit"));
 }
 
 }  // namespace

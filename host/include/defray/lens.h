@@ -85,7 +85,8 @@ struct CameraValues {
   std::optional<double> perceived_scale;
   /// The same by the distance at which the plane of focus seems to be, metres (eq. 5).
   std::optional<double> perceived_distance_m;
-  std::string source;  ///< Where they are from, for messages; empty: the command line.
+  std::string sensor_source;  ///< The file that the sensor or field of view is from; else empty.
+  std::string source;         ///< Where they are from, for messages; empty: the command line.
   /// By field, under which names that source was searched in vain.
   std::map<std::string, std::string> sought;
   std::vector<std::string> notes;  ///< What else its user should know of it.

@@ -133,7 +133,8 @@ TEST_F(BadInput, OptionValues) {
   // A number is no part of a name, such as avx512.
   expect_render_refused(base + "--device 512", 5, {"no OpenCL device 512", "found: 0: "});
   expect_render_refused(base + "--invert", 2, {"--invert", "normalized"});
-  expect_render_refused(base + "--depth-kind normalized", 2, {"--near < --far"});
+  expect_render_refused(base + "--depth-kind normalized", 2, {"needs --near"});
+  expect_render_refused(base + "--depth-kind normalized --near 3 --far 2", 2, {"--near < --far"});
   expect_render_refused(base + "--frames 1-3", 2, {"--frames needs a pattern"});
 }
 

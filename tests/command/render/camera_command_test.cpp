@@ -55,6 +55,46 @@ TEST_F(Camera, SensorsThatContradictEachOtherAreRefused) {
                  {"--sensor-width and --sensor-height say the same"});
   expect_refused(in + "--sensor-fit vertical", 2, {"--sensor-fit vertical needs --sensor-height"});
   expect_refused(in + "--sensor-fit wide", 2, {"'wide'", "auto horizontal vertical"});
+  for (const std::string fit : {"auto", "horizontal"}) {
+    expect_refused(
+        in + "--sensor-height 24 --sensor-fit " + fit, 2,
+        {"--sensor-height goes with --sensor-fit vertical, found " + fit, "give --sensor-width"});
+  }
+}
+
+TEST_F(Camera, SensorsOfACameraFile) {
+  const auto camera = [&](const std::string& sensor) {
+    std::ofstream(folder_ / "camera.json")
+        << R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2, )" << sensor << "}";
+    return std::string("tall.exr -o o.exr --camera camera.json ");
+  };
+  const std::string doubled = camera(R"("sensor_width_mm": 36, "fov_deg": 40)");
+  expect_refused(doubled, 3,
+                 {"camera.json: keys 'sensor_width_mm' and 'fov_deg' say the same thing"});
+  EXPECT_DOUBLE_EQ(report(doubled + "--sensor-width 30")["sensor_width_mm"], 30);
+  expect_refused(doubled + "--sensor-width 30 --fov 40", 2, {"--sensor-width and --fov say"});
+  // As Blender spells it.
+  for (const auto& [fit, across] : {std::pair{"AUTO", 24.0}, {"HORIZONTAL", 36.0}}) {
+    EXPECT_DOUBLE_EQ(report(camera(fmt::format(R"("sensor_width_mm": 36, "sensor_fit": "{}")",
+                                               fit)))["sensor_width_mm"],
+                     across);
+  }
+  EXPECT_DOUBLE_EQ(
+      report(camera(R"("sensor_height_mm": 24, "sensor_fit": "VERTICAL")"))["sensor_width_mm"], 16);
+  expect_refused(camera(R"("sensor_height_mm": 24, "sensor_fit": "AUTO")"), 2,
+                 {"camera.json: --sensor-height goes with --sensor-fit vertical, found auto"});
+  EXPECT_DOUBLE_EQ(report(camera(R"("sensor_width_mm": 36, "sensor_fit": "AUTO")") +
+                          "--sensor-height 24")["sensor_width_mm"],
+                   16);
+}
+
+TEST_F(Camera, WhatChangesNeedsFrames) {
+  const std::string in = "wide.exr -o o.exr --fstop 2 --focal-length 50 ";
+  expect_refused(in + "--focus-range 2:1,3:2", 2,
+                 {"--focus-range '2:1,3:2': takes no frames", "write them as 2,4.5"});
+  expect_refused(in + "--camera camera.####.json", 2,
+                 {"--camera camera.####.json: is one a frame", "wide.exr is one picture",
+                  "put #### in its name"});
 }
 
 TEST_F(Camera, ACutOutIsBlurredAsTheWholeFrame) {

@@ -144,7 +144,8 @@ TEST_F(Mistakes, LensesThatNoOneBuilds) {
               "focal length 0.05 mm is ten times off any real one (1.5 to 2000)");
   expect_note(in + "--fstop 2 --focal-length 0.05 --sensor-width 0.036", "sensor 0.036 mm");
   expect_note(in + "--aperture-diameter 1000 --focal-length 50", "f-number 0.05 is ten times");
-  expect_note(in + "--fstop 1000 --focal-length 50", "f-number 1000 is ten times");
+  expect_note(in + "--fstop 1000 --focal-length 50",
+              "f-number 1000 is ten times off any real one (0.7 to 64): is it right?");
   const std::string usual = said(in + "--fstop 2 --focal-length 50");
   EXPECT_EQ(usual.find("ten times"), std::string::npos) << usual;
   EXPECT_EQ(said("in.exr -o o.exr --eye --focus 3 --perceived-distance 0.06").find("ten times"),
@@ -246,6 +247,10 @@ TEST_F(Mistakes, WeakSpellings) {
   refused("render in.exr", 2, {"--output is missing: EXR", "render --help"});
   refused("render in.exr -o o.exr --layer beauti" + lens, 3,
           {"no colour in layer 'beauti'", "Leave --layer out"});
+  refused("render in.exr -o o.png --bits 12" + lens, 2,
+          {"--bits '12' is not known. Allowed: 8 16"});
+  refused("render in.exr -o o.exr --depth-kind normalized --far 20" + lens, 2,
+          {"--depth-kind normalized needs --near, which may be 0, and --far"});
   for (const std::string unit : {"meters", "Metre", "centimeters", "feet", "inches"}) {
     expect_ok(defray(folder_,
                      "render in.exr -o o.exr --focus 900 --fstop 2 --focal-length 50 "
