@@ -129,10 +129,12 @@ void refuse_doubled(const CameraValues& v) {
   }
 }
 
-/// Throws Error(usage) for a height that would span nothing.
+/// Throws Error(usage) for a height that would span nothing. A file may have both, as Blender does:
+/// the fit says which one counts.
 void refuse_idle_height(const CameraValues& v) {
   const bool is_of_width = v.fit && *v.fit != SensorFit::vertical;
-  if (!v.sensor_height_mm || v.sensor_width_mm || !is_of_width) return;
+  const bool has_both = v.sensor_width_mm && !v.sensor_source.empty();
+  if (!v.sensor_height_mm || has_both || !is_of_width) return;
   const std::string from = v.sensor_source.empty() ? "" : v.sensor_source + ": ";
   fail(ErrorKind::usage, "{}{} goes with {} vertical, found {}: give {}, or another {}", from,
        field("sensor_height_mm"), field("fit"), *v.fit == SensorFit::longer ? "auto" : "horizontal",

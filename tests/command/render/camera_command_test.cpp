@@ -59,6 +59,8 @@ TEST_F(Camera, SensorsThatContradictEachOtherAreRefused) {
     expect_refused(
         in + "--sensor-height 24 --sensor-fit " + fit, 2,
         {"--sensor-height goes with --sensor-fit vertical, found " + fit, "give --sensor-width"});
+    expect_refused(in + "--sensor-width 36 --sensor-height 24 --sensor-fit " + fit, 2,
+                   {"--sensor-height goes with --sensor-fit vertical"});
   }
 }
 
@@ -73,6 +75,9 @@ TEST_F(Camera, SensorsOfACameraFile) {
                  {"camera.json: keys 'sensor_width_mm' and 'fov_deg' say the same thing"});
   EXPECT_DOUBLE_EQ(report(doubled + "--sensor-width 30")["sensor_width_mm"], 30);
   expect_refused(doubled + "--sensor-width 30 --fov 40", 2, {"--sensor-width and --fov say"});
+  EXPECT_DOUBLE_EQ(report(camera(R"("sensor_width_mm": 36, "sensor_height_mm": 24,
+                                     "sensor_fit": "auto")"))["sensor_width_mm"],
+                   24);
   // As Blender spells it.
   for (const auto& [fit, across] : {std::pair{"AUTO", 24.0}, {"HORIZONTAL", 36.0}}) {
     EXPECT_DOUBLE_EQ(report(camera(fmt::format(R"("sensor_width_mm": 36, "sensor_fit": "{}")",
