@@ -1,0 +1,117 @@
+// defray render --camera from-metadata: the lens that renderers write into files.
+#include <OpenImageIO/imagebuf.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "command/program.h"
+
+namespace defray::test::metadata_command_test {
+namespace {
+
+using nlohmann::json;
+
+class Metadata : public testing::Test {
+ protected:
+  Metadata() { write_picture_file(folder_, "wide.exr", {"R", "G", "B", "Z"}, {48, 32}); }
+  json report(const std::string& arguments) const {
+    const Result result = defray(folder_, "render " + arguments + " --json");
+    expect_ok(result);
+    return json::parse(result.out.substr(0, result.out.find('\n')));
+  }
+  void expect_refused(const std::string& arguments, int code,
+                      const std::vector<std::string>& words) const {
+    expect_refusal(defray(folder_, "render " + arguments), code, words, arguments);
+  }
+  void write(const std::string& name, const std::function<void(OIIO::ImageSpec&)>& change) const {
+    OIIO::ImageBuf file(folder_ / "wide.exr");
+    file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+    change(file.specmod());
+    ASSERT_TRUE(file.write(folder_ / name));
+  }
+  Folder folder_;
+};
+
+TEST_F(Metadata, NumbersOfAnyType) {
+  write("whole.exr", [](OIIO::ImageSpec& spec) {
+    spec.attribute("cameraFocalLength", 35);  // an int
+    spec.attribute("cameraFNumber", "2");     // a text
+    const double aperture = 24;
+    spec.attribute("cameraAperture", OIIO::TypeDesc::DOUBLE, &aperture);
+    spec.attribute("focus", 3.5f);
+  });
+  const json lens = report("whole.exr -o o.exr --camera from-metadata");
+  EXPECT_DOUBLE_EQ(lens["focal_length_mm"], 35);
+  EXPECT_DOUBLE_EQ(lens["aperture_diameter_mm"], 17.5);
+  EXPECT_DOUBLE_EQ(lens["sensor_width_mm"], 24);
+  EXPECT_DOUBLE_EQ(lens["focus_distance_units"], 3.5);
+}
+
+TEST_F(Metadata, NamesOfRenderers) {
+  write("nuke.exr", [](OIIO::ImageSpec& spec) {
+    spec.attribute("nuke/camera/focal", "50.0");
+    spec.attribute("nuke/camera/haperture", "24.576");
+  });
+  const json nuke = report("nuke.exr -o o.exr --camera from-metadata --focus 3 --fstop 2");
+  EXPECT_DOUBLE_EQ(nuke["focal_length_mm"], 50);
+  EXPECT_DOUBLE_EQ(nuke["sensor_width_mm"], 24.576);
+  write("vray.exr", [](OIIO::ImageSpec& spec) {
+    spec.attribute("cameraFov", 73.739795f);
+    spec.attribute("cameraFNumber", 4.0f);
+    spec.attribute("cameraTargetDistance", 1e18f);  // none
+  });
+  const json vray = report("vray.exr -o o.exr --camera from-metadata --focus 3 --focal-length 24");
+  EXPECT_NEAR(vray["sensor_width_mm"], 36, 1e-4);
+  EXPECT_DOUBLE_EQ(vray["aperture_diameter_mm"], 6);
+  write("redshift.exr", [](OIIO::ImageSpec& spec) { spec.attribute("rs/camera/fov", 1.0f); });
+  EXPECT_NEAR(report("redshift.exr -o o.exr --camera from-metadata --focus 3 --fstop 2 "
+                     "--focal-length 50")["sensor_width_mm"],
+              100 * std::tan(0.5), 1e-5);
+}
+
+TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
+  write("zero.exr", [](OIIO::ImageSpec& spec) { spec.attribute("FNumber", 0.0f); });
+  expect_refused("zero.exr -o o.exr --camera from-metadata --focus 3 --focal-length 50", 3,
+                 {"zero.exr: its metadata has '", "FNumber' = '0', which is no fstop"});
+  write("text.exr", [](OIIO::ImageSpec& spec) { spec.attribute("cameraFocalLength", "long"); });
+  expect_refused("text.exr -o o.exr --camera from-metadata --focus 3 --fstop 2", 3,
+                 {"'cameraFocalLength' = 'long'", "V-Ray"});
+  expect_refused("wide.exr -o o.exr --camera from-metadata --fstop 2", 2,
+                 {"wide.exr's metadata has no such value, sought as", "focus", "cameraFocalLength",
+                  "exr/nuke/camera/focal"});
+}
+
+TEST_F(Metadata, OptionsWinOverWhatCannotBeRead) {
+  const struct {
+    const char *attribute, *option, *stated;
+  } mistakes[] = {{"nominalFocalLength", "--focal-length", "--focal-length 40"},
+                  {"cameraFNumber", "--fstop", "--fstop 2"},
+                  {"cameraFNumber", "--fstop", "--aperture-diameter 20"},
+                  {"cameraFocusDistance", "--focus", "--focus 3"},
+                  {"cameraFocusDistance", "--focus", "--focus-at 4,4"},
+                  {"cameraFocusDistance", "--focus", "--focus-range 2,4"},
+                  {"cameraAperture", "--sensor-width", "--sensor-width 30"},
+                  {"cameraAperture", "--sensor-width", "--sensor-height 20"},
+                  {"cameraFov", "--fov", "--fov 40"},
+                  {"rs/camera/fov", "--fov", "--sensor-width 30"}};
+  for (const auto& mistake : mistakes) {
+    for (const std::string value : {"fifty", "0"}) {
+      write("bad.exr", [&](OIIO::ImageSpec& spec) {
+        // What no option states.
+        if (mistake.option != std::string("--focal-length"))
+          spec.attribute("IFM_focalLength", 35.0f);
+        if (mistake.option != std::string("--fstop")) spec.attribute("cameraFNumber", 4.0f);
+        if (mistake.option != std::string("--focus")) spec.attribute("cameraFocusDistance", 3.0f);
+        spec.attribute(mistake.attribute, value);
+      });
+      const std::string command = "bad.exr -o o.exr --camera from-metadata ";
+      expect_refused(command, 3,
+                     {"' = '" + value + "'", std::string(mistake.option) + " wins over it"});
+      report(command + mistake.stated);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::metadata_command_test
