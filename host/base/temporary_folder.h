@@ -4,8 +4,8 @@
 
 namespace defray {
 
-/// Removed, with what is in it, at the end, or by a signal's handler; where the process is killed
-/// first, by the next of this name.
+/// Removed, with what is in it, at the end; where the process is killed first, by the next of this
+/// name.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name);
@@ -19,9 +19,5 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
-
-/// Removes all that there are, by calls that a signal handler may make; they are not to be used any
-/// more.
-void remove_temporary_folders_on_signal() noexcept;
 
 }  // namespace defray

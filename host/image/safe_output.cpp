@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -16,8 +15,6 @@
 
 #include "base/error.h"
 #include "base/process.h"
-#include "base/stop_threads.h"
-#include "base/temporary_folder.h"
 
 namespace defray {
 namespace {
@@ -27,13 +24,8 @@ namespace fs = std::filesystem;
 /// The temporary file in hand, for the signal handler: empty, or a complete path.
 std::array<char, 4096> temporary_path{};
 
-/// Signals may come to several threads at once: one tidies up.
-std::atomic_flag is_ending = ATOMIC_FLAG_INIT;
-
 void on_signal(int signal) {
-  if (is_ending.test_and_set()) stop_this_thread();
   if (temporary_path[0] != '\0') unlink(temporary_path.data());
-  remove_temporary_folders_on_signal();
   _exit(128 + signal);
 }
 

@@ -20,8 +20,7 @@ void write_safely(const std::string& path, const std::function<void(const std::s
 /// write_safely for a text.
 void write_text(const std::string& path, const std::string& text);
 
-/// On SIGINT and SIGTERM: removes the temporary file in hand and temporary folders, then ends the
-/// process.
+/// On SIGINT and SIGTERM: removes the temporary file in hand, then ends the process.
 void remove_temporary_on_signal();
 
 /// Whether two paths name one file, written yet or not, however they are spelt.

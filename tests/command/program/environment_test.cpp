@@ -189,25 +189,6 @@ TEST(Output, InterruptedRunLeavesNothingBehind) {
   }
 }
 
-TEST(Output, InterruptedRunRemovesItsPrivateCache) {
-  const Folder folder;
-  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {640, 480});
-  std::filesystem::create_directory(folder / "tmp");
-  std::ofstream(folder / "no_folder") << "";
-  for (const char* delay : {"0.2", "0.4", "0.8"}) {
-    for (const auto& [signal, code] : {std::pair{"INT", 130}, {"TERM", 143}}) {
-      // One signal, as a terminal sends it: timeout sends two, and LLVM's handler, while it hands
-      // the first on to ours, lets the second one kill.
-      const Result result = shell(
-          folder, fmt::format("export POCL_CACHE_DIR=no_folder/cache TMPDIR=tmp; {} render in.exr "
-                              "-o o.exr --rdb 33 {} & sleep {}; kill -{} $!; wait $!",
-                              program(), lens, delay, signal));
-      if (result.code != 0) EXPECT_EQ(result.code, code) << result.err;
-      EXPECT_EQ(shell(folder, "ls -A tmp").out, "") << signal << delay;
-    }
-  }
-}
-
 TEST(Help, ShowsUnitsDefaultsAndExamples) {
   const Folder folder;
   const Result top = defray(folder, "--help");
