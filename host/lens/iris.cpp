@@ -7,7 +7,7 @@
 namespace defray {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Steps of half a blade's angle: the area between them is known to 1e-7.
 constexpr int steps = 1024;
