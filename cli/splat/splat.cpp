@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr const char* footer =
+constexpr const char* splat_footer =
     R"(Lens, focus and units are those of 'defray render': focus and places in scene units (--unit says what
 one is); focal length, sensor and aperture in millimetres; the picture is as wide as the sensor.
 
@@ -171,7 +171,7 @@ int run(const SplatCommand& job) {
 Run add_splat(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "splat", "Render a point cloud through the lens: surface splatting with depth of field");
-  command->footer(footer);
+  command->footer(splat_footer);
   const auto job = std::make_shared<SplatCommand>();
   const OptionTable options(*command, splat_options(*job));
   return [options, job] {

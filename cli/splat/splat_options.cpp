@@ -6,7 +6,7 @@
 namespace defray::cli {
 namespace {
 
-const WordTable<bool> switch_words{{"on", true}, {"off", false}};
+const WordTable<bool> on_off_words{{"on", true}, {"off", false}};
 const WordTable<SplatPsf> psf_words{{"gaussian", SplatPsf::gaussian}, {"disc", SplatPsf::disc}};
 const WordTable<SplatMerge> merge_words{{"nearest", SplatMerge::nearest},
                                         {"average", SplatMerge::average}};
@@ -84,7 +84,7 @@ OptionGroup splat_rows(SplatCommand& job) {
   SplatSettings& s = job.settings;
   return {
       "Splats",
-      {{"--lod", word(s.lod, switch_words),
+      {{"--lod", word(s.lod, on_off_words),
         "Nodes of a hierarchy stand for points that blur, or their size, hides"},
        {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 1 to 8"},
        {"--psf", word(s.psf, psf_words),
