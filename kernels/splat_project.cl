@@ -5,9 +5,11 @@
 // picture around the node, V_r is the basis function's variance and V_q that of the places that the
 // node stands for, I the prefilter of a pixel, V_I = C^2 / (2 ln 4) I the Gaussian nearest to the
 // disc of the CoC. The kernel holds as much as the node covers of the picture, F^2 |A . p| / z^3
-// for an area A at p, and is cut off where 1/2 d^T W^-1 d reaches c, which leaves 1 - e^-c of it.
-// (Printed, the exponent lacks its 1/2: within d^T W^-1 d < c lies 1 - e^(-c/2).) A disc has the
-// same variance, 1/4 of its square radius, and an edge one pixel wide.
+// for an area A at p, and ends where 1/2 d^T W^-1 d reaches c. There the paper cuts it off, which
+// leaves 1 - e^-c of it. (Printed, the exponent lacks its 1/2: within d^T W^-1 d < c lies
+// 1 - e^(-c/2).) Here it is lowered by e^-c, so that it ends at 0, which leaves 1 - e^-c (1 + c):
+// kernels side by side then add up to 1 two to five times more evenly. A disc has a variance of 1/4
+// of its square radius, and an edge one pixel wide.
 //
 // A node is culled, with no pixels, if any of its basis function is nearer than near_units, if
 // surfaces have one side and it shows the other, or if it covers nothing of the picture.

@@ -74,6 +74,7 @@ Lens lens_of(const SplatCommand& job, double focus) {
 
 /// Turned about `up` through what is looked at, by a part of a turn.
 CameraPose turned(CameraPose pose, double share) {
+  if (share == 0) return pose;
   const double angle = 2 * M_PI * share;
   const Vec3 axis = normalized(vec(pose.up)), arm = vec(pose.from) - vec(pose.look_at);
   const Vec3 from = vec(pose.look_at) + arm * std::cos(angle) + cross(axis, arm) * std::sin(angle) +

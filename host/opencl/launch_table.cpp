@@ -43,10 +43,10 @@ const std::vector<Launch>& launch_table() {
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 8, 1, 3, 2 * plane, DEFRAY_RUN},
       {"soften", 8, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
-      // A square of 7 px around. Two layers are written, the frame and what lies behind read.
-      {"split", 64, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
       {"splat_project", 64, 1},
       {"splat_resolve", 1, DEFRAY_SPLAT_TILE},
+      // A square of 7 px around. Two layers are written, the frame and what lies behind read.
+      {"split", 64, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
       {"tiltshift", 64, 1},
   };
   return table;

@@ -2,6 +2,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "fuzz.h"
 
@@ -14,8 +15,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   while (!bytes.is_empty()) known.push_back(bytes.line());
   const std::string nearest = nearest_spelling(word, known);
   fuzz::require(nearest.empty() || std::count(known.begin(), known.end(), nearest) > 0);
-  // A word that is known is nearest to itself, whatever its case.
-  if (!word.empty() && std::count(known.begin(), known.end(), word) > 0) {
+  // A word that is known is nearest to itself, whatever its case; what has no letter is no word.
+  const bool is_word =
+      std::any_of(word.begin(), word.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  if (is_word && std::count(known.begin(), known.end(), word) > 0) {
     fuzz::require(lower_case(nearest) == lower_case(word));
   }
   fuzz::require(did_you_mean(word, known).empty() == nearest.empty());

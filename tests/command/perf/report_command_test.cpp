@@ -45,13 +45,15 @@ std::string marked(const std::string& table, const std::string& content = "") {
   return "<!-- " + table + ":begin -->\n" + content + "<!-- " + table + ":end -->\n";
 }
 
-TEST_F(ReportCommand, RooflineHasAKernelsTimesInBothScenes) {
+TEST_F(ReportCommand, RooflineHasAKernelsTimesInEachPicture) {
   write("a.md", marked("roofline"));
   expect_ok(report("--update a.md --table roofline --quick"));
   const std::string table = table_in("a.md", "roofline");
-  EXPECT_EQ(table.rfind("| kernel | fence bg | spheres f2 |\n", 0), 0u) << table;
+  EXPECT_EQ(table.rfind("| kernel | fence bg | spheres f2 | points, 512×512 |\n", 0), 0u) << table;
   const std::regex row("\n\\| `split` \\| [0-9.]+ \\(× [0-9.]+\\) \\| [0-9.]+ \\(× [0-9.]+\\) \\|");
   EXPECT_TRUE(std::regex_search(table, row)) << table;
+  const std::regex points("\n\\| `splat_resolve` \\|  \\|  \\| [0-9.]+ \\(× [0-9.]+\\) \\|");
+  EXPECT_TRUE(std::regex_search(table, points)) << table;
   EXPECT_NE(table.find(" GB/s."), std::string::npos) << table;
 }
 

@@ -187,6 +187,7 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused(figure + "-o o.exr --from 1,2,x " + wide_lens, 2, {"--from '1,2,x'"});
   refused(figure + "-o o.exr --from 1,1,1 --look-at 1,1,1 " + wide_lens, 2,
           {"--from and --look-at are the same place"});
+  refused(figure + "-o o.exr --up 0,0,0 " + wide_lens, 2, {"--up is 0, or where"});
   refused(figure + "-o o.exr --up 0,0,1 " + wide_lens, 2, {"--up is 0, or where the camera looks"});
   refused("splat --model figure --size 3 -o o.exr " + wide_lens, 2, {"--size '3'", "1920x1080"});
   refused("splat --model figure --size 0x4 -o o.exr " + wide_lens, 2, {"0x4", "1 to 16384"});
