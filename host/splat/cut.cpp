@@ -10,9 +10,9 @@ namespace defray {
 namespace {
 
 // How wide a node may be in the picture: so many pixels, or this share of its CoC's radius. Nodes
-// lie about 0.7 widths apart, where Gaussians of 0.6 CoC radii then add up to 1 within 1 % (c = 2.5).
-// Discs have edges, and need more of them: on `crossing` at 600 mm widths of 0.7, 0.5, 0.35, 0.25
-// are 36.2, 45.1, 45.2, 45.5 dB from every point by itself; on planes 0.5 shows steps.
+// lie about 0.7 widths apart, where Gaussians of 0.6 CoC radii then add up to 1 within 1 % (c
+// = 2.5). Discs have edges, and need more of them: on `crossing` at 600 mm widths of 0.7, 0.5,
+// 0.35, 0.25 are 36.2, 45.1, 45.2, 45.5 dB from every point by itself; on planes 0.5 shows steps.
 constexpr double widest_px = 1, widest_gaussian = 1, widest_disc = 0.35;
 /// Areas of a node's points that point apart by more than this hide each other.
 constexpr double least_coherence = 0.9;

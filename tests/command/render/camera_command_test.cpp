@@ -230,6 +230,21 @@ TEST_F(Sequences, FocusOnAPlace) {
     EXPECT_DOUBLE_EQ(each[i]["focus_distance_units"], 2.5 + 0.5 * i);
     EXPECT_DOUBLE_EQ(first[i]["focus_distance_units"], 3);
   }
+  // The patch is as wide on each side: three columns of five, and rows, decide.
+  for (const auto& [place, focus] : {std::pair{"16,10", 9.0},
+                                     {"17,10", 9.0},
+                                     {"18,10", 2.5},
+                                     {"22,10", 2.5},
+                                     {"23,10", 9.0},
+                                     {"20,8", 2.5},
+                                     {"20,7", 9.0},
+                                     {"20,12", 2.5},
+                                     {"20,13", 9.0}}) {
+    const Result result = defray(
+        folder_, std::string("render s.0001.exr -o o.exr --json --focus-at ") + place + optics);
+    expect_ok(result);
+    EXPECT_EQ(json::parse(result.out)["focus_distance_units"], focus) << place;
+  }
   expect_refused("s.0001.exr -o o.exr --focus-at 48,10" + optics, 2,
                  {"--focus-at 48,10: s.0001.exr has pixels from 0,0 to 47,31"});
   expect_refused("s.0001.exr -o o.exr --focus-at 4" + optics, 2, {"--focus-at '4'", "640,360"});

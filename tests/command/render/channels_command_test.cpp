@@ -98,18 +98,23 @@ TEST_F(ChannelsCommand, KernelsGiveTheTwinsBits) {
   }
 }
 
-/// An EXR with colour, depth and 32-bit ids too large for floats.
+/// An EXR with colour in half floats, depth, and 32-bit ids too large for floats, whose upper
+/// halves go with their lower ones.
 void write_ids(const std::string& path) {
   constexpr int width = 16, height = 8;
   OIIO::ImageSpec spec(width, height, 5, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"R", "G", "B", "Z", "thing"};
-  spec.channelformats.assign(4, OIIO::TypeDesc::FLOAT);
+  spec.channelformats.assign(3, OIIO::TypeDesc::HALF);
+  spec.channelformats.push_back(OIIO::TypeDesc::FLOAT);
   spec.channelformats.push_back(OIIO::TypeDesc::UINT);
-  std::vector<std::uint32_t> words;
+  std::vector<std::uint16_t> words;
   for (std::uint32_t i = 0; i < width * height; ++i) {
-    const float values[4] = {0.1f, 0.2f, 0.3f, i % width < 8 ? 1.0f : 4.0f};
-    for (const float v : values) words.push_back(std::bit_cast<std::uint32_t>(v));
-    words.push_back(0xfffffff0u + i % width);
+    words.insert(words.end(), {0x2e66, 0x3266, 0x34cd});  // 0.1, 0.2, 0.3
+    const auto z = std::bit_cast<std::uint32_t>(i % width < 8 ? 1.0f : 4.0f);
+    for (const std::uint32_t word : {z, ((0xff00u + i % width) << 16) + i % width}) {
+      words.push_back(static_cast<std::uint16_t>(word));
+      words.push_back(static_cast<std::uint16_t>(word >> 16));
+    }
   }
   const auto file = OIIO::ImageOutput::create(path);
   ASSERT_TRUE(file->open(path, spec));
@@ -130,7 +135,7 @@ TEST_F(ChannelsCommand, WholeNumbersAreDataBitForBit) {
   expect_ok(defray(folder, "render ids.exr -o out.exr --channels thing" + lens));
   const auto after = read_ids(folder / "out.exr");
   EXPECT_NE(after, before);
-  for (const std::uint32_t id : after) EXPECT_GE(id, 0xfffffff0u);
+  for (const std::uint32_t id : after) EXPECT_EQ(id >> 16, 0xff00u + (id & 0xffffu));
 }
 
 TEST_F(ChannelsCommand, TellsWhatItTookForWhat) {

@@ -160,6 +160,17 @@ TEST(Ldr, EveryByteSurvivesPng) {
   }
 }
 
+TEST(ImageFile, ItsBitsAreThoseItWasGivenLast) {
+  const Folder folder;
+  std::vector<std::uint16_t> values = {0, 1, 257, 32768, 65534, 65535};
+  OIIO::ImageSpec spec(2, 1, 3, OIIO::TypeDesc::UINT16);
+  OIIO::ImageBuf(spec, values.data()).write(folder / "a.tif");
+  ImageFile file = ImageFile::read(folder / "a.tif");
+  EXPECT_EQ(file.parts()[0].integer_bits, 16);
+  file.set_bits(0, {}, Bits::eight);
+  EXPECT_EQ(file.parts()[0].integer_bits, 8);
+}
+
 TEST(Ldr, SixteenBitsSpanFromBlackToWhite) {
   const Folder folder;
   std::vector<std::uint16_t> values = {0, 1, 257, 32768, 65534, 65535};

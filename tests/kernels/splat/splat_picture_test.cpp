@@ -75,6 +75,7 @@ TEST(SplatPicture, AFlatPlaneIsTheMeanOfViews) {
     const DefraySplatParams p = view_of(256, 3.2, aperture);
     const std::vector<Plane> views = mean_of_views(device(), tree, p, 200);
     EXPECT_GT(compare(draw(tree, p).colour, views, 256).psnr_srgb_db, gaussian_db) << aperture;
+    EXPECT_NEAR(mean_over(views[3], 256, 100, 156, 100, 156), 1, 0.01);
     SplatSettings discs;
     discs.psf = SplatPsf::disc;
     EXPECT_GT(
