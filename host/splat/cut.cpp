@@ -57,7 +57,7 @@ class View {
     const double width_px = 2.0 * n.radius * p_.focal_px / near;
     if (width_px <= widest_px) return true;
     const double here = splat_coc_px(p_, near), there = splat_coc_px(p_, s.z + s.radius);
-    if (here < 0 != there < 0) return false;  // some of it is in focus
+    if ((here < 0) != (there < 0)) return false;  // some of it is in focus
     const double blur = std::min(std::abs(here), std::abs(there));
     return width_px <= (p_.has_discs ? widest_disc : widest_gaussian) * blur;
   }
