@@ -101,13 +101,6 @@
 /// Closer pixels resemble each other on any smooth surface: no shift is shorter, px.
 #define DEFRAY_PATTERN_LEAST 8
 
-/// Side of the square tiles that splats are sorted into, in pixels: runs.
-#define DEFRAY_SPLAT_TILE 16
-/// From this times its own size on, a splat's blur is a disc, where discs are asked for.
-#define DEFRAY_SPLAT_DISC 4.0f
-/// A pixel that lets less through is opaque.
-#define DEFRAY_SPLAT_OPAQUE 0.000244140625f
-
 /// Thin-lens constants of `coc`.
 typedef struct {
   DEFRAY_UINT pixel_count;
@@ -285,72 +278,7 @@ typedef struct {
   DEFRAY_UINT channels;          ///< 1 to 4.
 } DefrayPatternsParams;
 
-/// A point of a cloud, or a node of its hierarchy that stands for many: what `splat_project` reads.
-/// Places are in scene units from the cloud's origin. Krivanek & Zara 2003, section 5.3.
-typedef struct {
-  float x, y, z;
-  float area_x, area_y, area_z;  ///< The normal, as long as the area that it stands for.
-  float variance;                ///< Of the basis function, along the surface: V_r.
-  /// V_q: the covariance of the places that a node stands for; 0 of a point.
-  float low_xx, low_xy, low_xz, low_yy, low_yz, low_zz;
-  float r, g, b, a;  ///< Premultiplied.
-} DefraySplatNode;
-
-/// A node's resampling kernel in the picture.
-typedef struct {
-  float x, y;                                 ///< Centre, px.
-  float conic_xx, conic_xy, conic_yy;         ///< 1/2 d^T W^-1 d; of discs d^T (4 W)^-1 d.
-  float amplitude;                            ///< At the centre.
-  float disc_px;                              ///< 0: Gaussian; else the disc's mean radius.
-  float z;                                    ///< Depth, scene units.
-  float z_near, z_far;                        ///< Of the basis function.
-  DEFRAY_INT first_x, end_x, first_y, end_y;  ///< Pixels within the cut-off; none: culled.
-  float r, g, b, a;
-} DefraySplat;
-
-/// Camera and lens of `splat_project`, and how splats become pixels in `splat_resolve`.
-typedef struct {
-  DEFRAY_UINT count;  ///< Nodes, or splats.
-  DEFRAY_UINT width;
-  DEFRAY_UINT height;
-  float right_x, right_y, right_z;  ///< The picture's axes in the scene.
-  float down_x, down_y, down_z;
-  float forward_x, forward_y, forward_z;
-  float eye_x, eye_y, eye_z;  ///< The lens's centre, from the cloud's origin.
-  float near_units;           ///< What comes nearer is not seen.
-  float focal_px;
-  float centre_x, centre_y;    ///< Where the axis meets the picture, px.
-  float coc_scale_px;          ///< K: coc(z) = K (z - z0) / z.
-  float focus_units;           ///< z0; with focus_is_infinite unused.
-  float infinite_focus_scale;  ///< coc(z) = -scale / z.
-  DEFRAY_UINT focus_is_infinite;
-  float limit_px;             ///< Largest CoC radius let through.
-  float cutoff;               ///< c: where 1/2 d^T W^-1 d reaches it, a Gaussian ends.
-  float edge;                 ///< e^-c, which Gaussians are lowered by: they end at 0.
-  float gaussian_share;       ///< 1 - e^-c (1 + c): what is then left of one.
-  DEFRAY_UINT one_sided;      ///< 1: surfaces are seen from where their normals point.
-  DEFRAY_UINT has_discs;      ///< 1: what is mostly blur becomes a disc.
-  DEFRAY_UINT has_headlight;  ///< 1: colours are shaded by a light at the eye.
-  DEFRAY_UINT averages;       ///< 1: a surface's fragments are averaged; 0: the nearest count.
-} DefraySplatParams;
-
-/// A group of tiles of `splat_resolve`.
-typedef struct {
-  DEFRAY_UINT width;
-  DEFRAY_UINT height;
-  DEFRAY_UINT tiles_x;
-  DEFRAY_UINT first_tile;
-  DEFRAY_UINT tile_count;
-  float cutoff;
-  float edge;
-  DEFRAY_UINT averages;
-} DefraySplatTileParams;
-
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefraySplatNode) == 68);
-static_assert(sizeof(DefraySplat) == 72);
-static_assert(sizeof(DefraySplatParams) == 124);
-static_assert(sizeof(DefraySplatTileParams) == 32);
 static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
 static_assert(sizeof(DefrayFrameParams) == 8);

@@ -17,7 +17,7 @@
 // One work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
 // DEFRAY_SPLAT_TILE).
 #include "any.clh"
-#include "params.h"
+#include "splat_params.h"
 
 // What a run of pixels has come to: `light` has four channels.
 typedef struct {

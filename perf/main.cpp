@@ -12,7 +12,7 @@
 #include "experiments.h"
 #include "image/safe_output.h"
 #include "keep_memory.h"
-#include "report.h"
+#include "tables/report.h"
 
 namespace defray::perf {
 namespace {

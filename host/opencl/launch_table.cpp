@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 
 namespace defray {
 namespace {

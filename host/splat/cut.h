@@ -2,7 +2,7 @@
 // Which nodes of the hierarchy a view is drawn with.
 #include <vector>
 
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 #include "splat/hierarchy.h"
 
 namespace defray {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 
 namespace defray {
 

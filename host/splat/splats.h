@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/plane.h"
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 
 namespace defray {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "defray/splat.h"
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 
 namespace defray {
 

@@ -2,7 +2,7 @@
 // The camera's place and the lens, as splats need them.
 #include "base/vec3.h"
 #include "defray/splat.h"
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 
 namespace defray {
 

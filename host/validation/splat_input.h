@@ -2,7 +2,7 @@
 // Nodes of a point cloud, and a camera before them, from a case.
 #include <vector>
 
-#include "kernels/params.h"
+#include "kernels/splat_params.h"
 #include "validation/case.h"
 
 namespace defray::validation {

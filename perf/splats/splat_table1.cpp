@@ -4,8 +4,8 @@
 
 #include "experiments.h"
 #include "measure/metrics.h"
-#include "splat_shots.h"
-#include "tables.h"
+#include "splats/splat_shots.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 namespace {

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "tables/report.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@
 #include "base/temporary_folder.h"
 #include "base/text.h"
 #include "image/safe_output.h"
-#include "markers.h"
-#include "tables.h"
+#include "tables/markers.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "truth.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 

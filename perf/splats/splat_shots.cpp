@@ -1,4 +1,4 @@
-#include "splat_shots.h"
+#include "splats/splat_shots.h"
 
 #include <cmath>
 
@@ -6,8 +6,8 @@
 #include "splat/cut.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
-#include "splat_naive.h"
-#include "tables.h"
+#include "splats/splat_naive.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 

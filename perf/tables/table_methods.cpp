@@ -6,7 +6,7 @@
 #include "lens/camera.h"
 #include "lens/depth.h"
 #include "measure/metrics.h"
-#include "tables.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 namespace {

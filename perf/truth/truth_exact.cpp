@@ -1,4 +1,4 @@
-#include "truth_exact.h"
+#include "truth/truth_exact.h"
 
 #include <algorithm>
 #include <cmath>

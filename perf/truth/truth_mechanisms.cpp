@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "truth.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 namespace {

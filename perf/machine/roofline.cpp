@@ -6,11 +6,11 @@
 #include "base/error.h"
 #include "chain/ray_plan.h"
 #include "experiments.h"
-#include "limits.h"
+#include "machine/limits.h"
 #include "measure/plot.h"
 #include "opencl/session.h"
-#include "splat_shots.h"
-#include "truth.h"
+#include "splats/splat_shots.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 namespace {

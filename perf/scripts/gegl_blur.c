@@ -1,4 +1,4 @@
-/* GEGL's blurs over an EXR, for perf/gegl.sh: gegl_blur OPERATION RADIUS MASK.exr IN.exr OUT.exr.
+/* GEGL's blurs over an EXR, for perf/scripts/gegl.py: gegl_blur OPERATION RADIUS MASK.exr IN.exr OUT.exr.
    Prints the median time of `runs` blurs in seconds; pictures are in memory before and after. */
 #include <gegl.h>
 #include <stdio.h>

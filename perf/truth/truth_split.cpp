@@ -3,7 +3,7 @@
 #include "chain/highlights.h"
 #include "lens/lens_grid.h"
 #include "lens/lens_points.h"
-#include "truth_exact.h"
+#include "truth/truth_exact.h"
 
 namespace defray::perf {
 namespace {

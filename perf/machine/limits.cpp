@@ -1,4 +1,4 @@
-#include "limits.h"
+#include "machine/limits.h"
 
 #include <algorithm>
 #include <vector>

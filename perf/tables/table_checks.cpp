@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "tables.h"
+#include "tables/tables.h"
 #include "validation/arithmetic.h"
 
 namespace defray::perf {

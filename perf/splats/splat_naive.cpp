@@ -1,10 +1,10 @@
-#include "splat_naive.h"
+#include "splats/splat_naive.h"
 
 #include <algorithm>
 #include <string>
 
 #include "base/error.h"
-#include "kernel_files.h"
+#include "opencl/kernel_source.h"
 
 namespace defray::perf {
 namespace {
@@ -65,13 +65,6 @@ __kernel void resolve(const DefraySplatParams p, __global const DefraySplat* spl
 }
 )CLC";
 
-std::string with_parameters(const std::string& kernels) {
-  for (const KernelFile& file : kernel_files) {
-    if (std::string(file.name) == "params.h") return file.text + kernels;
-  }
-  fail(ErrorKind::internal, "no params.h among the kernels");
-}
-
 /// Upper bound of the fragments: all boxes.
 std::size_t fragments_of(const std::vector<DefraySplat>& splats) {
   std::size_t count = 1;
@@ -81,7 +74,7 @@ std::size_t fragments_of(const std::vector<DefraySplat>& splats) {
   return count;
 }
 
-double seconds_of(const cl::Event& event) {
+double event_seconds(const cl::Event& event) {
   return 1e-9 * static_cast<double>(event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
 }
@@ -91,7 +84,7 @@ double seconds_of(const cl::Event& event) {
 NaiveSplats::NaiveSplats(const DeviceInfo& info)
     : context_(info.device),
       queue_(context_, info.device, CL_QUEUE_PROFILING_ENABLE),
-      program_(context_, with_parameters(source), true) {}
+      program_(context_, kernel_source({"splat_project.cl"}, {}) + source, true) {}
 
 std::vector<Plane> NaiveSplats::draw(const std::vector<DefraySplat>& splats,
                                      const DefraySplatParams& params, int repetitions,
@@ -124,7 +117,7 @@ std::vector<Plane> NaiveSplats::draw(const std::vector<DefraySplat>& splats,
     queue_.enqueueNDRangeKernel(resolve, cl::NullRange, items(pixels), cl::NDRange(64), nullptr,
                                 &second);
     queue_.finish();
-    const double took = seconds_of(first) + seconds_of(second);
+    const double took = event_seconds(first) + event_seconds(second);
     seconds = i < 2 ? took : std::min(seconds, took);
   }
   cl_int too_many = 0;

@@ -1,6 +1,6 @@
 // How close the RDB with its stages comes to the truth, what each stage costs and gains, and what
 // is left.
-#include "truth.h"
+#include "truth/truth.h"
 
 #include <cmath>
 

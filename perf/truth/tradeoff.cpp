@@ -2,7 +2,7 @@
 #include "experiments.h"
 #include "measure/metrics.h"
 #include "measure/plot.h"
-#include "truth.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 namespace {

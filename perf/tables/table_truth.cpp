@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 #include "experiments.h"
-#include "tables.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 namespace {

@@ -1,7 +1,7 @@
 // A fence drifting before a portrait: what changes from frame to frame beside what should.
 #include "measure/flicker.h"
 #include "measure/plot.h"
-#include "truth.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 namespace {

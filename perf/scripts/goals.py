@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """How fast defray is, beside how fast it wants to be: each goal with what was measured.
 
-perf/goals.py DEFRAY [--quick]: built-in scenes at 1920x1080 and 3840x2160; --quick takes small ones,
+perf/scripts/goals.py DEFRAY [--quick]: built-in scenes at 1920x1080 and 3840x2160; --quick takes small ones,
 a rehearsal whose figures mean nothing. Medians of seven frames of a run, without its first, and
-(largest - smallest) / median. What GEGL is faster or slower by: perf/gegl.py.
+(largest - smallest) / median. What GEGL is faster or slower by: perf/scripts/gegl.py.
 """
 import json
 import pathlib

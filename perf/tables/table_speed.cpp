@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "tables.h"
+#include "tables/tables.h"
 
 namespace defray::perf {
 namespace {

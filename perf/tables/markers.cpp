@@ -1,4 +1,4 @@
-#include "markers.h"
+#include "tables/markers.h"
 
 #include <algorithm>
 #include <regex>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """GEGL's blurs beside defray's qualities: time and PSNR against ray-traced truths, in one run.
 
-perf/gegl.py DEFRAY [SCENES]: SCENES holds folders with pinhole.exr, camera.json and
+perf/scripts/gegl.py DEFRAY [SCENES]: SCENES holds folders with pinhole.exr, camera.json and
 truth_SETTING.exr, as `defray scene` writes them; without it, two built-in scenes, small. Needs GEGL
 (apt-get install gegl libgegl-dev), oiiotool and a C compiler; without GEGL it says so and is done.
 

@@ -1,6 +1,6 @@
 #pragma once
 // A scene's surfaces, exactly as they are: what the chain must guess.
-#include "truth.h"
+#include "truth/truth.h"
 
 namespace defray::perf {
 

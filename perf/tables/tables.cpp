@@ -1,4 +1,4 @@
-#include "tables.h"
+#include "tables/tables.h"
 
 #include "base/text.h"
 
