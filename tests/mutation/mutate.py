@@ -24,9 +24,9 @@ EQUIVALENT = f"{PROJECT}/tests/mutation/equivalent.txt"
 # and inputs that 'validate' tries (faults_tests show that they find what they are for), and roughly
 # what a case costs. And what builds the kernels in four ways: its tests (--full) take minutes.
 NOT_MUTATED = ("host/scenes/builtin/", "host/scenes/geometry/texture.cpp", "host/splat/models.cpp",
-               "host/validation/grid.cpp",
-               "host/validation/input.cpp", "host/validation/patterns_input.cpp",
-               "host/validation/splat_input.cpp", "host/validation/stage_input.cpp", "host/validation/work.cpp", "host/validation/arithmetic.cpp",
+               "host/validation/grid.cpp", "host/validation/input.cpp", "host/validation/patterns_input.cpp",
+               "host/validation/splat_input.cpp", "host/validation/stage_input.cpp",
+               "host/validation/work.cpp", "host/validation/arithmetic.cpp",
                "cli/validate/validate_arithmetic.cpp", "cli/main.cpp")
 
 
