@@ -88,6 +88,11 @@ OptionGroup file_options(RenderCommand& job) {
         value(job.paths.confidence),
         "Write the share of each pixel's lens rays that the input determines (.exr, .tif)",
         {.field = "confidence", .scope = of_chain}},
+       {"--error-out",
+        value(job.paths.error),
+        "Write the RMS error of sRGB-encoded values that is expected at each pixel, in all and by "
+        "cause (.exr, .tif): total, sampling, hidden, edges, detail",
+        {.field = "error", .scope = of_chain}},
        {"--tiles-out",
         value(job.paths.tiles),
         "Write what each tile of 16 px holds: 0 in focus, 1 smooth, 2 mixed, 3 hidden surfaces, "

@@ -49,7 +49,7 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
           "the camera of its frame",
           job.camera, p.input);
     }
-    for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
+    for (const std::string& name : outputs_of(p)) {
       if (is_pattern(job, name, false)) {
         fail(ErrorKind::usage,
              "{}: has a frame pattern, the input {} has none; --no-pattern takes it as a name",
@@ -60,7 +60,7 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   }
   const std::vector<int> numbers =
       job.frames.empty() ? find_frames(p.input) : parse_frames(job.frames);
-  for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
+  for (const std::string& name : outputs_of(p)) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
       fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,
            numbers.size());
@@ -73,7 +73,7 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
 void make_folders(const RenderCommand& job) {
   if (!job.make_folders) return;
   const FramePaths& p = job.paths;
-  for (const std::string& name : {p.output, p.coc, p.confidence, p.tiles}) {
+  for (const std::string& name : outputs_of(p)) {
     const std::string folder = std::filesystem::path(name).parent_path().string();
     if (!folder.empty()) create_folder(folder);
   }

@@ -39,6 +39,7 @@ void finish(RenderCommand& job) {
   validate(s.tiltshift);
   validate(s.depth);
   s.camera_from_metadata = job.camera == from_metadata;
+  s.wants_expected_error = job.json || !job.quiet;
 }
 
 }  // namespace defray::cli

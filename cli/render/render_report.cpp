@@ -49,6 +49,21 @@ std::string chain_line(const ChainReport& d) {
   return line;
 }
 
+std::string expected_line(const ExpectedError& e) {
+  return fmt::format(
+      "expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
+      "{:.0f} % edges, {:.0f} % detail",
+      e.psnr_db, e.low_db, e.high_db, 100 * e.shares[0], 100 * e.shares[1], 100 * e.shares[2],
+      100 * e.shares[3]);
+}
+
+nlohmann::ordered_json expected_json(const ExpectedError& e) {
+  return {{"psnr_srgb_db", e.psnr_db}, {"low_db", e.low_db},
+          {"high_db", e.high_db},      {"sampling", e.shares[0]},
+          {"hidden", e.shares[1]},     {"edges", e.shares[2]},
+          {"detail", e.shares[3]}};
+}
+
 nlohmann::ordered_json chain_json(const ChainReport& d) {
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   nlohmann::ordered_json bytes = nlohmann::ordered_json::object();
@@ -129,6 +144,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
       {"display_window", {r.display.x, r.display.y, r.display.width, r.display.height}}};
   report.update(lens_json(r));
   if (r.chain) report["chain"] = chain_json(*r.chain);
+  if (r.expected) report["expected"] = expected_json(*r.expected);
   report.update({{"nearest_coc_px", r.nearest_coc_px},
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},
@@ -136,6 +152,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
                  {"notes", own_notes(r)},
                  {"read_s", r.read_seconds},
                  {"render_s", r.render_seconds},
+                 {"predict_s", r.predict_seconds},
                  {"write_s", r.write_seconds}});
   return report;
 }
@@ -158,6 +175,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
+  if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);

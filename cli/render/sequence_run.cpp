@@ -14,17 +14,24 @@ namespace defray::cli {
 FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   if (!frame) return paths;
   for (std::string* path :
-       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence, &paths.tiles}) {
+       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence, &paths.tiles,
+        &paths.error}) {
     if (!path->empty()) *path = frame_path(*path, *frame);
   }
   return paths;
+}
+
+std::vector<std::string> outputs_of(const FramePaths& paths) {
+  std::vector<std::string> outputs{paths.output};
+  for (const auto& [field_name, path] : paths.data_outputs()) outputs.push_back(path);
+  return outputs;
 }
 
 namespace {
 
 /// Whether all that a frame is asked for is there.
 bool exists(const FramePaths& paths) {
-  for (const std::string& path : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
+  for (const std::string& path : outputs_of(paths)) {
     if (!path.empty() && !std::filesystem::exists(path)) return false;
   }
   return true;

@@ -16,6 +16,9 @@ namespace defray::cli {
 /// The files of a frame; those of a picture as they are.
 FramePaths paths_of(FramePaths paths, std::optional<int> frame);
 
+/// All that is written, where no name: nothing.
+std::vector<std::string> outputs_of(const FramePaths& paths);
+
 class SequenceRun {
  public:
   /// Opens the device. A single frame without a number is a picture. Throws Error.

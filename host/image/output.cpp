@@ -185,12 +185,14 @@ void check_plane_format(const std::string& path, const std::string& name) {
   }
 }
 
-void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
-                 const Plane& values) {
-  check_plane_format(path, name);
-  ImageFile file = like.extract(part, {0});
-  file.rename_channel(0, 0, name);
-  file.set_plane(0, 0, values);
+void write_planes(const std::string& path, const std::vector<std::string>& names,
+                  const ImageFile& like, int part, const std::vector<Plane>& planes) {
+  check_plane_format(path, names.front());
+  ImageFile file = like.extract(part, std::vector<int>(names.size()));
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    file.rename_channel(0, static_cast<int>(c), names[c]);
+    file.set_plane(0, static_cast<int>(c), planes[c]);
+  }
   write_safely(path, [&](const std::string& temporary) { file.write(temporary); });
 }
 

@@ -35,9 +35,13 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
 /// Throws Error(usage) unless `path` can hold the data `name`.
 void check_plane_format(const std::string& path, const std::string& name);
 
-/// Writes values as the float channel `name`, with the windows and metadata of `part` of `like`:
-/// signed CoC radii in pixels as "coc", "confidence".
-void write_plane(const std::string& path, const std::string& name, const ImageFile& like, int part,
-                 const Plane& values);
+/// Writes planes of values as float channels of these names, with the windows and metadata of
+/// `part` of `like`: signed CoC radii in pixels as "coc", "confidence".
+void write_planes(const std::string& path, const std::vector<std::string>& names,
+                  const ImageFile& like, int part, const std::vector<Plane>& planes);
+inline void write_plane(const std::string& path, const std::string& name, const ImageFile& like,
+                        int part, const Plane& values) {
+  write_planes(path, {name}, like, part, {values});
+}
 
 }  // namespace defray

@@ -11,7 +11,9 @@ namespace defray {
 
 void check_paths(const FramePaths& paths, const std::vector<std::string>& also_read) {
   std::error_code ignored;
-  for (const std::string& output : {paths.output, paths.coc, paths.confidence, paths.tiles}) {
+  std::vector<std::pair<const char*, std::string>> outputs = paths.data_outputs();
+  outputs.insert(outputs.begin(), {"output", paths.output});
+  for (const auto& [field_name, output] : outputs) {
     if (output.empty()) continue;
     std::vector<std::string> inputs = also_read;
     inputs.insert(inputs.end(), {paths.input, paths.depth});
@@ -21,10 +23,6 @@ void check_paths(const FramePaths& paths, const std::vector<std::string>& also_r
       }
     }
   }
-  const std::pair<const char*, const std::string&> outputs[] = {{"output", paths.output},
-                                                                {"coc", paths.coc},
-                                                                {"confidence", paths.confidence},
-                                                                {"tiles", paths.tiles}};
   for (const auto& [name, path] : outputs) {
     for (const auto& [other, other_path] : outputs) {
       if (&path == &other_path) break;
@@ -39,14 +37,14 @@ void check_outputs(const FramePaths& paths, const std::string& compression, Bits
   check_output_format(paths.output);
   check_bits(paths.output, bits);
   check_can_write(paths.output);
-  const std::pair<const char*, const std::string&> data_files[] = {
-      {"coc", paths.coc}, {"confidence", paths.confidence}, {"tiles", paths.tiles}};
-  for (const auto& [name, path] : data_files) {
+  std::vector<std::string> all{paths.output};
+  for (const auto& [name, path] : paths.data_outputs()) {
+    all.push_back(path);
     if (path.empty()) continue;
     check_plane_format(path, name);
     check_can_write(path);
   }
-  check_compression({paths.output, paths.coc, paths.confidence, paths.tiles}, compression);
+  check_compression(all, compression);
 }
 
 }  // namespace defray

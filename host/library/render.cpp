@@ -10,6 +10,7 @@
 #include "library/lens_frame.h"
 #include "methods/method.h"
 #include "methods/tiltshift.h"
+#include "prediction/expected_error.h"
 
 namespace defray {
 namespace {
@@ -89,6 +90,11 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   Backend& backend = backend_of(device);
   const Frame frame = frame_of(picture, lens, options, backend, out.report);
   MethodResult result = apply_method(frame, options, backend, options.wants_nearest, progress);
+  if (options.wants_expected_error && result.report) {
+    const Prediction prediction(frame, *options.chain, result.colour, result);
+    out.report.expected = prediction.of_frame();
+    out.expected_error = prediction.planes();
+  }
   out.report.chain = std::move(result.report);
   out.colour = std::move(result.colour);
   out.coc_px = radii_px(frame.coc_quanta.host());

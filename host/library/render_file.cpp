@@ -13,6 +13,7 @@
 #include "library/lens_frame.h"
 #include "library/source.h"
 #include "methods/method.h"
+#include "prediction/expected_error.h"
 
 namespace defray {
 namespace {
@@ -70,6 +71,17 @@ Frame frame_of(const Source& source, const RenderSettings& settings, Backend& ba
   return frame;
 }
 
+/// The error that is expected of `colour`, where it is asked for, and its planes, where those are.
+std::vector<Plane> predict(const Frame& frame, const RenderSettings& settings,
+                           const FramePaths& paths, const std::vector<Plane>& colour,
+                           const MethodResult& result, FrameReport& report) {
+  const bool wants_planes = !paths.error.empty();
+  if (!result.report || !(settings.wants_expected_error || wants_planes)) return {};
+  const Prediction prediction(frame, *settings.method.chain, colour, result);
+  report.expected = prediction.of_frame();
+  return wants_planes ? prediction.planes() : std::vector<Plane>();
+}
+
 }  // namespace
 
 struct FileRender::State {
@@ -81,6 +93,7 @@ struct FileRender::State {
   ColourChoice choice = {};
   std::vector<Plane> planes = {};
   Plane coc_px = {}, confidence = {}, tiles = {};
+  std::vector<Plane> error = {};
 };
 
 FileRender::FileRender(const FramePaths& paths, const RenderSettings& settings)
@@ -111,7 +124,7 @@ void FileRender::render(Device& device, const Progress& progress) {
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
   const bool wants_nearest = !s.source->further.data.empty();
   MethodResult result = apply_method(frame, s.settings.method, backend, wants_nearest, progress);
-  s.report.chain = std::move(result.report);
+  s.report.chain = result.report;
   s.choice = s.source->choice;
   s.planes = std::move(result.colour);
   clear_transparent(s.source->colour, s.planes);
@@ -119,8 +132,10 @@ void FileRender::render(Device& device, const Progress& progress) {
   move_data(*s.source, result.nearest, s.report);
   if (!s.paths.coc.empty()) s.coc_px = radii_px(frame.coc_quanta.host());
   if (!s.paths.tiles.empty()) s.tiles = result.tiles.picture();
-  s.confidence = std::move(result.confidence);
   s.report.render_seconds = watch.lap();
+  s.error = predict(frame, s.settings, s.paths, s.planes, result, s.report);
+  s.report.predict_seconds = watch.lap();
+  s.confidence = std::move(result.confidence);
 }
 
 FrameResult FileRender::write() {
@@ -136,6 +151,10 @@ FrameResult FileRender::write() {
   write_data(s.paths.coc, "coc", s.coc_px);
   write_data(s.paths.confidence, "confidence", s.confidence);
   write_data(s.paths.tiles, "tiles", s.tiles);
+  if (!s.paths.error.empty()) {
+    write_planes(s.paths.error, Prediction::plane_names(), s.source->file, s.source->choice.part,
+                 s.error);
+  }
   s.report.write_seconds = watch.lap();
   s.planes.resize(s.source->choice.channels.size());  // the picture's own
   return {std::move(s.report), std::move(s.planes)};

@@ -1,21 +1,10 @@
 // Error and time of every method: on built-in scenes, and on ray-traced ones where they are given.
-#include <algorithm>
-#include <filesystem>
-
-#include "image/channels.h"
-#include "lens/camera.h"
-#include "lens/depth.h"
 #include "measure/metrics.h"
+#include "tables/places.h"
 #include "tables/tables.h"
 
 namespace defray::perf {
 namespace {
-
-struct MeasuredPlace {
-  std::string name;
-  Subject subject;
-  std::vector<Plane> truth;
-};
 
 struct Row {
   std::string name;
@@ -69,60 +58,13 @@ MeasuredPlace plate1_place(const Bench& bench) {
   return {"plate1", std::move(s), std::move(truth)};
 }
 
-std::vector<Plane> read_colour(const ImageFile& file) {
-  const ColourChoice choice = choose_colour(file.path(), file.parts(), {});
-  std::vector<Plane> planes;
-  for (std::size_t c = 0; c < 3; ++c) planes.push_back(file.plane(choice.part, choice.channels[c]));
-  return planes;
-}
-
-/// One focus setting of a scene in a folder.
-MeasuredPlace read_place(const Bench& bench, const std::filesystem::path& folder,
-                         const std::string& setting) {
-  const std::string path = folder / "pinhole.exr";
-  const ImageFile file = ImageFile::read(path);
-  const ChannelName depth = choose_depth(path, file.parts(), {}, {});
-  const PartInfo& part = file.parts()[static_cast<std::size_t>(depth.part)];
-  Subject s;
-  s.scene.name = folder.filename();
-  s.scene.width = part.data.width;
-  s.scene.height = part.data.height;
-  s.lens = make_lens(read_camera_json(folder / "camera.json", setting, 1), 1, LensModel::cg, 0);
-  s.pinhole.colour = read_colour(file);
-  s.pinhole.depth = file.plane(depth.part, depth.channel);
-  convert_depth(s.pinhole.depth, {}, part.data, part.display,
-                pixel_focal_length(s.lens, part.display.width), path);
-  s.coc = bench.backend.coc(s.lens, s.scene.width, s.pinhole.depth);
-  const std::string name = s.scene.name + " " + setting;
-  return {name, std::move(s), read_colour(ImageFile::read(folder / ("truth_" + setting + ".exr")))};
-}
-
-/// Every focus setting of every scene of a folder that has a truth, in order of their names.
-std::vector<MeasuredPlace> read_places(const Bench& bench, const std::string& scenes) {
-  std::vector<std::filesystem::path> truths;
-  for (const auto& scene : std::filesystem::directory_iterator(scenes)) {
-    if (!scene.is_directory()) continue;
-    for (const auto& file : std::filesystem::directory_iterator(scene)) {
-      if (file.path().filename().string().starts_with("truth_")) truths.push_back(file.path());
-    }
-  }
-  std::sort(truths.begin(), truths.end());
-  std::vector<MeasuredPlace> places;
-  for (const auto& truth : truths) {
-    const std::string setting = truth.stem().string().substr(std::string("truth_").size());
-    places.push_back(read_place(bench, truth.parent_path(), setting));
-  }
-  return places;
-}
-
 }  // namespace
 
 Figures measure_accuracy(TableBench& b) {
   std::vector<MeasuredPlace> places;
   places.push_back(plate1_place(b.bench()));
-  if (!b.scenes().empty()) {
-    for (MeasuredPlace& place : read_places(b.bench(), b.scenes()))
-      places.push_back(std::move(place));
+  for (MeasuredPlace& place : read_places(b.bench(), b.scenes())) {
+    places.push_back(std::move(place));
   }
   return {table_of(b.bench(), places, 1), {}};
 }

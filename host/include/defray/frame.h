@@ -37,6 +37,9 @@ struct RenderResult {
   /// surface its rays end on, made-up ones left out; its own where there is none. Empty unless
   /// Options::wants_nearest.
   std::vector<std::uint32_t> nearest;
+  /// RMS errors of sRGB-encoded values that are expected at each pixel: in all, then of each of
+  /// ExpectedError::shares. Empty unless Options::wants_expected_error.
+  std::vector<std::vector<float>> expected_error;
   RenderReport report;
 };
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "defray/device.h"
@@ -77,13 +78,20 @@ struct RenderSettings {
   Bits bits = Bits::as_input;
   std::optional<Grow> grow;  ///< Empty: display where there is an alpha below 1, none elsewhere.
   Nonfinite nonfinite = Nonfinite::zero;
+  /// FrameReport::expected, of the RDB with its stages; `error` in FramePaths asks for it, too.
+  bool wants_expected_error = false;
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
   TiltshiftSettings tiltshift;
 };
 
-/// Which files. Empty `depth`: depth is in `input`. Empty `coc`, `confidence`: not written.
+/// Which files. Empty `depth`: depth is in `input`. Of what else is written, empty: not written.
 struct FramePaths {
-  std::string input, depth, output, coc, confidence = {}, tiles = {};
+  std::string input, depth, output, coc, confidence = {}, tiles = {}, error = {};
+
+  /// What is written beside the picture, by the fields' names; empty ones too.
+  std::vector<std::pair<const char*, std::string>> data_outputs() const {
+    return {{"coc", coc}, {"confidence", confidence}, {"tiles", tiles}, {"error", error}};
+  }
 };
 
 /// What was done, for people and machines.
@@ -99,6 +107,7 @@ struct FrameReport : RenderReport {
   /// Whatever else the user should know; settings in them are marked, for with_field_names.
   std::vector<std::string> notes;
   double read_seconds = 0, render_seconds = 0, write_seconds = 0;
+  double predict_seconds = 0;  ///< Finding `expected`; not in render_seconds.
 };
 
 /// The pictures of a rendered frame, for showing.

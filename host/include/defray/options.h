@@ -145,6 +145,8 @@ struct Options : MethodSettings {
   DepthSettings depth;
   Nonfinite nonfinite = Nonfinite::zero;
   bool wants_nearest = false;  ///< rdb: RenderResult::nearest.
+  /// rdb with its stages: RenderReport::expected and RenderResult::expected_error.
+  bool wants_expected_error = false;
 };
 
 }  // namespace defray

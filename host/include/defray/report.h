@@ -1,5 +1,6 @@
 #pragma once
 // What a render tells about itself.
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -52,6 +53,18 @@ struct ChainReport {
   TileShares tiles;
 };
 
+/// How far a picture is from what a ray tracer would give, expected without one, from how the
+/// pictures look. It stands for cameras and scenes like those that it was learnt from: opaque
+/// surfaces, colour anti-aliased, depth not.
+struct ExpectedError {
+  /// PSNR of the whole frame as `defray compare` gives it: sRGB-encoded, clipped. At most 90.
+  double psnr_db = 0;
+  double low_db = 0, high_db = 0;  ///< Between these in nine of ten scenes.
+  /// Of the squared error: too few lens points; made-up surfaces; edges, and rims of highlights;
+  /// the picture's own sampling and what half the size loses.
+  std::array<double, 4> shares{};
+};
+
 /// Of a render.
 struct RenderReport {
   DepthReport depth;
@@ -59,6 +72,7 @@ struct RenderReport {
   std::size_t coc_limited = 0;                     ///< Pixels whose CoC the limit cut.
   std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
   std::optional<ChainReport> chain;                ///< Of the RDB with its stages.
+  std::optional<ExpectedError> expected;           ///< Of the same, where it was asked for.
 };
 
 }  // namespace defray

@@ -1,0 +1,146 @@
+#include "prediction/strip.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "base/srgb.h"
+#include "lens/coc.h"
+
+namespace defray {
+namespace {
+
+/// Shown values by the leading bits of linear ones: so many steps between powers of two.
+class ShownTable {
+ public:
+  ShownTable() {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto middle = std::bit_cast<float>(((i + first) << dropped) | (1u << (dropped - 1)));
+      values_[i] = static_cast<float>(shown_value(middle));
+    }
+  }
+
+  float operator()(float linear) const {
+    if (!(linear >= least)) return linear > 0 ? linear * 12.92f : 0.0f;
+    return linear < 1 ? values_[(std::bit_cast<std::uint32_t>(linear) >> dropped) - first] : 1.0f;
+  }
+
+ private:
+  static constexpr float least = 0x1p-9f;  ///< Below, the curve is a line.
+  static constexpr int dropped = 14;       ///< Bits; 512 steps are left.
+  static constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(least) >> dropped;
+  static constexpr std::uint32_t count = (std::bit_cast<std::uint32_t>(1.0f) >> dropped) - first;
+  std::array<float, count> values_;
+};
+
+/// Fills both ends of a row.
+void extend(float* row, int width) {
+  row[-1] = row[0];
+  row[width] = row[width - 1];
+}
+
+}  // namespace
+
+float shown(float linear) {
+  static const ShownTable table;
+  return table(linear);
+}
+
+Strip::Strip(const Frame& f, const std::vector<Plane>& lens_picture)
+    : coc(f.width),
+      brightest(f.width),
+      width_(f.width),
+      height_(f.height),
+      coc_quanta_(f.coc_quanta.host()) {
+  const std::size_t light = f.channels.size() - (f.has_alpha ? 1 : 0);
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, light); ++c) {
+    pinhole_light_.push_back(f.channels[c].host());
+    result_light_.emplace_back(lens_picture[c]);
+  }
+  pinhole.resize(pinhole_light_.size(), StripRows(f.width));
+  result = pinhole;
+}
+
+void Strip::load(int y0) {
+  for (int j = -1; j <= block_px; ++j) {
+    const std::size_t first = size(std::clamp(y0 + j, 0, height_ - 1)) * size(width_);
+    const auto load_row = [&](StripRows& rows, const auto& value_at) {
+      float* const row = rows.row(j);
+      for (int x = 0; x < width_; ++x) row[x] = value_at(first + size(x));
+      extend(row, width_);
+    };
+    load_row(coc, [&](std::size_t i) {
+      return static_cast<float>(tame(coc_quanta_[i])) * px_per_quantum;
+    });
+    load_row(brightest, [&](std::size_t i) {
+      float most = 0;
+      for (const auto& light : result_light_) most = light[i] > most ? light[i] : most;
+      return most;
+    });
+    for (std::size_t c = 0; c < channels(); ++c) {
+      load_row(pinhole[c], [&](std::size_t i) { return shown(pinhole_light_[c][i]); });
+      load_row(result[c], [&](std::size_t i) { return shown(result_light_[c][i]); });
+    }
+  }
+}
+
+void find_gradient(const std::vector<StripRows>& shown, int j, Plane& out) {
+  std::fill(out.begin(), out.end(), 0.0f);
+  const float share = 0.25f / static_cast<float>(shown.size());
+  for (const StripRows& channel : shown) {
+    const float *above = channel.row(j - 1), *row = channel.row(j), *below = channel.row(j + 1);
+    for (std::size_t x = 0; x < out.size(); ++x) {
+      const float dx = row[x + 1] - (row + x)[-1], dy = below[x] - above[x];
+      out[x] += (dx * dx + dy * dy) * share;
+    }
+  }
+}
+
+void find_grain(const std::vector<StripRows>& shown, int j, Plane& out) {
+  std::fill(out.begin(), out.end(), 0.0f);
+  const float share = 1 / static_cast<float>(shown.size());
+  Plane columns(out.size() + 2);
+  for (const StripRows& channel : shown) {
+    const float *above = channel.row(j - 1), *row = channel.row(j), *below = channel.row(j + 1);
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      columns[x] = (above - 1)[x] + (row - 1)[x] + (below - 1)[x];
+    }
+    for (std::size_t x = 0; x < out.size(); ++x) {
+      const float off = (columns[x] + columns[x + 1] + columns[x + 2]) / 9 - row[x];
+      out[x] += off * off * share;
+    }
+  }
+}
+
+namespace {
+
+/// Joins 3x3 values by `join`, row by row.
+template <typename Join>
+void join_around(const StripRows& values, int j, Plane& out, const Join& join) {
+  const float *above = values.row(j - 1), *row = values.row(j), *below = values.row(j + 1);
+  Plane columns(out.size() + 2);
+  for (std::size_t x = 0; x < columns.size(); ++x) {
+    columns[x] = join(join((above - 1)[x], (row - 1)[x]), (below - 1)[x]);
+  }
+  for (std::size_t x = 0; x < out.size(); ++x) {
+    out[x] = join(join(columns[x], columns[x + 1]), columns[x + 2]);
+  }
+}
+
+constexpr auto larger = [](float a, float b) { return a > b ? a : b; };
+constexpr auto smaller = [](float a, float b) { return a < b ? a : b; };
+
+}  // namespace
+
+void find_range(const StripRows& values, int j, Plane& out) {
+  Plane least(out.size());
+  join_around(values, j, out, larger);
+  join_around(values, j, least, smaller);
+  for (std::size_t x = 0; x < out.size(); ++x) out[x] -= least[x];
+}
+
+void find_largest(const StripRows& values, int j, Plane& out) {
+  join_around(values, j, out, larger);
+}
+
+}  // namespace defray
