@@ -4,10 +4,6 @@
 namespace defray::cli {
 namespace {
 
-const WordTable<Quality> quality_words{{"preview", Quality::preview},
-                                       {"draft", Quality::draft},
-                                       {"normal", Quality::normal},
-                                       {"high", Quality::high}};
 const WordTable<bool> switch_words{{"off", false}, {"on", true}};
 const WordTable<Hidden> hidden_words{
     {"off", Hidden::off}, {"fill", Hidden::fill}, {"patterns", Hidden::patterns}};

@@ -15,6 +15,28 @@ WordTable<Method> method_words() {
   return words;
 }
 
+/// Error instead of quality.
+std::vector<OptionRow> target_rows(RenderCommand& job) {
+  const auto is_free = [](const Given& given) {
+    return !given("--quality") && !given("--rdb") && !given("--hidden") && !given("--half-size");
+  };
+  ErrorSettings& error = job.settings.error;
+  return {{"--target-db",
+           value(error.target_db),
+           "The fastest quality whose expected PSNR against ray-traced truth is at least so many "
+           "dB; high, and a note, where none is",
+           {.field = "target_db",
+            .scope = of_chain,
+            .needs = {is_free,
+                      "goes without --quality, --rdb, --hidden and --half-size: it chooses them"}}},
+          {"--strict-target",
+           flag(job.strict_target),
+           "Exit with 1 where no quality is expected to reach --target-db",
+           {.scope = of_chain,
+            .needs = {[](const Given& given) { return given("--target-db"); },
+                      "goes with --target-db"}}}};
+}
+
 std::vector<OptionRow> rdb_rows(RenderCommand& job) {
   RdbSettings& rdb = job.settings.method.rdb;
   return {
@@ -82,6 +104,7 @@ OptionGroup method_options(RenderCommand& job) {
         "occluded (Potmesil); gather: Poisson-disk samples (Glatzel & Wilhelm); tiltshift: a "
         "vertical gradient, no depth, no lens"},
        quality_row(job.chain)}};
+  for (OptionRow& row : target_rows(job)) group.rows.push_back(std::move(row));
   for (OptionRow& row : rdb_rows(job)) group.rows.push_back(std::move(row));
   for (OptionRow& row : gather_rows(s.gather)) group.rows.push_back(std::move(row));
   group.rows.push_back(seed_row(s));

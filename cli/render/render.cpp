@@ -103,6 +103,11 @@ int render(const OptionTable& options, RenderCommand& job, PictureStreams& strea
     fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());
     return ExitCode::failed;
   }
+  if (job.strict_target && sequence.missed() > 0) {
+    fmt::print(stderr, "defray: error: {} of {} frames miss --target-db {}\n", sequence.missed(),
+               frames.size(), *job.settings.error.target_db);
+    return ExitCode::failed;
+  }
   return ExitCode::ok;
 }
 

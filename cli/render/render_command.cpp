@@ -4,6 +4,7 @@
 #include "lens/lens_grid.h"
 #include "methods/tiltshift.h"
 #include "options/lens_rows.h"
+#include "prediction/with_error.h"
 
 namespace defray::cli {
 std::size_t RenderCommand::memory_bytes() const {
@@ -39,7 +40,8 @@ void finish(RenderCommand& job) {
   validate(s.tiltshift);
   validate(s.depth);
   s.camera_from_metadata = job.camera == from_metadata;
-  s.wants_expected_error = job.json || !job.quiet;
+  validate(m, s.error);
+  s.error.wants_expected = job.json || !job.quiet;
 }
 
 }  // namespace defray::cli

@@ -46,6 +46,7 @@ struct RenderCommand {
   std::vector<WorkGroup> work_groups;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
   bool stats = false;
+  bool strict_target = false;
   bool no_overlap = false;  ///< Of a frame's rendering with the next's reading, the last's writing.
 
   /// Throws Error(usage).
@@ -55,6 +56,11 @@ struct RenderCommand {
 
 /// The methods that have a lens, and so a circle of confusion by depth.
 inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
+
+inline const WordTable<Quality> quality_words{{"preview", Quality::preview},
+                                              {"draft", Quality::draft},
+                                              {"normal", Quality::normal},
+                                              {"high", Quality::high}};
 
 /// What only the chain around the RDB has.
 inline const Scope of_chain{{Method::rdb}, false, true};

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "options/option_table.h"
+#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
@@ -50,18 +51,25 @@ std::string chain_line(const ChainReport& d) {
 }
 
 std::string expected_line(const ExpectedError& e) {
+  const std::string chosen =
+      e.quality ? fmt::format("--quality {}: ", word_of(*e.quality, quality_words)) : "";
   return fmt::format(
-      "expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
+      "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
       "{:.0f} % edges, {:.0f} % detail",
-      e.psnr_db, e.low_db, e.high_db, 100 * e.shares[0], 100 * e.shares[1], 100 * e.shares[2],
-      100 * e.shares[3]);
+      chosen, e.psnr_db, e.low_db, e.high_db, 100 * e.shares[0], 100 * e.shares[1],
+      100 * e.shares[2], 100 * e.shares[3]);
 }
 
 nlohmann::ordered_json expected_json(const ExpectedError& e) {
-  return {{"psnr_srgb_db", e.psnr_db}, {"low_db", e.low_db},
-          {"high_db", e.high_db},      {"sampling", e.shares[0]},
-          {"hidden", e.shares[1]},     {"edges", e.shares[2]},
-          {"detail", e.shares[3]}};
+  nlohmann::ordered_json json = {{"psnr_srgb_db", e.psnr_db}, {"low_db", e.low_db},
+                                 {"high_db", e.high_db},      {"sampling", e.shares[0]},
+                                 {"hidden", e.shares[1]},     {"edges", e.shares[2]},
+                                 {"detail", e.shares[3]}};
+  if (e.quality) {
+    json["quality"] = word_of(*e.quality, quality_words);
+    json["misses_target"] = e.misses_target;
+  }
+  return json;
 }
 
 nlohmann::ordered_json chain_json(const ChainReport& d) {

@@ -13,9 +13,8 @@ namespace defray::cli {
 
 FramePaths paths_of(FramePaths paths, std::optional<int> frame) {
   if (!frame) return paths;
-  for (std::string* path :
-       {&paths.input, &paths.depth, &paths.output, &paths.coc, &paths.confidence, &paths.tiles,
-        &paths.error}) {
+  for (std::string* path : {&paths.input, &paths.depth, &paths.output, &paths.coc,
+                            &paths.confidence, &paths.tiles, &paths.error}) {
     if (!path->empty()) *path = frame_path(*path, *frame);
   }
   return paths;
@@ -128,6 +127,8 @@ void SequenceRun::finish(Work work) {
     ++failed_;
     return;
   }
+  const std::optional<ExpectedError>& expected = work.outcome.report.expected;
+  if (expected && expected->misses_target) ++missed_;
   if (work.file) {
     last_ = std::move(work.colour);
     last_data_ = work.outcome.report.data;

@@ -28,6 +28,9 @@ class SequenceRun {
   /// lets the run go on; else throws the first one's Error.
   std::size_t render();
 
+  /// Frames of which no quality is expected to reach the target.
+  std::size_t missed() const { return missed_; }
+
   /// The last picture in a window.
   void show_last();
 
@@ -51,7 +54,7 @@ class SequenceRun {
   std::vector<std::optional<int>> frames_;
   ProgressBar bar_;
   std::optional<Device> device_;  ///< Opened while the first frame is read.
-  std::size_t failed_ = 0;
+  std::size_t failed_ = 0, missed_ = 0;
   bool is_mute_ = false;  ///< Standard output takes no more.
   std::vector<Plane> last_;
   Window last_data_, last_display_;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "lens/coc.h"
+#include "prediction/error_model.h"
 
 namespace defray {
 namespace {
@@ -82,6 +83,17 @@ void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int di
         "unit and f-number right?",
         limit, 100 * share));
   }
+}
+
+void note_target(const std::optional<ExpectedError>& expected, const ErrorSettings& wanted,
+                 std::vector<std::string>& notes) {
+  if (!expected || !expected->misses_target) return;
+  const auto most = std::max_element(expected->shares.begin(), expected->shares.end());
+  const auto cause = static_cast<Cause>(most - expected->shares.begin());
+  notes.push_back(
+      fmt::format("no quality is expected to reach {:.4g} dB: {:.0f} % of the error is "
+                  "{}",
+                  *wanted.target_db, 100 * *most, about(cause)));
 }
 
 }  // namespace defray

@@ -23,4 +23,8 @@ void note_focus(const Lens& lens, const DepthReport& report, std::vector<std::st
 void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int display_width,
               std::vector<std::string>& notes);
 
+/// On a target that no quality is expected to reach.
+void note_target(const std::optional<ExpectedError>& expected, const ErrorSettings& wanted,
+                 std::vector<std::string>& notes);
+
 }  // namespace defray

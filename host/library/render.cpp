@@ -10,7 +10,7 @@
 #include "library/lens_frame.h"
 #include "methods/method.h"
 #include "methods/tiltshift.h"
-#include "prediction/expected_error.h"
+#include "prediction/with_error.h"
 
 namespace defray {
 namespace {
@@ -78,6 +78,7 @@ void validate(const Lens& lens, const Options& options) {
   validate(lens);
   validate(options.depth);
   if (options.method == Method::gather) validate(options.gather);
+  validate(options, options.error);
 }
 
 }  // namespace
@@ -89,11 +90,12 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   RenderResult out;
   Backend& backend = backend_of(device);
   const Frame frame = frame_of(picture, lens, options, backend, out.report);
-  MethodResult result = apply_method(frame, options, backend, options.wants_nearest, progress);
-  if (options.wants_expected_error && result.report) {
-    const Prediction prediction(frame, *options.chain, result.colour, result);
-    out.report.expected = prediction.of_frame();
-    out.expected_error = prediction.planes();
+  ResultWithError made =
+      apply_with_error(frame, options, options.error, backend, options.wants_nearest, progress);
+  MethodResult& result = made.result;
+  out.report.expected = made.expected(options.error);
+  if (made.prediction && options.error.wants_expected) {
+    out.expected_error = made.prediction->planes();
   }
   out.report.chain = std::move(result.report);
   out.colour = std::move(result.colour);

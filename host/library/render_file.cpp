@@ -13,7 +13,7 @@
 #include "library/lens_frame.h"
 #include "library/source.h"
 #include "methods/method.h"
-#include "prediction/expected_error.h"
+#include "prediction/with_error.h"
 
 namespace defray {
 namespace {
@@ -22,12 +22,12 @@ namespace {
 /// lies behind and mixed pixels are estimated from the group's own values. Puts the planes into
 /// `choice` and `planes`, to be written with the colour.
 void render_light(const Source& source, Frame frame, const RenderSettings& settings,
-                  Backend& backend, FrameReport& report, ColourChoice& choice,
-                  std::vector<Plane>& planes) {
+                  const MethodSettings& method, Backend& backend, FrameReport& report,
+                  ColourChoice& choice, std::vector<Plane>& planes) {
   for (const LightGroup& group : source.further.light) {
     frame.channels = read_planes(source, group.channels, settings, report.light_channels, report);
     frame.has_alpha = group.has_alpha;
-    const std::vector<Plane> out = apply_method(frame, settings.method, backend).colour;
+    const std::vector<Plane> out = apply_method(frame, method, backend).colour;
     choice.channels.insert(choice.channels.end(), group.channels.begin(), group.channels.end());
     planes.insert(planes.end(), out.begin(), out.end());
   }
@@ -71,17 +71,6 @@ Frame frame_of(const Source& source, const RenderSettings& settings, Backend& ba
   return frame;
 }
 
-/// The error that is expected of `colour`, where it is asked for, and its planes, where those are.
-std::vector<Plane> predict(const Frame& frame, const RenderSettings& settings,
-                           const FramePaths& paths, const std::vector<Plane>& colour,
-                           const MethodResult& result, FrameReport& report) {
-  const bool wants_planes = !paths.error.empty();
-  if (!result.report || !(settings.wants_expected_error || wants_planes)) return {};
-  const Prediction prediction(frame, *settings.method.chain, colour, result);
-  report.expected = prediction.of_frame();
-  return wants_planes ? prediction.planes() : std::vector<Plane>();
-}
-
 }  // namespace
 
 struct FileRender::State {
@@ -111,6 +100,7 @@ void FileRender::read() {
   const std::optional<ChainSettings>& chain = s.settings.method.chain;
   check_paths(s.paths, {s.settings.camera.source, chain ? chain->aperture.image : ""});
   check_outputs(s.paths, s.settings.compression, s.settings.bits);
+  validate(s.settings.method, s.settings.error);
   Stopwatch watch;
   s.source.emplace(read_source(s.paths, s.settings, s.report));
   s.report.read_seconds = watch.lap();
@@ -123,19 +113,25 @@ void FileRender::render(Device& device, const Progress& progress) {
   Stopwatch watch;
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
   const bool wants_nearest = !s.source->further.data.empty();
-  MethodResult result = apply_method(frame, s.settings.method, backend, wants_nearest, progress);
-  s.report.chain = result.report;
+  ErrorSettings error = s.settings.error;
+  error.wants_expected |= !s.paths.error.empty();
+  ResultWithError made =
+      apply_with_error(frame, s.settings.method, error, backend, wants_nearest, progress);
+  MethodResult& result = made.result;
+  s.report.chain = std::move(result.report);
+  s.report.expected = made.expected(error);
+  if (!s.paths.error.empty()) s.error = made.prediction->planes();
+  note_target(s.report.expected, error, s.report.notes);
   s.choice = s.source->choice;
   s.planes = std::move(result.colour);
   clear_transparent(s.source->colour, s.planes);
-  render_light(*s.source, frame, s.settings, backend, s.report, s.choice, s.planes);
+  render_light(*s.source, frame, s.settings, made.settings, backend, s.report, s.choice, s.planes);
   move_data(*s.source, result.nearest, s.report);
   if (!s.paths.coc.empty()) s.coc_px = radii_px(frame.coc_quanta.host());
   if (!s.paths.tiles.empty()) s.tiles = result.tiles.picture();
-  s.report.render_seconds = watch.lap();
-  s.error = predict(frame, s.settings, s.paths, s.planes, result, s.report);
-  s.report.predict_seconds = watch.lap();
   s.confidence = std::move(result.confidence);
+  s.report.predict_seconds = made.predict_seconds;
+  s.report.render_seconds = watch.lap() - made.predict_seconds;
 }
 
 FrameResult FileRender::write() {

@@ -13,11 +13,19 @@ constexpr float slight_px = 0.3f, blurred_px = 1, soft_px = 2.5f, wide_px = 6;
 constexpr float white = 1, far_beyond_white = 4;
 
 /// What is a mean over a block's pixels, in the order in which BlockRow adds it up.
-constexpr std::array means{&Block::mean_coc,      &Block::unseen,       &Block::unseen_square,
-                           &Block::edge,          &Block::rim,          &Block::bright_rim,
-                           &Block::unseen_rim,    &Block::sharp_grain,  &Block::slight_grain,
-                           &Block::soft_grain,    &Block::slight_gradient,
-                           &Block::edge_gradient, &Block::lost_grain};
+constexpr std::array means{&PixelBlock::mean_coc,
+                           &PixelBlock::unseen,
+                           &PixelBlock::unseen_square,
+                           &PixelBlock::edge,
+                           &PixelBlock::rim,
+                           &PixelBlock::bright_rim,
+                           &PixelBlock::unseen_rim,
+                           &PixelBlock::sharp_grain,
+                           &PixelBlock::slight_grain,
+                           &PixelBlock::soft_grain,
+                           &PixelBlock::slight_gradient,
+                           &PixelBlock::edge_gradient,
+                           &PixelBlock::lost_grain};
 
 /// A row of blocks: sums over the rows of its pixels, column by column.
 class BlockRow {
@@ -30,7 +38,7 @@ class BlockRow {
   }
 
   /// Blocks of the rows from y0 on, `rows` of them in the frame.
-  void find(int y0, int rows, Block* blocks) {
+  void find(int y0, int rows, PixelBlock* blocks) {
     strip_.load(y0);
     for (Plane& sum : sums_) sum.assign(width_, 0.0f);
     for (int j = 0; j < rows; ++j) add_row(j, &confidence_[size(y0 + j) * width_]);
@@ -71,7 +79,7 @@ class BlockRow {
     }
   }
 
-  void set_block(std::size_t first, std::size_t end, int rows, Block& b) const {
+  void set_block(std::size_t first, std::size_t end, int rows, PixelBlock& b) const {
     const float share = 1 / static_cast<float>((end - first) * size(rows));
     for (std::size_t i = 0; i < means.size(); ++i) {
       for (std::size_t x = first; x < end; ++x) b.*means[i] += sums_[i][x] * share;
@@ -113,16 +121,17 @@ class BlockRow {
 
 }  // namespace
 
-Blocks blocks_of(const Frame& frame, const std::vector<Plane>& result, const Plane& confidence) {
-  Blocks out{(frame.width + block_px - 1) / block_px, (frame.height + block_px - 1) / block_px, {}};
+PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result,
+                      const Plane& confidence) {
+  PixelBlocks out{
+      (frame.width + block_px - 1) / block_px, (frame.height + block_px - 1) / block_px, {}};
   out.blocks.resize(size(out.across) * size(out.down));
   constexpr int together = 8;  // rows of blocks that share their memory
   parallel_for((out.down + together - 1) / together, [&](int task) {
     BlockRow row(frame, result, confidence);
     for (int j = task * together; j < std::min(out.down, (task + 1) * together); ++j) {
       const int y0 = j * block_px;
-      row.find(y0, std::min(block_px, frame.height - y0),
-               &out.blocks[size(j) * size(out.across)]);
+      row.find(y0, std::min(block_px, frame.height - y0), &out.blocks[size(j) * size(out.across)]);
     }
   });
   return out;

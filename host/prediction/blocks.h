@@ -18,7 +18,7 @@ struct ShownMoments {
 /// Means over the pixels of a block. `gradient` is a squared one of shown values, central
 /// differences; `grain` the squared difference to the mean of 3x3 pixels; both means over channels.
 /// A surface's edge is where the CoC radius changes by a pixel or more from pixel to pixel.
-struct Block {
+struct PixelBlock {
   ShownMoments pinhole, result;
   float least_coc = 0, largest_coc = 0, mean_coc = 0;  ///< Signed radii, px.
   float reach = 0;                                     ///< Largest |radius|, px.
@@ -33,14 +33,15 @@ struct Block {
   float lost_grain = 0;     ///< Of all, by min(|radius|, 1).
 };
 
-struct Blocks {
+struct PixelBlocks {
   int across = 0, down = 0;
-  std::vector<Block> blocks;
+  std::vector<PixelBlock> blocks;
 
-  const Block& at(int x, int y) const { return blocks[size(y) * size(across) + size(x)]; }
+  const PixelBlock& at(int x, int y) const { return blocks[size(y) * size(across) + size(x)]; }
 };
 
 /// `result` and `confidence` are what the chain made of the frame.
-Blocks blocks_of(const Frame& frame, const std::vector<Plane>& result, const Plane& confidence);
+PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result,
+                      const Plane& confidence);
 
 }  // namespace defray

@@ -14,8 +14,8 @@ struct Sign {
 };
 
 // Found by perf/scripts/fit_prediction.py from what `defray-perf experiment prediction` writes: the
-// signs and true errors of 824 renders, 22 settings of built-in scenes at three sizes and 140 random
-// scenes, in four qualities. Signs that it gave nothing were left out.
+// signs and true errors of 824 renders, 22 settings of built-in scenes at three sizes and 140
+// random scenes, in four qualities. Signs that it gave nothing were left out.
 constexpr std::array<Sign, sign_count> model{{
     {"contrast in reach / lens points", Cause::sampling, 0.07251},
     {"unseen^2 contrast behind", Cause::hidden, 0.3882},
@@ -36,13 +36,19 @@ constexpr std::array<Sign, sign_count> model{{
 constexpr double stretch = 1.123;  ///< Errors grow faster than their signs.
 /// Of nine in ten cases, PSNR less expected PSNR, dB.
 constexpr double least_off_db = -4, most_off_db = 5.6;
-constexpr double nothing = 1e-9;  ///< A squared error that nobody sees: 90 dB.
+constexpr double nothing = 1e-9;  ///< The square of most_expected_db.
 
 }  // namespace
 
 const char* to_string(Cause cause) {
   constexpr std::array names{"sampling", "hidden", "edges", "detail"};
   return names[static_cast<std::size_t>(cause)];
+}
+
+const char* about(Cause cause) {
+  constexpr std::array texts{"too few lens points", "what was made up behind near surfaces",
+                             "edges and rims of highlights", "the pinhole picture's own detail"};
+  return texts[static_cast<std::size_t>(cause)];
 }
 
 std::vector<std::string> sign_names() {
@@ -59,13 +65,11 @@ std::array<double, cause_count> squares_of(const SignValues& signs) {
   return squares;
 }
 
-double frame_factor(double mean) {
-  return std::pow(mean + nothing, stretch) / (mean + nothing);
-}
+double frame_factor(double mean) { return std::pow(mean + nothing, stretch) / (mean + nothing); }
 
 ExpectedError expected_from(double mean_square) {
   const double psnr_db = -10 * std::log10(std::max(mean_square, nothing));
-  return {psnr_db, psnr_db + least_off_db, psnr_db + most_off_db, {}};
+  return {psnr_db, psnr_db + least_off_db, psnr_db + most_off_db, {}, {}, false};
 }
 
 }  // namespace defray

@@ -20,6 +20,9 @@ inline constexpr std::size_t cause_count = 4;
 /// "hidden".
 const char* to_string(Cause cause);
 
+/// "what was made up behind near surfaces".
+const char* about(Cause cause);
+
 /// Names of the signs, in their order.
 std::vector<std::string> sign_names();
 
@@ -29,6 +32,9 @@ std::array<double, cause_count> squares_of(const SignValues& signs);
 
 /// What that factor is where their mean over the frame, all causes together, is `mean`.
 double frame_factor(double mean);
+
+/// Errors below are seen by nobody, and not told apart.
+inline constexpr double most_expected_db = 90;
 
 /// PSNR of a mean squared error, and between which it lies in nine of ten cases.
 ExpectedError expected_from(double mean_square);

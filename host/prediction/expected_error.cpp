@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
+#include "chain/ray_plan.h"
 
 namespace defray {
 namespace {
@@ -13,6 +15,22 @@ std::size_t light_channels(const Frame& f) {
 }
 
 using Squares = std::array<double, cause_count>;
+
+Making making_of(const ChainSettings& settings, int lens_points) {
+  return {lens_points, settings.hidden == Hidden::patterns, settings.half_size};
+}
+
+Squares mean_squares(const std::vector<SignValues>& signs) {
+  Squares means{};
+  for (const SignValues& of_block : signs) {
+    const Squares squares = squares_of(of_block);
+    for (std::size_t c = 0; c < cause_count; ++c) means[c] += squares[c];
+  }
+  for (double& mean : means) mean /= static_cast<double>(signs.size());
+  return means;
+}
+
+double sum(const Squares& squares) { return std::accumulate(squares.begin(), squares.end(), 0.0); }
 
 Squares mix(Squares a, const Squares& b, double share) {
   for (std::size_t c = 0; c < cause_count; ++c) a[c] += (b[c] - a[c]) * share;
@@ -34,20 +52,14 @@ struct Between {
 }  // namespace
 
 Prediction::Prediction(const Frame& frame, const ChainSettings& settings,
-                       const std::vector<Plane>& colour, const MethodResult& result)
-    : width_(frame.width), height_(frame.height) {
-  const Blocks blocks = blocks_of(frame, colour, result.confidence);
-  across_ = blocks.across;
-  signs_ = signs_of(blocks, light_channels(frame),
-                    {result.report->lens_points, settings.hidden == Hidden::patterns,
-                     settings.half_size});
-  std::array<double, cause_count> means{};
-  for (const SignValues& signs : signs_) {
-    const auto squares = squares_of(signs);
-    for (std::size_t c = 0; c < cause_count; ++c) means[c] += squares[c];
-  }
-  double all = 0;
-  for (double& mean : means) all += mean /= static_cast<double>(signs_.size());
+                       const MethodResult& result)
+    : width_(frame.width),
+      height_(frame.height),
+      blocks_(blocks_of(frame, result.colour, result.confidence)),
+      channels_(light_channels(frame)),
+      signs_(signs_of(blocks_, channels_, making_of(settings, result.report->lens_points))) {
+  const Squares means = mean_squares(signs_);
+  const double all = sum(means);
   factor_ = frame_factor(all);
   of_frame_ = expected_from(all * factor_);
   for (std::size_t c = 0; c < cause_count; ++c) {
@@ -55,18 +67,23 @@ Prediction::Prediction(const Frame& frame, const ChainSettings& settings,
   }
 }
 
+double Prediction::guess_db(const ChainSettings& other) const {
+  const int lens_points = static_cast<int>(ray_plan(other, false).lens.points.size());
+  const double all = sum(mean_squares(signs_of(blocks_, channels_, making_of(other, lens_points))));
+  return expected_from(all * frame_factor(all)).psnr_db;
+}
+
 std::vector<Plane> Prediction::planes() const {
-  const int down = static_cast<int>(signs_.size()) / across_;
   std::vector<Plane> out(1 + cause_count, Plane(size(width_) * size(height_)));
   parallel_for(height_, [&](int y) {
-    const Between row(y, down);
+    const Between row(y, blocks_.down);
     for (int x = 0; x < width_; ++x) {
-      const Between column(x, across_);
+      const Between column(x, blocks_.across);
       const auto value_at = [&](int j, int i) {
-        return squares_of(signs_[size(j) * size(across_) + size(i)]);
+        return squares_of(signs_[size(j) * size(blocks_.across) + size(i)]);
       };
-      const Squares above = mix(value_at(row.first, column.first),
-                                value_at(row.first, column.second), column.share);
+      const Squares above =
+          mix(value_at(row.first, column.first), value_at(row.first, column.second), column.share);
       const Squares below = mix(value_at(row.second, column.first),
                                 value_at(row.second, column.second), column.share);
       const Squares squares = mix(above, below, row.share);

@@ -16,12 +16,14 @@ namespace defray {
 /// Of a whole frame and of each block of 4x4 pixels.
 class Prediction {
  public:
-  /// `colour` is what the chain, so set, made of the frame; confidence and report of `result` tell
-  /// how.
-  Prediction(const Frame& frame, const ChainSettings& settings, const std::vector<Plane>& colour,
-             const MethodResult& result);
+  /// `result` is what the chain, so set, made of the frame.
+  Prediction(const Frame& frame, const ChainSettings& settings, const MethodResult& result);
 
   const ExpectedError& of_frame() const { return of_frame_; }
+
+  /// PSNR that other settings of the chain, all its qualities' own, are likely to be expected to
+  /// have: by how this picture looks, so about right.
+  double guess_db(const ChainSettings& other) const;
 
   /// RMS errors of sRGB-encoded values that are expected at each pixel: of all causes together,
   /// then of each.
@@ -33,7 +35,9 @@ class Prediction {
   std::array<double, sign_count> mean_signs() const;
 
  private:
-  int width_, height_, across_;
+  int width_, height_;
+  PixelBlocks blocks_;
+  std::size_t channels_;
   std::vector<SignValues> signs_;
   double factor_ = 1;
   ExpectedError of_frame_;

@@ -9,7 +9,7 @@ namespace defray {
 namespace {
 
 /// Blocks of 4 px, of 8, and so on, with the largest reach of each.
-std::vector<Plane> reach_pyramid(const Blocks& blocks, int levels) {
+std::vector<Plane> reach_pyramid(const PixelBlocks& blocks, int levels) {
   std::vector<Plane> pyramid{Plane(blocks.blocks.size())};
   for (std::size_t i = 0; i < blocks.blocks.size(); ++i) pyramid[0][i] = blocks.blocks[i].reach;
   int across = blocks.across, down = blocks.down;
@@ -34,7 +34,7 @@ constexpr int levels = 5;  ///< Of windows: 3, 5, 9, 17 and 33 blocks across; 13
 /// How far away blur is that arrives at a block, px, as far as windows go.
 class Reaches {
  public:
-  explicit Reaches(const Blocks& blocks)
+  explicit Reaches(const PixelBlocks& blocks)
       : across_(blocks.across), down_(blocks.down), pyramid_(reach_pyramid(blocks, levels)) {}
 
   float at(int x, int y) const {
@@ -89,7 +89,7 @@ struct Variances {
 
 class Windows {
  public:
-  Windows(const Blocks& blocks, std::size_t channels) : blocks_(blocks), channels_(channels) {}
+  Windows(const PixelBlocks& blocks, std::size_t channels) : blocks_(blocks), channels_(channels) {}
 
   /// Around a block, as wide as the reach.
   Variances around(int x, int y, float reach) const {
@@ -98,14 +98,14 @@ class Windows {
     const int radius = 1 << level, step = std::max(1, radius / 2);
     float least = 0, most = 0;
     bool is_first = true;
-    for_each(x, y, radius, step, [&](const Block& b) {
+    for_each(x, y, radius, step, [&](const PixelBlock& b) {
       least = is_first ? b.least_coc : std::min(least, b.least_coc);
       most = is_first ? b.largest_coc : std::max(most, b.largest_coc);
       is_first = false;
     });
     const float middle = (least + most) / 2;
     Spread pinhole, back, result;
-    for_each(x, y, radius, step, [&](const Block& b) {
+    for_each(x, y, radius, step, [&](const PixelBlock& b) {
       pinhole.add(b.pinhole, 1);
       result.add(b.result, 1);
       if (b.mean_coc >= middle) back.add(b.pinhole, 1);
@@ -124,11 +124,11 @@ class Windows {
     }
   }
 
-  const Blocks& blocks_;
+  const PixelBlocks& blocks_;
   std::size_t channels_;
 };
 
-SignValues signs_of(const Block& b, const Variances& v, float reach, const Making& making) {
+SignValues signs_of(const PixelBlock& b, const Variances& v, float reach, const Making& making) {
   const float blurred = std::min(reach / 4, 1.0f);
   const float half = making.is_half_size ? 1.0f : 0.0f, filled = making.has_patterns ? 0.0f : 1.0f;
   return {v.pinhole * blurred / static_cast<float>(making.lens_points),
@@ -150,7 +150,8 @@ SignValues signs_of(const Block& b, const Variances& v, float reach, const Makin
 
 }  // namespace
 
-std::vector<SignValues> signs_of(const Blocks& blocks, std::size_t channels, const Making& making) {
+std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels,
+                                 const Making& making) {
   const Reaches reaches(blocks);
   const Windows windows(blocks, channels);
   std::vector<SignValues> out(blocks.blocks.size());

@@ -19,6 +19,7 @@ struct Making {
 
 /// The signs of every block, in their order.
 /// `channels` of light there are, at most 3.
-std::vector<SignValues> signs_of(const Blocks& blocks, std::size_t channels, const Making& making);
+std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels,
+                                 const Making& making);
 
 }  // namespace defray

@@ -25,7 +25,8 @@ void write_signs(const std::string& path, const std::vector<PredictedRender>& re
 }
 
 Plot scatter(const std::vector<PredictedRender>& renders) {
-  Plot plot{"Expected and true error", "true PSNR, sRGB, dB", "expected PSNR, dB", false, false, {}};
+  Plot plot{
+      "Expected and true error", "true PSNR, sRGB, dB", "expected PSNR, dB", false, false, {}};
   Series set{"sets the model", {}, false, true}, tests{"tests it", {}, false, true};
   for (const PredictedRender& r : renders) {
     (r.sets_model ? set : tests).points.push_back({r.true_db(), r.expected.psnr_db});
@@ -60,9 +61,8 @@ Section prediction(const Bench& bench) {
   add("set the model", [](const PredictedRender& r) { return r.sets_model; });
   add("test it", [](const PredictedRender& r) { return !r.sets_model; });
   for (const Quality quality : qualities) {
-    add(fmt::format("test it, {}", word_of(quality)), [quality](const PredictedRender& r) {
-      return !r.sets_model && r.quality == quality;
-    });
+    add(fmt::format("test it, {}", word_of(quality)),
+        [quality](const PredictedRender& r) { return !r.sets_model && r.quality == quality; });
   }
   for (const auto& row : {table.rows[0], table.rows[1]}) {
     section.findings.push_back(

@@ -55,8 +55,10 @@ class Maker {
     const double size = width_at(depth) * log_between(0.01, 0.15);
     const std::int64_t seed = seed_ * 16 + static_cast<std::uint32_t>(count(16));
     switch (count(5)) {
-      case 0: return plain(a);
-      case 1: return [=](const Vec3& p) { return checker(p.x + 50, p.y + 50, size, a, b); };
+      case 0:
+        return plain(a);
+      case 1:
+        return [=](const Vec3& p) { return checker(p.x + 50, p.y + 50, size, a, b); };
       case 2:
         return [=](const Vec3& p) { return bricks(p.x + 50, p.y + 50, 2 * size, size) * a * 2; };
       case 3:
@@ -90,11 +92,16 @@ class Maker {
   void add_group(double depth) {
     depths_.push_back(depth);
     switch (count(5)) {
-      case 0: return add_bars(depth);
-      case 1: return add_shapes(depth);
-      case 2: return add_balls(depth);
-      case 3: return add_blades(depth);
-      default: return add_panel(depth);
+      case 0:
+        return add_bars(depth);
+      case 1:
+        return add_shapes(depth);
+      case 2:
+        return add_balls(depth);
+      case 3:
+        return add_blades(depth);
+      default:
+        return add_panel(depth);
     }
   }
 
@@ -135,7 +142,8 @@ class Maker {
       const double inner = between(0.3, 1), turn = between(0, 6);
       std::vector<std::array<double, 2>> corners;
       for (int k = 0; k < 2 * tips; ++k) {
-        const double angle = std::numbers::pi * k / tips + turn, r = k % 2 ? radius * inner : radius;
+        const double angle = std::numbers::pi * k / tips + turn,
+                     r = k % 2 ? radius * inner : radius;
         corners.push_back({middle.x + r * std::cos(angle), middle.y + r * std::sin(angle)});
       }
       add(std::make_unique<Polygon>(corners, middle.z, colour()));

@@ -119,7 +119,7 @@ std::vector<PredictedRender> predicted_renders(Backend& backend, const Subject& 
   for (const Quality quality : qualities) {
     const MethodSettings settings = default_chain(quality);
     const MethodResult result = apply_method(frame, settings, backend);
-    const Prediction prediction(frame, *settings.chain, result.colour, result);
+    const Prediction prediction(frame, *settings.chain, result);
     const Plane squares = square_errors(result.colour, truths);
     PredictedRender render;
     render.width = frame.width;
@@ -149,8 +149,12 @@ std::vector<PredictedRender> all_predicted_renders(const Bench& bench) {
 }
 
 std::vector<std::string> prediction_columns() {
-  return {"renders",       "median off, dB", "median |off|",
-          "nine in ten within", "inside the interval", "rank correlation of pixels"};
+  return {"renders",
+          "median off, dB",
+          "median |off|",
+          "nine in ten within",
+          "inside the interval",
+          "rank correlation of pixels"};
 }
 
 std::vector<std::string> prediction_row(const std::vector<const PredictedRender*>& renders) {

@@ -16,8 +16,8 @@ Figures measure_prediction(TableBench& b) {
     std::string note = place.name + ", true and expected:";
     for (PredictedRender& r :
          predicted_renders(b.bench().backend, place.subject, {place.truth, place.truth})) {
-      note += fmt::format(" {} {:.1f}, {:.1f};", word_of(r.quality), r.true_db(),
-                          r.expected.psnr_db);
+      note +=
+          fmt::format(" {} {:.1f}, {:.1f};", word_of(r.quality), r.true_db(), r.expected.psnr_db);
       given.push_back(std::move(r));
     }
     note.back() = '.';

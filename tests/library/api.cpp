@@ -94,6 +94,19 @@ void check_results(Device& device) {
   expect(result.report.chain && result.report.chain->lens_points > 100, "the report has stages");
   expect(result.report.depth.farthest_units == 5, "the report has the depth's range");
 
+  expect(!result.report.expected && result.expected_error.empty(), "no error is found unasked");
+  options.error.wants_expected = true;
+  const auto expecting = defray::render(device, scene.picture(), wide_open(), options);
+  expect(expecting.report.expected && expecting.report.expected->psnr_db > 10,
+         "an error is expected");
+  expect(expecting.expected_error.size() == 5 && expecting.expected_error[0].size() == Scene::count,
+         "of each pixel, by cause");
+  options.error = {false, 5};
+  const auto targeted = defray::render(device, scene.picture(), wide_open(), options);
+  expect(targeted.report.expected->quality == defray::Quality::preview, "a target chooses");
+  expect(targeted.expected_error.empty(), "planes are for who wants them");
+  options.error = {};
+
   Device reference = Device::reference();
   expect(reference.name() == "the scalar reference", "the reference has a name");
   expect(are_equal(result, defray::render(reference, scene.picture(), wide_open(), options)),

@@ -78,8 +78,7 @@ struct RenderSettings {
   Bits bits = Bits::as_input;
   std::optional<Grow> grow;  ///< Empty: display where there is an alpha below 1, none elsewhere.
   Nonfinite nonfinite = Nonfinite::zero;
-  /// FrameReport::expected, of the RDB with its stages; `error` in FramePaths asks for it, too.
-  bool wants_expected_error = false;
+  ErrorSettings error;                ///< FramePaths::error asks for what is expected, too.
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
   TiltshiftSettings tiltshift;
 };

@@ -137,6 +137,15 @@ enum class Nonfinite {
   keep,  ///< They spread over the CoC of their pixel.
 };
 
+/// What is to be known of a picture's error, or asked of it, without a truth: of the RDB with its
+/// stages.
+struct ErrorSettings {
+  bool wants_expected = false;  ///< RenderReport::expected, RenderResult::expected_error.
+  /// Expected PSNR, dB: the fastest quality that is expected to reach it makes the picture, the
+  /// highest where none is; the qualities' own settings do not count then.
+  std::optional<double> target_db;
+};
+
 /// All that render() is told beside the lens. As they are: the ray distribution buffer with all its
 /// stages, as `defray render` without options.
 struct Options : MethodSettings {
@@ -145,8 +154,7 @@ struct Options : MethodSettings {
   DepthSettings depth;
   Nonfinite nonfinite = Nonfinite::zero;
   bool wants_nearest = false;  ///< rdb: RenderResult::nearest.
-  /// rdb with its stages: RenderReport::expected and RenderResult::expected_error.
-  bool wants_expected_error = false;
+  ErrorSettings error;
 };
 
 }  // namespace defray

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "defray/options.h"
+
 namespace defray {
 
 /// Gets the share done, 0 to 1.
@@ -63,6 +65,8 @@ struct ExpectedError {
   /// Of the squared error: too few lens points; made-up surfaces; edges, and rims of highlights;
   /// the picture's own sampling and what half the size loses.
   std::array<double, 4> shares{};
+  std::optional<Quality> quality;  ///< Where ErrorSettings::target_db chose it.
+  bool misses_target = false;      ///< No quality is expected to reach it.
 };
 
 /// Of a render.

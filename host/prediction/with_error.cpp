@@ -1,0 +1,92 @@
+#include "prediction/with_error.h"
+
+#include <array>
+
+#include "base/error.h"
+#include "base/stopwatch.h"
+
+namespace defray {
+namespace {
+
+constexpr std::array ladder{Quality::preview, Quality::draft, Quality::normal, Quality::high};
+
+/// What a quality says, all else as it is.
+ChainSettings with_quality(ChainSettings chain, Quality quality) {
+  const ChainSettings said = settings_for(quality);
+  chain.cells_per_side = said.cells_per_side;
+  chain.hidden = said.hidden;
+  chain.pattern_shifts = said.pattern_shifts;
+  chain.half_size = said.half_size;
+  return chain;
+}
+
+ResultWithError apply(const Frame& frame, const MethodSettings& settings, bool predicts,
+                      Backend& backend, bool wants_nearest, const Progress& progress) {
+  ResultWithError out{apply_method(frame, settings, backend, wants_nearest, progress), settings,
+                      {}, {}};
+  if (!predicts || !out.result.report) return out;
+  const Stopwatch watch;
+  out.prediction.emplace(frame, *settings.chain, out.result);
+  out.predict_seconds = watch.seconds();
+  return out;
+}
+
+/// The next quality that is likely to reach the target, the last if none is; past the last from it.
+std::size_t next_rung(std::size_t rung, const Prediction& prediction, const ChainSettings& chain,
+                      double target_db) {
+  for (++rung; rung + 1 < ladder.size(); ++rung) {
+    if (prediction.guess_db(with_quality(chain, ladder[rung])) >= target_db) break;
+  }
+  return rung;
+}
+
+}  // namespace
+
+std::optional<ExpectedError> ResultWithError::expected(const ErrorSettings& wanted) const {
+  if (!prediction) return {};
+  ExpectedError expected = prediction->of_frame();
+  expected.quality = quality;
+  expected.misses_target = wanted.target_db && expected.psnr_db < *wanted.target_db;
+  return expected;
+}
+
+void validate(const MethodSettings& method, const ErrorSettings& error) {
+  if (!error.target_db) return;
+  if (!(*error.target_db > 0 && *error.target_db <= most_expected_db)) {
+    fail(ErrorKind::usage, "{} is {}: a PSNR in dB, allowed are more than 0 to {}",
+         field("target_db"), *error.target_db, most_expected_db);
+  }
+  if (method.method != Method::rdb || !method.chain) {
+    fail(ErrorKind::usage, "{} is of the ray distribution buffer with its stages alone",
+         field("target_db"));
+  }
+}
+
+ResultWithError apply_with_error(const Frame& frame, const MethodSettings& settings,
+                                 const ErrorSettings& error, Backend& backend, bool wants_nearest,
+                                 const Progress& progress) {
+  validate(settings, error);
+  if (!error.target_db) {
+    return apply(frame, settings, error.wants_expected, backend, wants_nearest, progress);
+  }
+  ResultWithError out;
+  double predict_seconds = 0;
+  for (std::size_t rung = 0; rung < ladder.size();) {
+    MethodSettings chosen = settings;
+    chosen.chain = with_quality(*settings.chain, ladder[rung]);
+    const auto of_all = [&](double share) {
+      progress((static_cast<double>(rung) + share) / ladder.size());
+    };
+    out = {};  // the last one's planes
+    out = apply(frame, chosen, true, backend, wants_nearest,
+                progress ? Progress(of_all) : Progress());
+    out.predict_seconds = predict_seconds += out.predict_seconds;
+    out.quality = ladder[rung];
+    if (out.prediction->of_frame().psnr_db >= *error.target_db) break;
+    rung = next_rung(rung, *out.prediction, *settings.chain, *error.target_db);
+  }
+  if (progress) progress(1);
+  return out;
+}
+
+}  // namespace defray

@@ -1,0 +1,125 @@
+// defray render: how wrong a picture expects to be, in words, as JSON and as a picture.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "command/program.h"
+
+namespace defray::test::error_command_test {
+namespace {
+
+class ErrorCommand : public testing::Test {
+ protected:
+  Folder folder;
+
+  void SetUp() override {
+    expect_ok(defray(folder, "scene fence -o . --width 96 --height 64 --truth-samples 1"));
+  }
+
+  Result run(const std::string& options, const std::string& output = "out.exr") {
+    return defray(folder, "render pinhole.exr -o " + output +
+                              " --camera camera.json --focus-setting bg " + options);
+  }
+
+  nlohmann::json report(const std::string& options) {
+    const Result result = run("--json " + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  }
+
+  void expect_refused(const std::string& options, const std::vector<std::string>& words) {
+    expect_refusal(run(options, "none.exr"), 2, words, options);
+    EXPECT_FALSE(std::filesystem::exists(folder / "none.exr"));
+  }
+};
+
+TEST_F(ErrorCommand, TheSummarySaysWhatIsExpected) {
+  const Result result = run("--quality draft");
+  const auto json = report("--quality draft")["expected"];
+  EXPECT_NE(result.out.find(fmt::format("expected {:.1f} dB ({:.1f} to {:.1f}); of the error",
+                                        json["psnr_srgb_db"].get<double>(),
+                                        json["low_db"].get<double>(),
+                                        json["high_db"].get<double>())),
+            std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find(fmt::format("{:.0f} % hidden", 100 * json["hidden"].get<double>())),
+            std::string::npos)
+      << result.out;
+  EXPECT_FALSE(json.contains("quality"));
+  EXPECT_EQ(run("--literal").out.find("expected"), std::string::npos);
+  EXPECT_FALSE(report("--literal").contains("expected"));
+  EXPECT_GT(report("")["predict_s"], 0.0);
+}
+
+TEST_F(ErrorCommand, ThePictureHasAChannelACause) {
+  const auto json = report("--error-out error.exr");
+  const ImageFile file = ImageFile::read(folder / "error.exr");
+  std::vector<std::string> channels = file.parts()[0].channels;
+  std::sort(channels.begin(), channels.end());
+  EXPECT_EQ(channels,
+            (std::vector<std::string>{"detail", "edges", "hidden", "sampling", "total"}));
+  double squares = 0;
+  for (std::size_t c = 0; c < 5; ++c) {
+    if (file.parts()[0].channels[c] != "total") continue;
+    const Plane total = file.plane(0, static_cast<int>(c));
+    for (const float e : total) squares += double{e} * e / static_cast<double>(total.size());
+  }
+  EXPECT_NEAR(-10 * std::log10(squares), json["expected"]["psnr_srgb_db"], 0.2);
+  expect_ok(run("--quiet --error-out quiet.exr"));
+  EXPECT_EQ(file_hash(folder / "quiet.exr"), file_hash(folder / "error.exr"));
+}
+
+TEST_F(ErrorCommand, AFrameANumber) {
+  expect_ok(shell(folder, "cp pinhole.exr in.0001.exr; cp pinhole.exr in.0002.exr"));
+  expect_ok(defray(folder,
+                   "render in.####.exr -o o.####.exr --error-out e.####.exr --camera camera.json "
+                   "--focus-setting bg --target-db 60"));
+  EXPECT_EQ(file_hash(folder / "e.0001.exr"), file_hash(folder / "e.0002.exr"));
+  const Result strict = defray(folder,
+                               "render in.####.exr -o o.####.exr --camera camera.json "
+                               "--focus-setting bg --target-db 60 --strict-target");
+  EXPECT_EQ(strict.code, 1);
+  EXPECT_NE(strict.err.find("2 of 2 frames miss --target-db 60"), std::string::npos) << strict.err;
+  expect_refusal(defray(folder,
+                        "render in.####.exr -o o.####.exr --error-out e.exr --camera camera.json "
+                        "--focus-setting bg"),
+                 2, {"e.exr", "put #### in its name"}, "one file for all");
+}
+
+TEST_F(ErrorCommand, ATargetChoosesTheQuality) {
+  const auto low = report("--target-db 5")["expected"];
+  EXPECT_EQ(low["quality"], "preview");
+  EXPECT_EQ(low["misses_target"], false);
+  const std::uint64_t chosen = file_hash(folder / "out.exr");
+  expect_ok(run("--quality preview"));
+  EXPECT_EQ(file_hash(folder / "out.exr"), chosen);
+  const Result high = run("--target-db 70");
+  EXPECT_EQ(high.code, 0);
+  EXPECT_NE(high.out.find("--quality high: expected"), std::string::npos) << high.out;
+  EXPECT_NE(high.out.find("no quality is expected to reach 70 dB: "), std::string::npos);
+  EXPECT_NE(high.out.find("% of the error is what was made up behind"), std::string::npos)
+      << high.out;
+  EXPECT_EQ(report("--target-db 70")["expected"]["misses_target"], true);
+  EXPECT_EQ(run("--target-db 5 --strict-target").code, 0);
+}
+
+TEST_F(ErrorCommand, WrongUseIsSaid) {
+  for (const std::string option : {"--error-out e.exr", "--target-db 40"}) {
+    const std::string name = option.substr(0, option.find(' '));
+    expect_refused("--literal " + option, {name, "means nothing to --literal"});
+    expect_refused("--method linear " + option, {name, "means nothing to --method linear"});
+  }
+  expect_refused("--error-out e.png", {"e.png", ".exr"});
+  expect_refused("--error-out none.exr", {"none.exr", "same file"});
+  for (const std::string wrong : {"0", "-3", "91", "nan"}) {
+    expect_refused("--target-db " + wrong, {"--target-db is " + wrong, "more than 0 to 90"});
+  }
+  for (const std::string beside :
+       {"--quality draft", "--rdb 9", "--hidden fill", "--half-size on"}) {
+    expect_refused("--target-db 40 " + beside, {"--target-db goes without --quality"});
+  }
+  expect_refused("--strict-target", {"--strict-target goes with --target-db"});
+  expect_refused("--target 40", {"unknown option '--target'", "--target-db"});
+}
+
+}  // namespace
+}  // namespace defray::test::error_command_test
