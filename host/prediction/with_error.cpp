@@ -22,8 +22,8 @@ ChainSettings with_quality(ChainSettings chain, Quality quality) {
 
 ResultWithError apply(const Frame& frame, const MethodSettings& settings, bool predicts,
                       Backend& backend, bool wants_nearest, const Progress& progress) {
-  ResultWithError out{apply_method(frame, settings, backend, wants_nearest, progress), settings,
-                      {}, {}};
+  ResultWithError out{
+      apply_method(frame, settings, backend, wants_nearest, progress), settings, {}, {}};
   if (!predicts || !out.result.report) return out;
   const Stopwatch watch;
   out.prediction.emplace(frame, *settings.chain, out.result);

@@ -35,11 +35,11 @@ class ErrorCommand : public testing::Test {
 TEST_F(ErrorCommand, TheSummarySaysWhatIsExpected) {
   const Result result = run("--quality draft");
   const auto json = report("--quality draft")["expected"];
-  EXPECT_NE(result.out.find(fmt::format("expected {:.1f} dB ({:.1f} to {:.1f}); of the error",
-                                        json["psnr_srgb_db"].get<double>(),
-                                        json["low_db"].get<double>(),
-                                        json["high_db"].get<double>())),
-            std::string::npos)
+  EXPECT_NE(
+      result.out.find(fmt::format("expected {:.1f} dB ({:.1f} to {:.1f}); of the error",
+                                  json["psnr_srgb_db"].get<double>(), json["low_db"].get<double>(),
+                                  json["high_db"].get<double>())),
+      std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find(fmt::format("{:.0f} % hidden", 100 * json["hidden"].get<double>())),
             std::string::npos)
@@ -55,8 +55,7 @@ TEST_F(ErrorCommand, ThePictureHasAChannelACause) {
   const ImageFile file = ImageFile::read(folder / "error.exr");
   std::vector<std::string> channels = file.parts()[0].channels;
   std::sort(channels.begin(), channels.end());
-  EXPECT_EQ(channels,
-            (std::vector<std::string>{"detail", "edges", "hidden", "sampling", "total"}));
+  EXPECT_EQ(channels, (std::vector<std::string>{"detail", "edges", "hidden", "sampling", "total"}));
   double squares = 0;
   for (std::size_t c = 0; c < 5; ++c) {
     if (file.parts()[0].channels[c] != "total") continue;

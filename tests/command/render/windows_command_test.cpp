@@ -36,6 +36,14 @@ class Windows : public testing::Test {
   Folder folder_;
 };
 
+TEST_F(Windows, PlacesAreThoseOfTheDisplayWindow) {
+  write("cut.exr", 1, at);
+  const std::string optics = " -o out.exr --fstop 2 --focal-length 50 --focus-at ";
+  expect_ok(defray(folder_, "render cut.exr" + optics + "20,21"));
+  expect_refusal(defray(folder_, "render cut.exr" + optics + "17,20"), 2,
+                 {"17,20: cut.exr has pixels from 18,18 to 29,29"}, "left of it");
+}
+
 TEST_F(Windows, ATightOneGrowsByTheBlur) {
   write("cut.exr", 0.75f, at);
   const ImageFile out = rendered("cut.exr");

@@ -214,6 +214,21 @@ TEST(PatternPairs, AMatchNeedsATenthOfAWindows) {
   }
 }
 
+TEST(PatternUnits, OnePixelIsEnough) {
+  const Frame frame{40, 9, std::vector<std::int32_t>(360)};
+  for (const int x : {0, 15, 16, 39}) {
+    for (const int y : {0, 3, 8}) {
+      std::vector<std::uint32_t> pixels(frame.pixels(), DEFRAY_PATTERN_KNOWN);
+      pixels[frame.index(x, y)] |= DEFRAY_PATTERN_BEHIND;
+      const Words needed = needed_units(frame, pixels, 1);
+      const std::size_t unit =
+          size(y / DEFRAY_PATTERN_CELL) * size(pattern_units(40)) + size(x / DEFRAY_RUN);
+      for (std::size_t i = 0; i < needed.size(); ++i)
+        EXPECT_EQ(needed[i], i == unit) << x << " " << y;
+    }
+  }
+}
+
 TEST(PatternUnits, AreThoseInTheWindowsOfWhatHidesSomething) {
   const Frame frame{151, 202, std::vector<std::int32_t>(151 * 202)};
   const int units = pattern_units(frame.width), rows = pattern_rows(frame.height);

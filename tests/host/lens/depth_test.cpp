@@ -59,6 +59,21 @@ TEST(Depth, Inverse) {
   EXPECT_EQ(converted({0.5f, 2, 0, 4, 1}, settings), (Plane{2, 0.5f, inf, 0.25f, 1}));
 }
 
+TEST(Depth, WhatIsNoDepthIsNotBehindTheCamera) {
+  for (const DepthKind kind : {DepthKind::inverse, DepthKind::normalized, DepthKind::zbuffer}) {
+    DepthSettings settings;
+    settings.kind = kind;
+    settings.near_units = 1;
+    settings.far_units = 9;
+    DepthReport report;
+    converted({0.5f, 0.25f, -0.05f, 0.75f, 0.6f}, settings, &report);
+    EXPECT_EQ(report.behind_camera, 0u);
+  }
+  DepthReport report;
+  converted({0.5f, 2, -1, 4, 1}, {}, &report);
+  EXPECT_EQ(report.behind_camera, 1u);
+}
+
 TEST(Depth, Normalized) {
   DepthSettings settings;
   settings.kind = DepthKind::normalized;

@@ -57,6 +57,23 @@ TEST(LibraryRender, TiltshiftsBandStaysSharpAndTheRestFollowsItsBlur) {
   EXPECT_EQ(rendered(memory, options).colour, memory.colour);
 }
 
+TEST(LibraryRender, TheLensKnowsWhereInTheFrameThePictureLies) {
+  Options options;
+  options.chain->aperture.cats_eye = 1;
+  Memory memory;
+  const auto at = [&](int x, int y) {
+    memory.data = {x, y, size.width, size.height};
+    memory.display = {0, 0, 3 * size.width, 3 * size.height};
+    return rendered(memory, options).colour;
+  };
+  const auto middle = at(size.width, size.height);
+  EXPECT_NE(at(0, size.height), middle);
+  EXPECT_NE(at(size.width, 0), middle);
+  memory.display = {7, -3, 3 * size.width, 3 * size.height};
+  memory.data = {size.width + 7, size.height - 3, size.width, size.height};
+  EXPECT_EQ(rendered(memory, options).colour, middle);
+}
+
 TEST(LibraryRender, DepthIsWhatTheOptionsSay) {
   Memory memory;
   const std::vector<float> as_z = rendered(memory, literal()).coc_px;

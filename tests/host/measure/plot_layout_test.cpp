@@ -1,5 +1,7 @@
 // Where texts and lines of a chart stand: by their ticks, in the middle of what they name, apart.
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 #include "image/ldr.h"
 #include "measure/plot.h"
@@ -100,6 +102,31 @@ TEST_F(PlotLayout, TitlesStandInTheMiddleOfWhatTheyName) {
   EXPECT_GT(y_name.bottom - y_name.top, 3 * (y_name.right - y_name.left));  // upright
   EXPECT_GT(y_name.left, 2);
   EXPECT_LT(y_name.right, 30);
+}
+
+TEST_F(PlotLayout, FourSeriesHaveMarkersOfTheirOwn) {
+  plot_.series = {{"", {{0, 0}, {10, 4}}, false, false}};
+  for (int i = 0; i < 5; ++i) plot_.series.push_back({"", {{1.5 + i, 1.5}}, false, true});
+  draw();
+  std::vector<std::vector<bool>> shapes;
+  for (int i = 0; i < 5; ++i) {
+    const auto at = plot_position(plot_, {1.5 + i, 1.5});
+    std::vector<bool>& shape = shapes.emplace_back();
+    for (int y = -10; y <= 10; ++y) {
+      for (int x = -10; x <= 10; ++x) {
+        const auto c = colour(static_cast<int>(std::lround(at[0])) + x,
+                              static_cast<int>(std::lround(at[1])) + y);
+        shape.push_back(std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) > 60);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto apart = std::inner_product(shapes[i].begin(), shapes[i].end(), shapes[k].begin(),
+                                            0, std::plus<>(), std::not_equal_to<>());
+      EXPECT_GT(apart, 12) << i << " " << k;
+    }
+  }
 }
 
 TEST_F(PlotLayout, LongTitlesAreAsSmallAsTheyMustBe) {

@@ -112,10 +112,13 @@ TEST(Signs, WhatBlocksHoldCountsAsItIs) {
   b.soft_grain = 6;
   b.slight_gradient = 7;
   const SignValues signs = signs_at(blocks, 1, 1);
-  const std::pair<const char*, float> expected[] = {
-      {"rims beyond white", 1}, {"rims beyond 4 times white", 2}, {"unseen rims", 3},
-      {"grain below 0.3 px", 4}, {"grain to 1 px", 5},            {"grain, 2.5 to 6 px", 6},
-      {"gradient, 0.3 to 2.5 px", 7}};
+  const std::pair<const char*, float> expected[] = {{"rims beyond white", 1},
+                                                    {"rims beyond 4 times white", 2},
+                                                    {"unseen rims", 3},
+                                                    {"grain below 0.3 px", 4},
+                                                    {"grain to 1 px", 5},
+                                                    {"grain, 2.5 to 6 px", 6},
+                                                    {"gradient, 0.3 to 2.5 px", 7}};
   for (const auto& [name, value] : expected) EXPECT_EQ(signs[index_of(name)], value) << name;
 }
 

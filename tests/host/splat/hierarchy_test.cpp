@@ -38,7 +38,7 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
     ASSERT_EQ(tree.points.size(), size(count));
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
       const HierarchyNode& node = tree.nodes[i];
-      double area = 0, red = 0, variance = 0, xx = 0, xy = 0;
+      double area = 0, red = 0, variance = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
       Vec3 mean{};
       for (std::uint32_t k = node.first_point; k < node.end_point; ++k) {
         const DefraySplatNode& p = tree.points[k];
@@ -53,6 +53,10 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
         const Vec3 d = place(p) - mean;
         xx += p.area_z * d.x * d.x;
         xy += p.area_z * d.x * d.y;
+        xz += p.area_z * d.x * d.z;
+        yy += p.area_z * d.y * d.y;
+        yz += p.area_z * d.y * d.z;
+        zz += p.area_z * d.z * d.z;
         EXPECT_LE(length(place(p) - place(node.splat)), node.radius * 1.00001 + 1e-6);
       }
       EXPECT_NEAR(node.splat.area_z, area, 1e-4 * area);
@@ -62,6 +66,10 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
       EXPECT_LT(length(place(node.splat) - mean), 1e-5);
       EXPECT_NEAR(node.splat.low_xx, xx / area, 1e-5);
       EXPECT_NEAR(node.splat.low_xy, xy / area, 1e-5);
+      EXPECT_NEAR(node.splat.low_xz, xz / area, 1e-5);
+      EXPECT_NEAR(node.splat.low_yy, yy / area, 1e-5);
+      EXPECT_NEAR(node.splat.low_yz, yz / area, 1e-5);
+      EXPECT_NEAR(node.splat.low_zz, zz / area, 1e-5);
       EXPECT_LE(node.next, tree.nodes.size());
       EXPECT_GT(node.next, i);
       if (tree.is_leaf(i)) {

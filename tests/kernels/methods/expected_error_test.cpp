@@ -106,8 +106,8 @@ TEST(ExpectedError, PlanesAreItsParts) {
     const double share = result.prediction->of_frame().shares[c];
     EXPECT_NEAR(squared_mean(planes[c + 1]) / all, share, 0.03) << c;
   }
-  EXPECT_EQ(Prediction::plane_names(), (std::vector<std::string>{"total", "sampling", "hidden",
-                                                                 "edges", "detail"}));
+  EXPECT_EQ(Prediction::plane_names(),
+            (std::vector<std::string>{"total", "sampling", "hidden", "edges", "detail"}));
 }
 
 TEST(ExpectedError, IsHighWhereTheErrorIs) {
@@ -150,8 +150,7 @@ TEST(ExpectedError, IsNotFoundUnasked) {
 TEST(Target, TakesTheFastestQualityThatMeetsIt) {
   const Subject s = subject_of("fence", "bg", 160, 104);
   std::vector<double> expected;
-  for (const Quality quality :
-       {Quality::preview, Quality::draft, Quality::normal, Quality::high}) {
+  for (const Quality quality : {Quality::preview, Quality::draft, Quality::normal, Quality::high}) {
     expected.push_back(made(s, chain_of(quality), expects).prediction->of_frame().psnr_db);
   }
   MethodSettings settings = chain_of(Quality::high);

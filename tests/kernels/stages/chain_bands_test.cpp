@@ -126,6 +126,17 @@ TEST(ChainBands, NoSeamShowsWhateverTheStages) {
   }
 }
 
+TEST(ChainBands, NoSeamShowsWhereStagesLookFarBack) {
+  ChainSettings settings;
+  settings.cells_per_side = 5;
+  Shot shot{160, 420};
+  shot.blur_px = 40;
+  for (const Hidden hidden : {Hidden::fill, Hidden::patterns}) {
+    settings.hidden = hidden;
+    expect_no_seams(shot, settings);
+  }
+}
+
 TEST(ChainBands, NoSeamShowsWhateverTheFrame) {
   ChainSettings settings;
   settings.cells_per_side = 7;
