@@ -44,4 +44,19 @@ void finish(RenderCommand& job) {
   s.error.wants_expected = job.json || !job.quiet;
 }
 
+std::string shell_quoted(const std::string& text) {
+  return text.find_first_of(" '#*?$@&|;<>()\\\"") == std::string::npos ? text : "'" + text + "'";
+}
+
+std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,
+                                const std::function<bool(const std::string&)>& is_left_out) {
+  std::string line = "defray render";
+  for (const auto& [name, values] : given) {
+    if (is_left_out(name)) continue;
+    if (!name.empty()) line += " " + name;
+    if (!values.empty()) line += " " + shell_quoted(values);
+  }
+  return line;
+}
+
 }  // namespace defray::cli

@@ -84,6 +84,13 @@ std::vector<OptionGroup> render_options(RenderCommand& job);
 /// combinations that are not allowed.
 void finish(RenderCommand& job);
 
+/// As a shell takes it.
+std::string shell_quoted(const std::string& text);
+
+/// "defray render" with what was given, but for the options that are left out.
+std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,
+                                const std::function<bool(const std::string&)>& is_left_out);
+
 /// The settings of a frame: typed values win over the eye's, those over the camera file's or the
 /// metadata's. Throws Error(usage), and Error(input) for a camera file.
 RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame);

@@ -41,10 +41,6 @@ std::vector<Plane> with_coc(std::vector<Plane> planes, const Plane& coc_px) {
   return planes;
 }
 
-std::string quoted(const std::string& text) {
-  return text.find_first_of(" '#*?$@&|;<>()\\\"") == std::string::npos ? text : "'" + text + "'";
-}
-
 }  // namespace
 
 ShowSession::ShowSession(const RenderCommand& job, std::vector<std::optional<int>> frames,
@@ -205,12 +201,7 @@ std::string ShowSession::command() const {
            (has_focus && name.starts_with("--focus") && name != "--focus-setting") ||
            (fstop_ && (name == "--fstop" || name == "--aperture-diameter"));
   };
-  std::string line = "defray render";
-  for (const auto& [name, values] : job_.given) {
-    if (is_replaced(name)) continue;
-    if (!name.empty()) line += " " + name;
-    if (!values.empty()) line += " " + quoted(values);
-  }
+  std::string line = render_command_line(job_.given, is_replaced);
   if (focus_units_) line += fmt::format(" --focus {:.4g}", *focus_units_);
   if (place_) line += fmt::format(" --focus-at {},{}", place_->x, place_->y);
   if (fstop_) line += fmt::format(" --fstop {:.4g}", *fstop_);

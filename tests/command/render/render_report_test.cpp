@@ -55,6 +55,8 @@ FrameOutcome outcome() {
   chain.stages = {{"lens", 0.25, 0}, {"rays", 0.5, 3 << 19}};
   chain.tiles = {8, 0.5, 0.25, 0.125, 0.0625, 0.03125};
   r.chain = chain;
+  r.predict_seconds = 0.0625;
+  r.expected = ExpectedError{40.25, 36, 46, {0.5, 0.25, 0.125, 0.125}, {}, false};
   return o;
 }
 
@@ -83,6 +85,8 @@ TEST(RenderReport, TextHasEveryFigure) {
       "  CoC radius -4.5 to 12.25 px\n"
       "  137 lens points, 75.00 % of their rays determined by the input, 12 px made up behind, "
       "13 px split, 14 highlights\n"
+      "  expected 40.2 dB (36.0 to 46.0); of the error 50 % sampling, 25 % hidden, 12 % edges, "
+      "12 % detail\n"
       "  note: a note\n"
       "  note: 6 NaN or Inf colour values set to 0\n"
       "  note: 3 stored depths lie outside 0...1: is this normalized depth?\n"
@@ -102,6 +106,7 @@ TEST(RenderReport, TextLeavesOutWhatThereIsNot) {
   r.lens.pixels_per_metre = 4000;
   r.coc_limited = r.nonfinite = 0;
   r.chain = ChainReport{};
+  r.expected.reset();
   r.chain->lens_points = 9;
   EXPECT_EQ(text_of(o),
             "in.exr -> out.exr\n"
@@ -167,6 +172,14 @@ TEST(RenderReport, JsonHasEveryFigure) {
                              {"mixed", 0.125},
                              {"hidden", 0.0625},
                              {"lights", 0.03125}}}}},
+                         {"expected",
+                          {{"psnr_srgb_db", 40.25},
+                           {"low_db", 36.0},
+                           {"high_db", 46.0},
+                           {"sampling", 0.5},
+                           {"hidden", 0.25},
+                           {"edges", 0.125},
+                           {"detail", 0.125}}},
                          {"nearest_coc_px", -4.5},
                          {"farthest_coc_px", 12.25},
                          {"coc_limited_px", 5},
@@ -174,6 +187,7 @@ TEST(RenderReport, JsonHasEveryFigure) {
                          {"notes", json{"a note"}},
                          {"read_s", 0.5},
                          {"render_s", 1.25},
+                         {"predict_s", 0.0625},
                          {"write_s", 0.125}};
   EXPECT_EQ(json_of(outcome()), expected);
 }

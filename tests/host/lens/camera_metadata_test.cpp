@@ -50,8 +50,7 @@ TEST(CameraMetadata, SensorsAreMillimetresAndFieldsOfViewDegrees) {
                                                  {"nuke/camera/haperture", 24, 24},
                                                  {"cameraAperture", 24, 24},
                                                  {"vray/cameraAperture", 24, 24}});
-  expect_values(&CameraValues::fov_deg,
-                {{"cameraFov", 40, 40}, {"rs/camera/fov", 1.0471976, 60}});
+  expect_values(&CameraValues::fov_deg, {{"cameraFov", 40, 40}, {"rs/camera/fov", 1.0471976, 60}});
 }
 
 TEST(CameraMetadata, FStopsAreThemselves) {

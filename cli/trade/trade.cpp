@@ -1,0 +1,177 @@
+// defray trade: what speed costs in accuracy, on the user's own picture.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "commands.h"
+#include "commands/colour_file.h"
+#include "defray/defray.h"
+#include "image/safe_output.h"
+#include "image/sequence.h"
+#include "measure/metrics.h"
+#include "prediction/with_error.h"
+#include "progress.h"
+#include "render/render_command.h"
+#include "trade/trade_report.h"
+
+namespace defray::cli {
+namespace {
+
+constexpr const char* trade_footer =
+    R"(Renders one picture in every quality, and by the other methods where there is a truth, three times each:
+pictures, a plot of error against time (trade.png), a table with the command of each (index.html,
+trade.csv). Errors are expected ones, told from how the pictures look, and true ones with --truth.
+
+Examples:
+  defray trade beauty.exr -o trade --focus 3 --fstop 2.8 --focal-length 50 --sensor-width 36
+  defray trade beauty.exr -o trade --camera camera.json --truth lens.exr --target-db 38)";
+
+struct TradeCommand : RenderCommand {
+  std::string folder, truth;
+  std::optional<double> target_db;
+};
+
+struct Candidate {
+  std::string name, options;
+  MethodSettings method;
+};
+
+/// Every quality; with a truth, which alone tells of them, the other methods.
+std::vector<Candidate> candidates(const TradeCommand& job) {
+  std::vector<Candidate> all;
+  for (const auto& [name, quality] : quality_words) {
+    MethodSettings method = job.settings.method;
+    method.chain = settings_for(quality);
+    method.chain->aperture = job.chain.aperture;
+    all.push_back({name, "--quality " + name, method});
+  }
+  // Bokeh of another shape than a circle is of the stages alone.
+  if (job.truth.empty() || job.chain.aperture != Aperture()) return all;
+  MethodSettings other = job.settings.method;
+  other.chain.reset();
+  all.push_back({"literal", "--literal", other});
+  other.method = Method::gather;
+  all.push_back({"gather", "--method gather", other});
+  other.method = Method::linear;
+  all.push_back({"linear", "--method linear", other});
+  return all;
+}
+
+std::vector<OptionGroup> trade_options(TradeCommand& job) {
+  return {{"",
+           {{"input", value(job.paths.input), "Colour, and depth unless --depth is given",
+             {.is_required = true}},
+            {"-o,--output", value(job.folder), "Folder for what is made", {.is_required = true}},
+            {"--depth", value(job.paths.depth), "Take depth from this file"},
+            {"--truth", value(job.truth), "What the lens really gives, for true errors"},
+            {"--target-db",
+             value(job.target_db),
+             "Recommend the fastest that meets this PSNR, dB",
+             {.field = "target_db"}}}},
+          channel_options(job),
+          lens_options(job),
+          aperture_options(job.chain.aperture),
+          device_options(job),
+          {"Terminal",
+           {{"--json", flag(job.json), "JSON instead of text"},
+            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"}}}};
+}
+
+/// The same picture by `render`.
+std::string command_of(const TradeCommand& job, const Candidate& candidate) {
+  const std::set<std::string> own{"--output", "--truth", "--target-db", "--json", "--quiet"};
+  return render_command_line(job.given, [&](const auto& name) { return own.contains(name); }) +
+         " -o " + shell_quoted(job.folder + "/" + candidate.name + ".exr") + " " +
+         candidate.options;
+}
+
+/// Of the picture where both are.
+double true_db_of(const TradeCommand& job, const FrameResult& result) {
+  ColourFile truth = read_colour_file(job.truth);
+  ColourFile own{result.report.paths.output, result.colour, result.report.data,
+                 result.report.display};
+  own.planes.resize(3);
+  truth.planes.resize(3);
+  bring_together({&own, &truth}, {});
+  return compare(own.planes, truth.planes, own.data.width).psnr_srgb_db;
+}
+
+/// Renders it three times.
+TradePoint measured(const TradeCommand& job, const Candidate& candidate,
+                    const RenderSettings& common, Device& device, const Progress& progress) {
+  RenderSettings settings = common;
+  settings.method = candidate.method;
+  settings.error.wants_expected = true;
+  FramePaths paths = job.paths;
+  paths.output = job.folder + "/" + candidate.name + ".png";
+  std::vector<double> seconds;
+  FrameResult result;
+  constexpr int runs = 3;
+  for (int run = 0; run < runs; ++run) {
+    FileRender frame(paths, settings);
+    frame.read();
+    frame.render(device, [&](double share) { progress((run + share) / runs); });
+    result = frame.write();
+    seconds.push_back(result.report.render_seconds);
+  }
+  std::sort(seconds.begin(), seconds.end());
+  TradePoint point{candidate.name, command_of(job, candidate), seconds[1],
+                   (seconds[2] - seconds[0]) / seconds[1], result.report.expected, {}};
+  if (!job.truth.empty()) point.true_db = true_db_of(job, result);
+  return point;
+}
+
+/// Before anything is read.
+void check(const TradeCommand& job) {
+  if (has_frame_pattern(job.paths.input) && job.paths.input.find_first_of("#%") != std::string::npos) {
+    fail(ErrorKind::usage, "{}: trade takes one picture; name one of the frames", job.paths.input);
+  }
+  validate(job.settings.method, {false, job.target_db});
+  check_lens(job, {std::nullopt});
+  inspect_file(job.paths, settings_at(job, std::nullopt));
+  if (!job.truth.empty()) read_colour_file(job.truth);
+  create_folder(job.folder);
+  check_can_write(job.folder + "/index.html");
+}
+
+int run(const OptionTable& options, TradeCommand& job) {
+  options.set();
+  job.given = options.given();
+  options.refuse_idle({Method::rdb, false, job.is_on_reference()});
+  finish(job);
+  check(job);
+  Device device = Device::open(job.device, {job.math});
+  if (!job.is_on_reference()) device.set_memory(job.memory_bytes());
+  const RenderSettings settings = settings_at(job, std::nullopt);
+  const std::vector<Candidate> all = candidates(job);
+  ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);
+  Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    trade.points.push_back(measured(job, all[i], settings, device,
+                                    [&](double share) { bar.update(i, share); }));
+  }
+  bar.clear();
+  recommend(trade, job.target_db);
+  write_report(job.folder, trade);
+  if (job.json) {
+    print_json(trade);
+  } else if (!job.quiet) {
+    print_text(trade);
+    fmt::print("  {}/index.html\n", job.folder);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Run add_trade(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "trade", "What speed costs in accuracy: one picture in every quality, with errors and times");
+  command->footer(trade_footer);
+  const auto job = std::make_shared<TradeCommand>();
+  const OptionTable options(*command, trade_options(*job));
+  return [options, job] { return run(options, *job); };
+}
+
+}  // namespace defray::cli

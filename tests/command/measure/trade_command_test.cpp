@@ -1,0 +1,125 @@
+// defray trade as a user runs it, and what it recommends.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command/program.h"
+#include "image/ldr.h"
+#include "trade/trade_report.h"
+
+namespace defray::test::trade_command_test {
+namespace {
+
+using cli::Trade;
+using cli::TradePoint;
+using nlohmann::json;
+
+class TradeCommand : public testing::Test {
+ protected:
+  Folder folder;
+  const std::string lens = " --camera camera.json --focus-setting bg ";
+
+  void SetUp() override {
+    expect_ok(defray(folder, "scene fence -o . --width 96 --height 64 --truth-samples 4"));
+  }
+
+  void expect_refused(const std::string& options, int code, const std::vector<std::string>& words) {
+    expect_refusal(defray(folder, "trade " + options), code, words, options);
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+  }
+};
+
+TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
+  const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json trade = json::parse(result.out);
+  ASSERT_EQ(trade["points"].size(), 4u);
+  for (const json& point : trade["points"]) {
+    const std::string name = point["picture"];
+    EXPECT_LT(point["low_db"], point["expected_db"]);
+    EXPECT_GT(point["render_s"], 0.0);
+    EXPECT_FALSE(point.contains("true_db"));
+    const Result by_hand = defray(folder, "render pinhole.exr -o t/hand.png" + lens + "--json " +
+                                              "--quality " + name);
+    EXPECT_EQ(json::parse(by_hand.out)["expected"]["psnr_srgb_db"], point["expected_db"]);
+    EXPECT_EQ(file_hash(folder / "t/hand.png"), file_hash(folder / ("t/" + name + ".png")));
+    EXPECT_EQ(point["command"], "defray render pinhole.exr --camera camera.json --focus-setting bg "
+                                "-o t/" + name + ".exr --quality " + name);
+  }
+  for (const char* file : {"index.html", "trade.png", "trade.csv"}) {
+    EXPECT_GT(std::filesystem::file_size(folder / ("t/" + std::string(file))), 100u) << file;
+  }
+}
+
+TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
+  const std::string truth = " --truth truth_bg.exr";
+  const Result result = defray(folder, "trade pinhole.exr -o t" + truth + lens);
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* word : {"preview", "high", "literal", "gather", "linear", "true dB",
+                           "recommended, the fastest within 0.5 dB of the best", "t/index.html"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+  }
+  const json trade =
+      json::parse(defray(folder, "trade pinhole.exr -o t --json" + truth + lens).out);
+  ASSERT_EQ(trade["points"].size(), 7u);
+  for (const json& point : trade["points"]) {
+    const std::string name = point["picture"];
+    const std::string command = point["command"];
+    expect_ok(defray(folder, command.substr(std::string("defray ").size())));
+    const json compared = json::parse(
+        defray(folder, "compare t/" + name + ".exr truth_bg.exr --json").out);
+    EXPECT_NEAR(compared["psnr_srgb_db"], point["true_db"], 1e-3) << name;
+  }
+  // The stages' bokeh is not the others'.
+  const json bladed =
+      json::parse(defray(folder, "trade pinhole.exr -o t --json --blades 5" + truth + lens).out);
+  EXPECT_EQ(bladed["points"].size(), 4u);
+  EXPECT_NE(bladed["points"][2]["true_db"], trade["points"][2]["true_db"]);
+  EXPECT_EQ(defray(folder, "trade pinhole.exr -o t -q" + lens).out, "");
+}
+
+TEST_F(TradeCommand, WrongUseIsSaid) {
+  expect_refused("pinhole.exr" + lens, 2, {"output"});
+  expect_refused("lost.exr -o none" + lens, 3, {"lost.exr"});
+  expect_refused("pinhole.exr -o none --truth lost.exr" + lens, 3, {"lost.exr"});
+  expect_refused("pinhole.exr -o none --target-db 0" + lens, 2, {"--target-db is 0"});
+  expect_refused("'p.####.exr' -o none" + lens, 2, {"trade takes one picture"});
+  expect_refused("pinhole.exr -o none --focus 3", 2, {"focal"});
+  expect_refused("pinhole.exr -o none --quality draft" + lens, 2, {"--quality"});
+  expect_ok(defray(folder, "scene fence -o small --width 48 --height 32 --truth-samples 1"));
+  expect_refusal(defray(folder, "trade pinhole.exr -o t --truth small/truth_bg.exr" + lens), 3,
+                 {"small/truth_bg.exr", "48x32"}, "a truth of another size");
+}
+
+TradePoint point(const std::string& name, double seconds, double expected_db,
+                 std::optional<double> true_db = {}) {
+  TradePoint p{name, "", seconds, 0, ExpectedError{}, true_db};
+  p.expected->psnr_db = expected_db;
+  return p;
+}
+
+TEST(Trade, RecommendsTheFastestThatWillDo) {
+  Trade trade{"in.exr", "device", false, {}, 0, ""};
+  trade.points = {point("preview", 1, 30), point("draft", 2, 39.6), point("normal", 4, 40),
+                  point("slow", 3, 39.9)};
+  const auto recommended = [&](std::optional<double> target_db) {
+    recommend(trade, target_db);
+    return trade.points[trade.recommended].name;
+  };
+  EXPECT_EQ(recommended({}), "draft");
+  EXPECT_EQ(recommended(20), "preview");
+  EXPECT_EQ(trade.why, "the fastest that meets 20 dB");
+  EXPECT_EQ(recommended(39.7), "slow");
+  EXPECT_EQ(recommended(40), "normal");
+  EXPECT_EQ(recommended(41), "draft");
+  EXPECT_EQ(trade.why, "the fastest within 0.5 dB of the best; none meets 41 dB");
+  // What is known counts, not what is expected.
+  trade.points[0].true_db = 45;
+  EXPECT_EQ(recommended({}), "preview");
+  trade.points[0].expected.reset();
+  EXPECT_EQ(recommended({}), "preview");
+  trade.points[1] = {"unknown", "", 0.5, 0, {}, {}};
+  EXPECT_EQ(recommended(1), "preview");
+}
+
+}  // namespace
+}  // namespace defray::test::trade_command_test
