@@ -60,7 +60,9 @@ std::vector<Candidate> candidates(const TradeCommand& job) {
 
 std::vector<OptionGroup> trade_options(TradeCommand& job) {
   return {{"",
-           {{"input", value(job.paths.input), "Colour, and depth unless --depth is given",
+           {{"input",
+             value(job.paths.input),
+             "Colour, and depth unless --depth is given",
              {.is_required = true}},
             {"-o,--output", value(job.folder), "Folder for what is made", {.is_required = true}},
             {"--depth", value(job.paths.depth), "Take depth from this file"},
@@ -116,18 +118,23 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
     seconds.push_back(result.report.render_seconds);
   }
   std::sort(seconds.begin(), seconds.end());
-  TradePoint point{candidate.name, command_of(job, candidate), seconds[1],
-                   (seconds[2] - seconds[0]) / seconds[1], result.report.expected, {}};
+  TradePoint point{candidate.name,
+                   command_of(job, candidate),
+                   seconds[1],
+                   (seconds[2] - seconds[0]) / seconds[1],
+                   result.report.expected,
+                   {}};
   if (!job.truth.empty()) point.true_db = true_db_of(job, result);
   return point;
 }
 
 /// Before anything is read.
 void check(const TradeCommand& job) {
-  if (has_frame_pattern(job.paths.input) && job.paths.input.find_first_of("#%") != std::string::npos) {
+  if (has_frame_pattern(job.paths.input) &&
+      job.paths.input.find_first_of("#%") != std::string::npos) {
     fail(ErrorKind::usage, "{}: trade takes one picture; name one of the frames", job.paths.input);
   }
-  validate(job.settings.method, {false, job.target_db});
+  validate(job.settings.method, {false, false, job.target_db});
   check_lens(job, {std::nullopt});
   inspect_file(job.paths, settings_at(job, std::nullopt));
   if (!job.truth.empty()) read_colour_file(job.truth);
@@ -148,8 +155,8 @@ int run(const OptionTable& options, TradeCommand& job) {
   ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);
   Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    trade.points.push_back(measured(job, all[i], settings, device,
-                                    [&](double share) { bar.update(i, share); }));
+    trade.points.push_back(
+        measured(job, all[i], settings, device, [&](double share) { bar.update(i, share); }));
   }
   bar.clear();
   recommend(trade, job.target_db);

@@ -87,8 +87,8 @@ void print_text(const Trade& trade) {
 void print_json(const Trade& trade) {
   nlohmann::ordered_json points = nlohmann::ordered_json::array();
   for (const TradePoint& p : trade.points) {
-    nlohmann::ordered_json point = {{"picture", p.name}, {"render_s", p.seconds},
-                                    {"spread", p.spread}, {"command", p.command}};
+    nlohmann::ordered_json point = {
+        {"picture", p.name}, {"render_s", p.seconds}, {"spread", p.spread}, {"command", p.command}};
     if (p.expected) {
       point["expected_db"] = p.expected->psnr_db;
       point["low_db"] = p.expected->low_db;
@@ -97,12 +97,11 @@ void print_json(const Trade& trade) {
     if (p.true_db) point["true_db"] = *p.true_db;
     points.push_back(point);
   }
-  const nlohmann::ordered_json json = {
-      {"input", trade.input},
-      {"device", trade.device},
-      {"points", points},
-      {"recommended", trade.points[trade.recommended].name},
-      {"why", trade.why}};
+  const nlohmann::ordered_json json = {{"input", trade.input},
+                                       {"device", trade.device},
+                                       {"points", points},
+                                       {"recommended", trade.points[trade.recommended].name},
+                                       {"why", trade.why}};
   fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 

@@ -10,8 +10,8 @@ namespace defray::cli {
 
 /// One way to render the picture.
 struct TradePoint {
-  std::string name;     ///< Of its picture: "draft".
-  std::string command;  ///< That makes it.
+  std::string name;                ///< Of its picture: "draft".
+  std::string command;             ///< That makes it.
   double seconds = 0, spread = 0;  ///< Median; (largest - smallest) / median.
   std::optional<ExpectedError> expected;
   std::optional<double> true_db;  ///< Against the truth, where there is one.

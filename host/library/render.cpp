@@ -94,7 +94,7 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
       apply_with_error(frame, options, options.error, backend, options.wants_nearest, progress);
   MethodResult& result = made.result;
   out.report.expected = made.expected(options.error);
-  if (made.prediction && options.error.wants_expected) {
+  if (made.prediction && options.error.wants_planes) {
     out.expected_error = made.prediction->planes();
   }
   out.report.chain = std::move(result.report);

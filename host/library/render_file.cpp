@@ -114,7 +114,8 @@ void FileRender::render(Device& device, const Progress& progress) {
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
   const bool wants_nearest = !s.source->further.data.empty();
   ErrorSettings error = s.settings.error;
-  error.wants_expected |= !s.paths.error.empty();
+  error.wants_planes = !s.paths.error.empty();
+  error.wants_expected |= error.wants_planes;
   ResultWithError made =
       apply_with_error(frame, s.settings.method, error, backend, wants_nearest, progress);
   MethodResult& result = made.result;

@@ -121,16 +121,15 @@ class BlockRow {
 
 }  // namespace
 
-PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result,
-                      const Plane& confidence) {
-  PixelBlocks out{
-      (frame.width + block_px - 1) / block_px, (frame.height + block_px - 1) / block_px, {}};
+PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result, const Plane& confidence,
+                      Rows rows) {
+  PixelBlocks out{(frame.width + block_px - 1) / block_px, rows.count(), {}};
   out.blocks.resize(size(out.across) * size(out.down));
   constexpr int together = 8;  // rows of blocks that share their memory
   parallel_for((out.down + together - 1) / together, [&](int task) {
     BlockRow row(frame, result, confidence);
     for (int j = task * together; j < std::min(out.down, (task + 1) * together); ++j) {
-      const int y0 = j * block_px;
+      const int y0 = (rows.y + j) * block_px;
       row.find(y0, std::min(block_px, frame.height - y0), &out.blocks[size(j) * size(out.across)]);
     }
   });

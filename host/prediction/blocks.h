@@ -33,6 +33,7 @@ struct PixelBlock {
   float lost_grain = 0;     ///< Of all, by min(|radius|, 1).
 };
 
+/// Rows of blocks, all or some of a frame's.
 struct PixelBlocks {
   int across = 0, down = 0;
   std::vector<PixelBlock> blocks;
@@ -40,8 +41,11 @@ struct PixelBlocks {
   const PixelBlock& at(int x, int y) const { return blocks[size(y) * size(across) + size(x)]; }
 };
 
-/// `result` and `confidence` are what the chain made of the frame.
-PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result,
-                      const Plane& confidence);
+/// How many rows of blocks a frame has.
+inline int block_rows(const Frame& frame) { return (frame.height + block_px - 1) / block_px; }
+
+/// Those of some rows of blocks. `result` and `confidence` are what the chain made of the frame.
+PixelBlocks blocks_of(const Frame& frame, const std::vector<Plane>& result, const Plane& confidence,
+                      Rows rows);
 
 }  // namespace defray

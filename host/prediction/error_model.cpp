@@ -6,32 +6,36 @@
 namespace defray {
 namespace {
 
-/// A sign, and by how much of it the squared error grows.
+/// What pictures a sign is one of.
+enum class Of { all, few_lens_points, fill_alone, half_size };
+
+/// A sign, and by how much of it the squared error grows; of few lens points: over their count.
 struct Sign {
   const char* name;
   Cause cause;
   double weight;
+  Of of = Of::all;
 };
 
 // Found by perf/scripts/fit_prediction.py from what `defray-perf experiment prediction` writes: the
 // signs and true errors of 824 renders, 22 settings of built-in scenes at three sizes and 140
 // random scenes, in four qualities. Signs that it gave nothing were left out.
 constexpr std::array<Sign, sign_count> model{{
-    {"contrast in reach / lens points", Cause::sampling, 0.07251},
+    {"contrast in reach / lens points", Cause::sampling, 0.07251, Of::few_lens_points},
     {"unseen^2 contrast behind", Cause::hidden, 0.3882},
-    {"the same, without patterns", Cause::hidden, 0.2663},
+    {"the same, without patterns", Cause::hidden, 0.2663, Of::fill_alone},
     {"unseen contrast behind", Cause::hidden, 0.04932},
-    {"unseen contrast of the result, half size", Cause::hidden, 0.06676},
+    {"unseen contrast of the result, half size", Cause::hidden, 0.06676, Of::half_size},
     {"rims beyond white", Cause::edges, 0.4873},
     {"rims beyond 4 times white", Cause::edges, 0.1812},
     {"unseen rims", Cause::edges, 2.877},
     {"edges^3 contrast behind", Cause::edges, 0.1034},
-    {"gradient on edges, half size", Cause::edges, 0.1907},
+    {"gradient on edges, half size", Cause::edges, 0.1907, Of::half_size},
     {"grain below 0.3 px", Cause::detail, 0.04945},
     {"grain to 1 px", Cause::detail, 0.03846},
     {"grain, 2.5 to 6 px", Cause::detail, 0.04313},
     {"gradient, 0.3 to 2.5 px", Cause::detail, 0.04867},
-    {"grain lost by half size", Cause::detail, 0.04433},
+    {"grain lost by half size", Cause::detail, 0.04433, Of::half_size},
 }};
 constexpr double stretch = 1.123;  ///< Errors grow faster than their signs.
 /// Of nine in ten cases, PSNR less expected PSNR, dB.
@@ -57,12 +61,19 @@ std::vector<std::string> sign_names() {
   return names;
 }
 
-std::array<double, cause_count> squares_of(const SignValues& signs) {
-  std::array<double, cause_count> squares{};
+Cause cause_of(std::size_t sign) { return model[sign].cause; }
+
+std::array<double, sign_count> weights_of(const Making& making) {
+  std::array<double, sign_count> weights{};
   for (std::size_t i = 0; i < sign_count; ++i) {
-    squares[static_cast<std::size_t>(model[i].cause)] += model[i].weight * double{signs[i]};
+    const Of of = model[i].of;
+    const bool is_one = of == Of::fill_alone  ? !making.has_patterns
+                        : of == Of::half_size ? making.is_half_size
+                                              : true;
+    if (!is_one) continue;
+    weights[i] = model[i].weight / (of == Of::few_lens_points ? making.lens_points : 1);
   }
-  return squares;
+  return weights;
 }
 
 double frame_factor(double mean) { return std::pow(mean + nothing, stretch) / (mean + nothing); }

@@ -17,18 +17,39 @@ enum class Cause {
 };
 inline constexpr std::size_t cause_count = 4;
 
+/// Of a sign.
+Cause cause_of(std::size_t sign);
+
 /// "hidden".
 const char* to_string(Cause cause);
 
 /// "what was made up behind near surfaces".
 const char* about(Cause cause);
 
+/// How a picture was made, as far as it says what signs weigh.
+struct Making {
+  int lens_points = 0;
+  bool has_patterns = true, is_half_size = false;
+};
+
 /// Names of the signs, in their order.
 std::vector<std::string> sign_names();
 
-/// Expected squared errors of a block's shown values, by cause, up to a factor that the frame has
-/// in common.
-std::array<double, cause_count> squares_of(const SignValues& signs);
+/// By how much of each sign the expected squared error of a picture made so grows, up to a factor
+/// that its blocks have in common.
+std::array<double, sign_count> weights_of(const Making& making);
+
+using Squares = std::array<double, cause_count>;
+
+/// Expected squared errors of shown values, by cause: signs, weighed.
+template <typename Signs>
+Squares squares_of(const Signs& signs, const std::array<double, sign_count>& weights) {
+  Squares squares{};
+  for (std::size_t i = 0; i < sign_count; ++i) {
+    squares[static_cast<std::size_t>(cause_of(i))] += weights[i] * double{signs[i]};
+  }
+  return squares;
+}
 
 /// What that factor is where their mean over the frame, all causes together, is `mean`.
 double frame_factor(double mean);

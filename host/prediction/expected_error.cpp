@@ -14,27 +14,22 @@ std::size_t light_channels(const Frame& f) {
   return std::min<std::size_t>(3, f.channels.size() - (f.has_alpha ? 1 : 0));
 }
 
-using Squares = std::array<double, cause_count>;
+/// Rows of blocks that are looked at together: what they take of memory does not grow with frames.
+constexpr int strip_height = 256;
 
 Making making_of(const ChainSettings& settings, int lens_points) {
   return {lens_points, settings.hidden == Hidden::patterns, settings.half_size};
 }
 
-Squares mean_squares(const std::vector<SignValues>& signs) {
-  Squares means{};
-  for (const SignValues& of_block : signs) {
-    const Squares squares = squares_of(of_block);
-    for (std::size_t c = 0; c < cause_count; ++c) means[c] += squares[c];
-  }
-  for (double& mean : means) mean /= static_cast<double>(signs.size());
-  return means;
-}
-
 double sum(const Squares& squares) { return std::accumulate(squares.begin(), squares.end(), 0.0); }
 
-Squares mix(Squares a, const Squares& b, double share) {
-  for (std::size_t c = 0; c < cause_count; ++c) a[c] += (b[c] - a[c]) * share;
-  return a;
+/// `to_add` and what lies between two blocks, so far from the first, times `weight`.
+Squares added(Squares to_add, const std::array<float, cause_count>& first,
+              const std::array<float, cause_count>& second, double share, double weight) {
+  for (std::size_t c = 0; c < cause_count; ++c) {
+    to_add[c] += weight * (double{first[c]} + (double{second[c]} - double{first[c]}) * share);
+  }
+  return to_add;
 }
 
 /// The blocks between whose middles a pixel's middle lies, along one axis.
@@ -52,13 +47,17 @@ struct Between {
 }  // namespace
 
 Prediction::Prediction(const Frame& frame, const ChainSettings& settings,
-                       const MethodResult& result)
+                       const MethodResult& result, bool wants_planes)
     : width_(frame.width),
       height_(frame.height),
-      blocks_(blocks_of(frame, result.colour, result.confidence)),
-      channels_(light_channels(frame)),
-      signs_(signs_of(blocks_, channels_, making_of(settings, result.report->lens_points))) {
-  const Squares means = mean_squares(signs_);
+      across_((frame.width + block_px - 1) / block_px),
+      making_(making_of(settings, result.report->lens_points)) {
+  const int rows = block_rows(frame);
+  for (int y = 0; y < rows; y += strip_height) {
+    add_rows(frame, result, {y, std::min(rows, y + strip_height)}, wants_planes);
+  }
+  for (double& mean : means_) mean /= static_cast<double>(across_) * rows;
+  const Squares means = squares_of(means_, weights_of(making_));
   const double all = sum(means);
   factor_ = frame_factor(all);
   of_frame_ = expected_from(all * factor_);
@@ -67,33 +66,45 @@ Prediction::Prediction(const Frame& frame, const ChainSettings& settings,
   }
 }
 
+void Prediction::add_rows(const Frame& frame, const MethodResult& result, Rows rows,
+                          bool wants_planes) {
+  const Rows around{std::max(0, rows.y - sign_reach),
+                    std::min(block_rows(frame), rows.end + sign_reach)};
+  const std::vector<SignValues> signs =
+      signs_of(blocks_of(frame, result.colour, result.confidence, around), light_channels(frame),
+               {rows.y - around.y, rows.end - around.y});
+  const auto weights = weights_of(making_);
+  for (const SignValues& of_block : signs) {
+    for (std::size_t i = 0; i < sign_count; ++i) means_[i] += double{of_block[i]};
+    if (!wants_planes) continue;
+    const Squares squares = squares_of(of_block, weights);
+    auto& kept = squares_.emplace_back();
+    for (std::size_t c = 0; c < cause_count; ++c) kept[c] = static_cast<float>(squares[c]);
+  }
+}
+
 double Prediction::guess_db(const ChainSettings& other) const {
   const int lens_points = static_cast<int>(ray_plan(other, false).lens.points.size());
-  const double all = sum(mean_squares(signs_of(blocks_, channels_, making_of(other, lens_points))));
+  const double all = sum(squares_of(means_, weights_of(making_of(other, lens_points))));
   return expected_from(all * frame_factor(all)).psnr_db;
 }
 
 std::vector<Plane> Prediction::planes() const {
   std::vector<Plane> out(1 + cause_count, Plane(size(width_) * size(height_)));
   parallel_for(height_, [&](int y) {
-    const Between row(y, blocks_.down);
+    const Between row(y, (height_ + block_px - 1) / block_px);
+    const auto* const above = &squares_[size(row.first) * size(across_)];
+    const auto* const below = &squares_[size(row.second) * size(across_)];
     for (int x = 0; x < width_; ++x) {
-      const Between column(x, blocks_.across);
-      const auto value_at = [&](int j, int i) {
-        return squares_of(signs_[size(j) * size(blocks_.across) + size(i)]);
-      };
-      const Squares above =
-          mix(value_at(row.first, column.first), value_at(row.first, column.second), column.share);
-      const Squares below = mix(value_at(row.second, column.first),
-                                value_at(row.second, column.second), column.share);
-      const Squares squares = mix(above, below, row.share);
+      const Between column(x, across_);
+      const std::size_t left = size(column.first), right = size(column.second);
+      Squares squares = added({}, above[left], above[right], column.share, 1 - row.share);
+      squares = added(squares, below[left], below[right], column.share, row.share);
       const std::size_t i = size(y) * size(width_) + size(x);
-      double all = 0;
       for (std::size_t c = 0; c < cause_count; ++c) {
         out[c + 1][i] = static_cast<float>(std::sqrt(squares[c] * factor_));
-        all += squares[c];
       }
-      out[0][i] = static_cast<float>(std::sqrt(all * factor_));
+      out[0][i] = static_cast<float>(std::sqrt(sum(squares) * factor_));
     }
   });
   return out;
@@ -106,11 +117,9 @@ std::vector<std::string> Prediction::plane_names() {
 }
 
 std::array<double, sign_count> Prediction::mean_signs() const {
-  std::array<double, sign_count> means{};
-  for (const SignValues& signs : signs_) {
-    for (std::size_t i = 0; i < sign_count; ++i) means[i] += double{signs[i]};
-  }
-  for (double& mean : means) mean /= static_cast<double>(signs_.size());
+  const auto weights = weights_of(making_), all = weights_of({1, false, true});
+  std::array<double, sign_count> means = means_;
+  for (std::size_t i = 0; i < sign_count; ++i) means[i] *= weights[i] / all[i];
   return means;
 }
 

@@ -13,11 +13,12 @@
 
 namespace defray {
 
-/// Of a whole frame and of each block of 4x4 pixels.
+/// Of a whole frame and, where its planes are wanted, of each block of 4x4 pixels.
 class Prediction {
  public:
   /// `result` is what the chain, so set, made of the frame.
-  Prediction(const Frame& frame, const ChainSettings& settings, const MethodResult& result);
+  Prediction(const Frame& frame, const ChainSettings& settings, const MethodResult& result,
+             bool wants_planes);
 
   const ExpectedError& of_frame() const { return of_frame_; }
 
@@ -31,14 +32,16 @@ class Prediction {
   /// "total", "sampling", "hidden", "edges", "detail".
   static std::vector<std::string> plane_names();
 
-  /// Means over the frame of what the model weighs, in its order.
+  /// Means over the frame of what the model weighs, in its order; 0 where it weighs nothing of it.
   std::array<double, sign_count> mean_signs() const;
 
  private:
-  int width_, height_;
-  PixelBlocks blocks_;
-  std::size_t channels_;
-  std::vector<SignValues> signs_;
+  void add_rows(const Frame& frame, const MethodResult& result, Rows rows, bool wants_planes);
+
+  int width_, height_, across_;
+  Making making_;
+  std::array<double, sign_count> means_{};               ///< Of the signs.
+  std::vector<std::array<float, cause_count>> squares_;  ///< A block each, up to the factor.
   double factor_ = 1;
   ExpectedError of_frame_;
 };

@@ -128,38 +128,37 @@ class Windows {
   std::size_t channels_;
 };
 
-SignValues signs_of(const PixelBlock& b, const Variances& v, float reach, const Making& making) {
-  const float blurred = std::min(reach / 4, 1.0f);
-  const float half = making.is_half_size ? 1.0f : 0.0f, filled = making.has_patterns ? 0.0f : 1.0f;
-  return {v.pinhole * blurred / static_cast<float>(making.lens_points),
+/// In the model's order.
+SignValues signs_of(const PixelBlock& b, const Variances& v, float reach) {
+  return {v.pinhole * std::min(reach / 4, 1.0f),
           b.unseen_square * v.back,
-          b.unseen_square * v.back * filled,
+          b.unseen_square * v.back,
           b.unseen * v.back,
-          b.unseen * v.result * half,
+          b.unseen * v.result,
           b.rim,
           b.bright_rim,
           b.unseen_rim,
           b.edge * b.edge * b.edge * v.back,
-          b.edge_gradient * half,
+          b.edge_gradient,
           b.sharp_grain,
           b.slight_grain,
           b.soft_grain,
           b.slight_gradient,
-          b.lost_grain * half};
+          b.lost_grain};
 }
 
 }  // namespace
 
-std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels,
-                                 const Making& making) {
+std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels, Rows rows) {
   const Reaches reaches(blocks);
   const Windows windows(blocks, channels);
-  std::vector<SignValues> out(blocks.blocks.size());
-  parallel_for(blocks.down, [&](int y) {
+  std::vector<SignValues> out(size(rows.count()) * size(blocks.across));
+  parallel_for(rows.count(), [&](int j) {
+    const int y = rows.y + j;
     for (int x = 0; x < blocks.across; ++x) {
       const float reach = reaches.at(x, y);
-      out[size(y) * size(blocks.across) + size(x)] =
-          signs_of(blocks.at(x, y), windows.around(x, y, reach), reach, making);
+      out[size(j) * size(blocks.across) + size(x)] =
+          signs_of(blocks.at(x, y), windows.around(x, y, reach), reach);
     }
   });
   return out;

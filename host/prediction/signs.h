@@ -11,15 +11,10 @@ namespace defray {
 inline constexpr std::size_t sign_count = 15;
 using SignValues = std::array<float, sign_count>;
 
-/// How the picture was made, as far as signs depend on it.
-struct Making {
-  int lens_points = 0;
-  bool has_patterns = true, is_half_size = false;
-};
+/// Rows of blocks beyond which nothing is looked at, in either direction; whole windows begin here.
+inline constexpr int sign_reach = 32;
 
-/// The signs of every block, in their order.
-/// `channels` of light there are, at most 3.
-std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels,
-                                 const Making& making);
+/// The signs of the blocks in `rows` of what there is. `channels` of light there are, at most 3.
+std::vector<SignValues> signs_of(const PixelBlocks& blocks, std::size_t channels, Rows rows);
 
 }  // namespace defray

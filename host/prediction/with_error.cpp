@@ -20,13 +20,14 @@ ChainSettings with_quality(ChainSettings chain, Quality quality) {
   return chain;
 }
 
-ResultWithError apply(const Frame& frame, const MethodSettings& settings, bool predicts,
-                      Backend& backend, bool wants_nearest, const Progress& progress) {
+ResultWithError apply(const Frame& frame, const MethodSettings& settings,
+                      const ErrorSettings& error, Backend& backend, bool wants_nearest,
+                      const Progress& progress) {
   ResultWithError out{
       apply_method(frame, settings, backend, wants_nearest, progress), settings, {}, {}};
-  if (!predicts || !out.result.report) return out;
+  if (!(error.wants_expected || error.target_db) || !out.result.report) return out;
   const Stopwatch watch;
-  out.prediction.emplace(frame, *settings.chain, out.result);
+  out.prediction.emplace(frame, *settings.chain, out.result, error.wants_planes);
   out.predict_seconds = watch.seconds();
   return out;
 }
@@ -67,7 +68,7 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
                                  const Progress& progress) {
   validate(settings, error);
   if (!error.target_db) {
-    return apply(frame, settings, error.wants_expected, backend, wants_nearest, progress);
+    return apply(frame, settings, error, backend, wants_nearest, progress);
   }
   ResultWithError out;
   double predict_seconds = 0;
@@ -78,7 +79,7 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
       progress((static_cast<double>(rung) + share) / ladder.size());
     };
     out = {};  // the last one's planes
-    out = apply(frame, chosen, true, backend, wants_nearest,
+    out = apply(frame, chosen, error, backend, wants_nearest,
                 progress ? Progress(of_all) : Progress());
     out.predict_seconds = predict_seconds += out.predict_seconds;
     out.quality = ladder[rung];

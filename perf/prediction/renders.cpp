@@ -119,7 +119,7 @@ std::vector<PredictedRender> predicted_renders(Backend& backend, const Subject& 
   for (const Quality quality : qualities) {
     const MethodSettings settings = default_chain(quality);
     const MethodResult result = apply_method(frame, settings, backend);
-    const Prediction prediction(frame, *settings.chain, result);
+    const Prediction prediction(frame, *settings.chain, result, true);
     const Plane squares = square_errors(result.colour, truths);
     PredictedRender render;
     render.width = frame.width;

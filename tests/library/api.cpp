@@ -95,13 +95,13 @@ void check_results(Device& device) {
   expect(result.report.depth.farthest_units == 5, "the report has the depth's range");
 
   expect(!result.report.expected && result.expected_error.empty(), "no error is found unasked");
-  options.error.wants_expected = true;
+  options.error.wants_expected = options.error.wants_planes = true;
   const auto expecting = defray::render(device, scene.picture(), wide_open(), options);
   expect(expecting.report.expected && expecting.report.expected->psnr_db > 10,
          "an error is expected");
   expect(expecting.expected_error.size() == 5 && expecting.expected_error[0].size() == Scene::count,
          "of each pixel, by cause");
-  options.error = {false, 5};
+  options.error = {false, false, 5};
   const auto targeted = defray::render(device, scene.picture(), wide_open(), options);
   expect(targeted.report.expected->quality == defray::Quality::preview, "a target chooses");
   expect(targeted.expected_error.empty(), "planes are for who wants them");

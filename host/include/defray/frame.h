@@ -38,7 +38,7 @@ struct RenderResult {
   /// Options::wants_nearest.
   std::vector<std::uint32_t> nearest;
   /// RMS errors of sRGB-encoded values that are expected at each pixel: in all, then of each of
-  /// ExpectedError::shares. Empty unless ErrorSettings::wants_expected.
+  /// ExpectedError::shares. Empty unless ErrorSettings::wants_planes.
   std::vector<std::vector<float>> expected_error;
   RenderReport report;
 };

@@ -140,7 +140,8 @@ enum class Nonfinite {
 /// What is to be known of a picture's error, or asked of it, without a truth: of the RDB with its
 /// stages.
 struct ErrorSettings {
-  bool wants_expected = false;  ///< RenderReport::expected, RenderResult::expected_error.
+  bool wants_expected = false;  ///< RenderReport::expected.
+  bool wants_planes = false;    ///< RenderResult::expected_error; with wants_expected or a target.
   /// Expected PSNR, dB: the fastest quality that is expected to reach it makes the picture, the
   /// highest where none is; the qualities' own settings do not count then.
   std::optional<double> target_db;

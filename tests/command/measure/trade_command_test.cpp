@@ -38,12 +38,14 @@ TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
     EXPECT_LT(point["low_db"], point["expected_db"]);
     EXPECT_GT(point["render_s"], 0.0);
     EXPECT_FALSE(point.contains("true_db"));
-    const Result by_hand = defray(folder, "render pinhole.exr -o t/hand.png" + lens + "--json " +
-                                              "--quality " + name);
+    const Result by_hand =
+        defray(folder, "render pinhole.exr -o t/hand.png" + lens + "--json " + "--quality " + name);
     EXPECT_EQ(json::parse(by_hand.out)["expected"]["psnr_srgb_db"], point["expected_db"]);
     EXPECT_EQ(file_hash(folder / "t/hand.png"), file_hash(folder / ("t/" + name + ".png")));
-    EXPECT_EQ(point["command"], "defray render pinhole.exr --camera camera.json --focus-setting bg "
-                                "-o t/" + name + ".exr --quality " + name);
+    EXPECT_EQ(point["command"],
+              "defray render pinhole.exr --camera camera.json --focus-setting bg "
+              "-o t/" +
+                  name + ".exr --quality " + name);
   }
   for (const char* file : {"index.html", "trade.png", "trade.csv"}) {
     EXPECT_GT(std::filesystem::file_size(folder / ("t/" + std::string(file))), 100u) << file;
@@ -65,8 +67,8 @@ TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
     const std::string name = point["picture"];
     const std::string command = point["command"];
     expect_ok(defray(folder, command.substr(std::string("defray ").size())));
-    const json compared = json::parse(
-        defray(folder, "compare t/" + name + ".exr truth_bg.exr --json").out);
+    const json compared =
+        json::parse(defray(folder, "compare t/" + name + ".exr truth_bg.exr --json").out);
     EXPECT_NEAR(compared["psnr_srgb_db"], point["true_db"], 1e-3) << name;
   }
   // The stages' bokeh is not the others'.

@@ -21,7 +21,7 @@ struct Scene {
   PixelBlocks blocks() {
     frame.channels = Planes(colour);
     frame.coc_quanta = coc.empty() ? Quanta(std::vector<std::int32_t>(frame.pixels())) : coc;
-    return blocks_of(frame, result, confidence);
+    return blocks_of(frame, result, confidence, {0, block_rows(frame)});
   }
 
   /// A radius in px at each pixel.

@@ -14,9 +14,9 @@ TEST(ErrorModel, EverySignAddsToOneCause) {
   for (std::size_t i = 0; i < sign_count; ++i) {
     SignValues signs{};
     signs[i] = 0.5f;
-    const auto half = squares_of(signs);
+    const Squares half = squares_of(signs, weights_of({1, false, true}));
     signs[i] = 1;
-    const auto whole = squares_of(signs);
+    const Squares whole = squares_of(signs, weights_of({1, false, true}));
     int causes_of_it = 0;
     for (std::size_t c = 0; c < cause_count; ++c) {
       EXPECT_NEAR(whole[c], 2 * half[c], 1e-12) << i;
@@ -26,6 +26,21 @@ TEST(ErrorModel, EverySignAddsToOneCause) {
   }
   EXPECT_STREQ(to_string(Cause::sampling), "sampling");
   EXPECT_STREQ(to_string(Cause::detail), "detail");
+}
+
+TEST(ErrorModel, WeighsWhatMadeThePicture) {
+  const auto all = weights_of({1, false, true}), full = weights_of({1, false, false}),
+             patterns = weights_of({1, true, true}), points = weights_of({50, false, true});
+  const std::vector<std::string> names = sign_names();
+  const auto has = [&](std::size_t i, const char* word) {
+    return names[i].find(word) != std::string::npos;
+  };
+  for (std::size_t i = 0; i < sign_count; ++i) {
+    EXPECT_GT(all[i], 0) << names[i];
+    EXPECT_EQ(full[i], has(i, "half size") ? 0 : all[i]) << names[i];
+    EXPECT_EQ(patterns[i], has(i, "without patterns") ? 0 : all[i]) << names[i];
+    EXPECT_EQ(points[i], has(i, "lens points") ? all[i] / 50 : all[i]) << names[i];
+  }
 }
 
 TEST(ErrorModel, SquaresAreDecibels) {

@@ -20,10 +20,10 @@ PixelBlock& at(PixelBlocks& blocks, int x, int y) {
 
 ShownMoments grey(float value) { return {{value, value, value}, value * value}; }
 
-constexpr Making usual{100, true, false};
-
-SignValues signs_at(const PixelBlocks& blocks, int x, int y, const Making& making = usual) {
-  return signs_of(blocks, 3, making)[size(y) * size(blocks.across) + size(x)];
+SignValues signs_at(const PixelBlocks& blocks, int x, int y) {
+  const std::vector<SignValues> of_row = signs_of(blocks, 3, {y, y + 1});
+  EXPECT_EQ(of_row.size(), size(blocks.across));
+  return of_row[size(x)];
 }
 
 std::size_t index_of(const std::string& name) {
@@ -43,9 +43,10 @@ TEST(Signs, ContrastCountsAsFarAsBlurReaches) {
   at(blocks, 32, 32).reach = 60;
   const float far = signs_at(blocks, 32, 32)[sampling];
   EXPECT_GT(far, 0.0f);
-  // Of 25 blocks one is white: its variance, a hundredth of it for so many lens points.
-  EXPECT_NEAR(far, (1 / 25.0 - 1 / 625.0) / 100, 1e-7);
-  EXPECT_NEAR(signs_at(blocks, 32, 32, {50, true, false})[sampling], 2 * far, 1e-7);
+  EXPECT_NEAR(far, 1 / 25.0 - 1 / 625.0, 1e-6);  // of 25 blocks one is white
+  at(blocks, 32, 32).reach = 2;
+  at(blocks, 31, 32).pinhole = grey(1);
+  EXPECT_NEAR(signs_at(blocks, 32, 32)[sampling], 0.5 * (1 / 9.0 - 1 / 81.0), 1e-6);
 }
 
 TEST(Signs, ReachIsThatOfWhatIsNear) {
@@ -83,22 +84,16 @@ TEST(Signs, HiddenColoursAreLikeThoseAtTheBack) {
   }
   const float behind = signs_at(blocks, 4, 4)[hidden];
   EXPECT_NEAR(behind, 0.25 * (3 / 9.0 - 9 / 81.0), 1e-6);
-  const std::size_t filled = index_of("the same, without patterns");
-  EXPECT_EQ(signs_at(blocks, 4, 4)[filled], 0.0f);
-  EXPECT_EQ(signs_at(blocks, 4, 4, {100, false, false})[filled], behind);
+  EXPECT_EQ(signs_at(blocks, 4, 4)[index_of("the same, without patterns")], behind);
+  EXPECT_NEAR(signs_at(blocks, 4, 4)[index_of("unseen contrast behind")], 2 * behind, 1e-6);
 }
 
-TEST(Signs, OfHalfSizeAreThereAtHalfSizeAlone) {
+TEST(Signs, UnseenCountsByTheResultsContrast) {
   PixelBlocks blocks = dark(3, 3);
-  for (PixelBlock& b : blocks.blocks) {
-    b.unseen = b.edge_gradient = b.lost_grain = 1;
-    b.result = {{0.5f, 0.5f, 0.5f}, 0.5f};
-  }
-  for (const char* name : {"unseen contrast of the result, half size",
-                           "gradient on edges, half size", "grain lost by half size"}) {
-    EXPECT_EQ(signs_at(blocks, 1, 1)[index_of(name)], 0.0f) << name;
-    EXPECT_GT(signs_at(blocks, 1, 1, {100, true, true})[index_of(name)], 0.2f) << name;
-  }
+  at(blocks, 1, 1).unseen = 0.5f;
+  at(blocks, 0, 0).result = grey(1);
+  EXPECT_NEAR(signs_at(blocks, 1, 1)[index_of("unseen contrast of the result, half size")],
+              0.5 * (1 / 9.0 - 1 / 81.0), 1e-6);
 }
 
 TEST(Signs, WhatBlocksHoldCountsAsItIs) {
@@ -111,6 +106,8 @@ TEST(Signs, WhatBlocksHoldCountsAsItIs) {
   b.slight_grain = 5;
   b.soft_grain = 6;
   b.slight_gradient = 7;
+  b.edge_gradient = 8;
+  b.lost_grain = 9;
   const SignValues signs = signs_at(blocks, 1, 1);
   const std::pair<const char*, float> expected[] = {{"rims beyond white", 1},
                                                     {"rims beyond 4 times white", 2},
@@ -118,7 +115,9 @@ TEST(Signs, WhatBlocksHoldCountsAsItIs) {
                                                     {"grain below 0.3 px", 4},
                                                     {"grain to 1 px", 5},
                                                     {"grain, 2.5 to 6 px", 6},
-                                                    {"gradient, 0.3 to 2.5 px", 7}};
+                                                    {"gradient, 0.3 to 2.5 px", 7},
+                                                    {"gradient on edges, half size", 8},
+                                                    {"grain lost by half size", 9}};
   for (const auto& [name, value] : expected) EXPECT_EQ(signs[index_of(name)], value) << name;
 }
 
