@@ -32,7 +32,7 @@ constexpr const char* examples = R"(Examples:
   defray devices
 
 'defray COMMAND --help' explains a command.
-Exit codes: 0 done; 1 some frames failed, a comparison missed its bound, or a kernel failed; 2 wrong usage;
+Exit codes: 0 done; 1 some frames failed, a bound or target was missed, or a kernel failed; 2 wrong usage;
 3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray;
 130, 143 interrupted, terminated.)";
 

@@ -12,9 +12,9 @@
 
 namespace defray::cli {
 
-ColourFile read_colour_file(const std::string& path) {
+ColourFile read_colour_file(const std::string& path, const ChannelRequest& request) {
   const ImageFile file = ImageFile::read(path);
-  const ColourChoice choice = choose_colour(path, file.parts(), {});
+  const ColourChoice choice = choose_colour(path, file.parts(), request);
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
   ColourFile colour{path, {}, part.data, part.display};
   for (const int c : choice.channels) colour.planes.push_back(file.plane(choice.part, c));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/window.h"
+#include "defray/io.h"
 #include "image/image_file.h"
 
 namespace defray::cli {
@@ -17,7 +18,7 @@ struct ColourFile {
 };
 
 /// Throws Error(input) as ImageFile::read and choose_colour do.
-ColourFile read_colour_file(const std::string& path);
+ColourFile read_colour_file(const std::string& path, const ChannelRequest& request = {});
 
 /// What of pictures is looked at.
 struct Region {

@@ -74,8 +74,10 @@ std::vector<std::pair<std::string, std::string>> OptionTable::given() const {
     if (!entry.is_given()) continue;
     const bool is_option = !entry.option->get_positional();
     const bool is_flag = entry.option->get_items_expected_max() == 0;
-    all.emplace_back(is_option ? entry.name() : "",
-                     is_flag ? "" : join(entry.option->results(), ","));
+    const std::string values = join(entry.option->results(), ",");
+    std::string name = is_option ? entry.name() : "";
+    if (is_flag && values != "true") name += "=" + values;  // --eye=display
+    all.emplace_back(name, is_flag ? "" : values);
   }
   return all;
 }

@@ -101,14 +101,13 @@ int render(const OptionTable& options, RenderCommand& job, PictureStreams& strea
   if (job.show) sequence.show_last();
   if (failed > 0) {
     fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());
-    return ExitCode::failed;
   }
-  if (job.strict_target && sequence.missed() > 0) {
-    fmt::print(stderr, "defray: error: {} of {} frames miss --target-db {}\n", sequence.missed(),
+  const std::size_t missed = job.strict_target ? sequence.missed() : 0;
+  if (missed > 0) {
+    fmt::print(stderr, "defray: error: {} of {} frames miss --target-db {}\n", missed,
                frames.size(), *job.settings.error.target_db);
-    return ExitCode::failed;
   }
-  return ExitCode::ok;
+  return failed + missed > 0 ? ExitCode::failed : ExitCode::ok;
 }
 
 int run(const OptionTable& options, RenderCommand& job) {

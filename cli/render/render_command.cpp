@@ -40,12 +40,15 @@ void finish(RenderCommand& job) {
   validate(s.tiltshift);
   validate(s.depth);
   s.camera_from_metadata = job.camera == from_metadata;
-  validate(m, s.error);
+  validate(m, {false, !job.paths.error.empty(), s.error.target_db});
   s.error.wants_expected = job.json || !job.quiet;
 }
 
 std::string shell_quoted(const std::string& text) {
-  return text.find_first_of(" '#*?$@&|;<>()\\\"") == std::string::npos ? text : "'" + text + "'";
+  if (text.find_first_of(" '#*?$@&|;<>()\\\"`\n\t![]{}~") == std::string::npos) return text;
+  std::string inside;
+  for (const char c : text) inside += c == '\'' ? "'\\''" : std::string(1, c);
+  return "'" + inside + "'";
 }
 
 std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,

@@ -53,6 +53,7 @@ std::string chain_line(const ChainReport& d) {
 std::string expected_line(const ExpectedError& e) {
   const std::string chosen =
       e.quality ? fmt::format("--quality {}: ", word_of(*e.quality, quality_words)) : "";
+  if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
       "{:.0f} % edges, {:.0f} % detail",

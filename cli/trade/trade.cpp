@@ -58,6 +58,12 @@ std::vector<Candidate> candidates(const TradeCommand& job) {
   return all;
 }
 
+/// What is of other channels, and of sequences, is not here.
+OptionGroup without(OptionGroup group, const std::string& name) {
+  std::erase_if(group.rows, [&](const OptionRow& row) { return row.name == name; });
+  return group;
+}
+
 std::vector<OptionGroup> trade_options(TradeCommand& job) {
   return {{"",
            {{"input",
@@ -71,8 +77,8 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
              value(job.target_db),
              "Recommend the fastest that meets this PSNR, dB",
              {.field = "target_db"}}}},
-          channel_options(job),
-          lens_options(job),
+          without(channel_options(job), "--channels"),
+          without(lens_options(job), "--focus-frame"),
           aperture_options(job.chain.aperture),
           device_options(job),
           {"Terminal",
@@ -88,14 +94,24 @@ std::string command_of(const TradeCommand& job, const Candidate& candidate) {
          candidate.options;
 }
 
-/// Of the picture where both are.
-double true_db_of(const TradeCommand& job, const FrameResult& result) {
-  ColourFile truth = read_colour_file(job.truth);
+/// The truth's R G B: its only colour, or the input's layer and view of it.
+ColourFile read_truth(const TradeCommand& job) {
+  const ChannelRequest& request = job.settings.request;
+  try {
+    return read_colour_file(job.truth);
+  } catch (const Error&) {
+    if (request.layer.empty() && request.view.empty()) throw;
+  }
+  return read_colour_file(job.truth, {request.layer, request.view, {}});
+}
+
+/// Where both have pixels.
+double true_db_of(ColourFile truth, const FrameResult& result) {
   ColourFile own{result.report.paths.output, result.colour, result.report.data,
                  result.report.display};
   own.planes.resize(3);
   truth.planes.resize(3);
-  bring_together({&own, &truth}, {});
+  bring_together({&own, &truth}, {true, {}});
   return compare(own.planes, truth.planes, own.data.width).psnr_srgb_db;
 }
 
@@ -124,20 +140,53 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                    (seconds[2] - seconds[0]) / seconds[1],
                    result.report.expected,
                    {}};
-  if (!job.truth.empty()) point.true_db = true_db_of(job, result);
+  if (!job.truth.empty()) point.true_db = true_db_of(read_truth(job), result);
   return point;
 }
 
-/// Before anything is read.
-void check(const TradeCommand& job) {
+/// Throws Error(usage) where something that is read would be written.
+void check_files(const TradeCommand& job, const std::vector<Candidate>& all) {
+  std::vector<std::string> written{"index.html", "trade.csv", "trade.png"};
+  for (const Candidate& c : all) written.insert(written.end(), {c.name + ".png", c.name + ".exr"});
+  for (const std::string& input :
+       {job.paths.input, job.paths.depth, job.truth, job.camera, job.chain.aperture.image}) {
+    for (const std::string& name : written) {
+      const std::string path = job.folder + "/" + name;
+      if (!input.empty() && is_same_file(input, path)) {
+        fail(ErrorKind::usage, "{}: is read and would be written; choose another folder", input);
+      }
+    }
+  }
+}
+
+/// Throws Error(input) where the truth cannot be compared.
+void check_truth(const TradeCommand& job, const FrameReport& input) {
+  const ColourFile truth = read_truth(job);
+  if (truth.display != input.display) {
+    fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same", job.truth,
+         to_string(truth.display), job.paths.input, to_string(input.display));
+  }
+  for (const Plane& plane : truth.planes) {
+    for (std::size_t i = 0; i < plane.size(); ++i) {
+      if (std::isfinite(plane[i])) continue;
+      const std::size_t width = static_cast<std::size_t>(truth.data.width);
+      fail(ErrorKind::input, "{}: has {} at pixel ({}, {}): a truth has none of it", job.truth,
+           plane[i], i % width, i / width);
+    }
+  }
+}
+
+/// Before anything is rendered.
+void check(const TradeCommand& job, const std::vector<Candidate>& all) {
   if (has_frame_pattern(job.paths.input) &&
       job.paths.input.find_first_of("#%") != std::string::npos) {
     fail(ErrorKind::usage, "{}: trade takes one picture; name one of the frames", job.paths.input);
   }
   validate(job.settings.method, {false, false, job.target_db});
   check_lens(job, {std::nullopt});
-  inspect_file(job.paths, settings_at(job, std::nullopt));
-  if (!job.truth.empty()) read_colour_file(job.truth);
+  check_files(job, all);
+  const FrameReport input = inspect_file(job.paths, settings_at(job, std::nullopt));
+  if (!job.truth.empty()) check_truth(job, input);
   create_folder(job.folder);
   check_can_write(job.folder + "/index.html");
 }
@@ -147,11 +196,11 @@ int run(const OptionTable& options, TradeCommand& job) {
   job.given = options.given();
   options.refuse_idle({Method::rdb, false, job.is_on_reference()});
   finish(job);
-  check(job);
+  const std::vector<Candidate> all = candidates(job);
+  check(job, all);
   Device device = Device::open(job.device, {job.math});
   if (!job.is_on_reference()) device.set_memory(job.memory_bytes());
   const RenderSettings settings = settings_at(job, std::nullopt);
-  const std::vector<Candidate> all = candidates(job);
   ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);
   Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "measure/html_report.h"
@@ -11,10 +13,12 @@ namespace defray::cli {
 namespace {
 
 constexpr double nearly_best_db = 0.5;
+constexpr double clearly_faster = 0.8;  ///< Times that are closer change places from run to run.
 
 /// "40.2", or what stands where nothing is known.
 std::string decibels(const std::optional<double>& db) {
-  return db ? fmt::format("{:.1f}", *db) : "-";
+  if (!db) return "-";
+  return *db == HUGE_VAL ? "equal" : fmt::format("{:.1f}", *db);
 }
 
 std::string range(const std::optional<ExpectedError>& e) {
@@ -41,7 +45,8 @@ Plot plot_of(const Trade& trade) {
   Series expected{"expected, without a truth", {}, true, true}, truly{"true", {}, false, true};
   for (const TradePoint& p : trade.points) {
     if (p.expected) expected.points.push_back({p.seconds, p.expected->psnr_db, p.name});
-    if (p.true_db) truly.points.push_back({p.seconds, *p.true_db, p.name});
+    if (p.true_db && std::isfinite(*p.true_db))
+      truly.points.push_back({p.seconds, *p.true_db, p.name});
   }
   for (Series& series : {std::ref(expected), std::ref(truly)}) {
     if (!series.points.empty()) plot.series.push_back(std::move(series));
@@ -57,7 +62,10 @@ std::optional<double> TradePoint::db() const {
 }
 
 void recommend(Trade& trade, std::optional<double> target_db) {
-  const auto db_of = [](const TradePoint& p) { return p.db().value_or(0); };
+  const auto db_of = [](const TradePoint& p) {
+    const double db = p.db().value_or(0);
+    return std::isnan(db) ? 0 : std::min(db, 200.0);  // equal pictures are no better than that
+  };
   double best = 0;
   for (const TradePoint& p : trade.points) best = std::max(best, db_of(p));
   const bool is_reached = target_db && best >= *target_db;
@@ -67,7 +75,8 @@ void recommend(Trade& trade, std::optional<double> target_db) {
   if (target_db && !is_reached) trade.why += fmt::format("; none meets {:.4g} dB", *target_db);
   double fastest = HUGE_VAL;
   for (std::size_t i = 0; i < trade.points.size(); ++i) {
-    if (db_of(trade.points[i]) < least || trade.points[i].seconds >= fastest) continue;
+    if (db_of(trade.points[i]) < least) continue;
+    if (trade.points[i].seconds >= clearly_faster * fastest) continue;
     fastest = trade.points[i].seconds;
     trade.recommended = i;
   }

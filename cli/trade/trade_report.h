@@ -28,7 +28,8 @@ struct Trade {
   std::string why;  ///< It is.
 };
 
-/// The fastest that meets the target; without one the fastest within half a dB of the best.
+/// The fastest that meets the target; without one the fastest within half a dB of the best. One
+/// that stands later must be clearly faster.
 void recommend(Trade& trade, std::optional<double> target_db);
 
 void print_text(const Trade& trade);

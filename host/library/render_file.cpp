@@ -58,6 +58,14 @@ void clear_transparent(const std::vector<Plane>& before, std::vector<Plane>& col
   }
 }
 
+/// A file for it asks for what is expected.
+ErrorSettings error_settings(const RenderSettings& settings, const FramePaths& paths) {
+  ErrorSettings error = settings.error;
+  error.wants_planes = !paths.error.empty();
+  error.wants_expected |= error.wants_planes;
+  return error;
+}
+
 Frame frame_of(const Source& source, const RenderSettings& settings, Backend& backend,
                FrameReport& report) {
   PinholePicture pinhole{Planes::view(source.colour), {}, report.data, report.display};
@@ -100,7 +108,7 @@ void FileRender::read() {
   const std::optional<ChainSettings>& chain = s.settings.method.chain;
   check_paths(s.paths, {s.settings.camera.source, chain ? chain->aperture.image : ""});
   check_outputs(s.paths, s.settings.compression, s.settings.bits);
-  validate(s.settings.method, s.settings.error);
+  validate(s.settings.method, error_settings(s.settings, s.paths));
   Stopwatch watch;
   s.source.emplace(read_source(s.paths, s.settings, s.report));
   s.report.read_seconds = watch.lap();
@@ -113,9 +121,7 @@ void FileRender::render(Device& device, const Progress& progress) {
   Stopwatch watch;
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
   const bool wants_nearest = !s.source->further.data.empty();
-  ErrorSettings error = s.settings.error;
-  error.wants_planes = !s.paths.error.empty();
-  error.wants_expected |= error.wants_planes;
+  const ErrorSettings error = error_settings(s.settings, s.paths);
   ResultWithError made =
       apply_with_error(frame, s.settings.method, error, backend, wants_nearest, progress);
   MethodResult& result = made.result;

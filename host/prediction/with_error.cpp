@@ -25,7 +25,7 @@ ResultWithError apply(const Frame& frame, const MethodSettings& settings,
                       const Progress& progress) {
   ResultWithError out{
       apply_method(frame, settings, backend, wants_nearest, progress), settings, {}, {}};
-  if (!(error.wants_expected || error.target_db) || !out.result.report) return out;
+  if (!(error.wants_expected || error.target_db) || !is_predictable(settings)) return out;
   const Stopwatch watch;
   out.prediction.emplace(frame, *settings.chain, out.result, error.wants_planes);
   out.predict_seconds = watch.seconds();
@@ -51,16 +51,30 @@ std::optional<ExpectedError> ResultWithError::expected(const ErrorSettings& want
   return expected;
 }
 
+bool is_predictable(const MethodSettings& method) {
+  if (method.method != Method::rdb || !method.chain) return false;
+  const ChainSettings& s = *method.chain;
+  return s.hidden != Hidden::off && s.border == Border::clamp && s.split && s.highlights &&
+         s.cells_per_side >= settings_for(Quality::preview).cells_per_side;
+}
+
 void validate(const MethodSettings& method, const ErrorSettings& error) {
-  if (!error.target_db) return;
-  if (!(*error.target_db > 0 && *error.target_db <= most_expected_db)) {
+  const char* const asked = error.target_db ? "target_db" : error.wants_planes ? "error" : nullptr;
+  if (!asked) return;
+  if (error.target_db && !(*error.target_db > 0 && *error.target_db <= most_expected_db)) {
     fail(ErrorKind::usage, "{} is {}: a PSNR in dB, allowed are more than 0 to {}",
          field("target_db"), *error.target_db, most_expected_db);
   }
-  if (method.method != Method::rdb || !method.chain) {
-    fail(ErrorKind::usage, "{} is of the ray distribution buffer with its stages alone",
-         field("target_db"));
+  MethodSettings with_any_quality = method;
+  if (error.target_db && method.chain) {
+    with_any_quality.chain = with_quality(*method.chain, Quality::preview);
   }
+  if (is_predictable(with_any_quality)) return;
+  fail(ErrorKind::usage,
+       "{}: errors are expected of the ray distribution buffer with its stages alone, {} fill or "
+       "patterns, {} clamp, {} and {} on, {} from {}",
+       field(asked), field("hidden"), field("border"), field("split"), field("highlights"),
+       field("cells_per_side"), settings_for(Quality::preview).cells_per_side);
 }
 
 ResultWithError apply_with_error(const Frame& frame, const MethodSettings& settings,

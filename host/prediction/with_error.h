@@ -20,7 +20,12 @@ struct ResultWithError {
   std::optional<ExpectedError> expected(const ErrorSettings& wanted) const;
 };
 
-/// Throws Error(usage) naming the field: a target that is no PSNR, or that the method has none of.
+/// Whether errors are expected of what a method makes: of the RDB with the stages that the model
+/// was learnt with, and no fewer lens points.
+bool is_predictable(const MethodSettings& method);
+
+/// Throws Error(usage) naming the field: a target that is no PSNR, or planes or a target of what is
+/// not predictable.
 void validate(const MethodSettings& method, const ErrorSettings& error);
 
 /// apply_method. With a target: the fastest quality, then each further one that is likely to meet

@@ -150,8 +150,8 @@ std::vector<PredictedRender> all_predicted_renders(const Bench& bench) {
 
 std::vector<std::string> prediction_columns() {
   return {"renders",
-          "median off, dB",
-          "median |off|",
+          "median, dB",
+          "median distance",
           "nine in ten within",
           "inside the interval",
           "rank correlation of pixels"};

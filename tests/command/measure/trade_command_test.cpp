@@ -1,4 +1,5 @@
 // defray trade as a user runs it, and what it recommends.
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -89,7 +90,72 @@ TEST_F(TradeCommand, WrongUseIsSaid) {
   expect_refused("pinhole.exr -o none --quality draft" + lens, 2, {"--quality"});
   expect_ok(defray(folder, "scene fence -o small --width 48 --height 32 --truth-samples 1"));
   expect_refusal(defray(folder, "trade pinhole.exr -o t --truth small/truth_bg.exr" + lens), 3,
-                 {"small/truth_bg.exr", "48x32"}, "a truth of another size");
+                 {"small/truth_bg.exr", "48x32", "pinhole.exr has 96x64"}, "another size");
+  EXPECT_FALSE(std::filesystem::exists(folder / "t"));
+  expect_refused("pinhole.exr -o none --channels Z" + lens, 2, {"--channels"});
+  expect_refused("pinhole.exr -o none --focus-frame 2" + lens, 2, {"--focus-frame"});
+}
+
+TEST_F(TradeCommand, WhatIsReadIsNotWrittenOver) {
+  std::filesystem::create_directory(folder / "t");
+  for (const std::string name : {"t/trade.png", "t/linear.png", "t/index.html", "t/draft.exr"}) {
+    expect_ok(shell(folder, "cp truth_bg.exr " + name));
+    expect_refusal(defray(folder, "trade pinhole.exr -o t --truth " + name + lens), 2,
+                   {name + ": is read and would be written"}, name);
+  }
+  expect_ok(shell(folder, "cp camera.json t/trade.csv"));
+  expect_refusal(defray(folder, "trade pinhole.exr -o t --camera t/trade.csv --focus-setting bg"),
+                 2, {"t/trade.csv: is read and would be written"}, "camera");
+}
+
+TEST_F(TradeCommand, TruthsThatAreEqualOrNoNumbers) {
+  const std::string sharp = " --focus 3 --aperture-diameter 0 --focal-length 50 --truth ";
+  const Result equal = defray(folder, "trade pinhole.exr -o t" + sharp + "pinhole.exr");
+  EXPECT_EQ(equal.code, 0) << equal.err;
+  EXPECT_NE(equal.out.find("equal"), std::string::npos) << equal.out;
+  Plane plane(96 * 64, 0.5f);
+  plane[100] = NAN;
+  ImageFile::from_planes({"R", "G", "B"}, {plane, plane, plane}, 96, 64).write(folder / "nan.exr");
+  expect_refused("pinhole.exr -o none --truth nan.exr" + lens, 3,
+                 {"nan.exr: has nan at pixel (4, 1)"});
+}
+
+TEST_F(TradeCommand, CommandsAreForAShell) {
+  expect_ok(shell(folder, "mkdir \"a 'b\"; cp pinhole.exr \"a 'b/in \\$x.exr\""));
+  const json trade = json::parse(
+      shell(folder, program() +
+                        " trade \"a 'b/in \\$x.exr\" -o 'o o' --json --eye=display --focus 3 "
+                        "--fstop 1.4 --focal-length 50")
+          .out);
+  for (const json& point : trade["points"]) {
+    const std::string command = point["command"];
+    EXPECT_NE(command.find("--eye=display"), std::string::npos) << command;
+    const Result result = shell(folder, program() + command.substr(6) + " --json");
+    ASSERT_EQ(result.code, 0) << command << result.err;
+    EXPECT_EQ(json::parse(result.out)["expected"]["psnr_srgb_db"], point["expected_db"]);
+  }
+}
+
+TEST_F(TradeCommand, ATruthsLayerIsTheInputs) {
+  const ImageFile in = ImageFile::read(folder / "pinhole.exr");
+  const ImageFile truth = ImageFile::read(folder / "truth_bg.exr");
+  std::vector<Plane> planes;
+  for (int c = 0; c < 3; ++c) planes.push_back(truth.plane(0, c));
+  for (int c = 0; c < 3; ++c) planes.push_back(Plane(96 * 64, 0.5f));
+  ImageFile::from_planes({"a.R", "a.G", "a.B", "b.R", "b.G", "b.B"}, planes, 96, 64,
+                         Sample::single_float)
+      .write(folder / "layers.exr");
+  for (std::size_t c = 0; c < 3; ++c) planes[c] = in.plane(0, static_cast<int>(c));
+  planes.push_back(in.plane(0, 3));
+  ImageFile::from_planes({"a.R", "a.G", "a.B", "b.R", "b.G", "b.B", "Z"}, planes, 96, 64,
+                         Sample::single_float)
+      .write(folder / "in.exr");
+  const json layered = json::parse(
+      defray(folder, "trade in.exr -o t --json --layer a --truth layers.exr" + lens).out);
+  const json plain =
+      json::parse(defray(folder, "trade pinhole.exr -o t --json --truth truth_bg.exr" + lens).out);
+  EXPECT_NEAR(layered["points"][2]["true_db"], plain["points"][2]["true_db"], 0.01);
+  expect_refused("in.exr -o none --layer b --truth lost.exr" + lens, 3, {"lost.exr"});
 }
 
 TradePoint point(const std::string& name, double seconds, double expected_db,

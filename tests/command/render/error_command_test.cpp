@@ -84,6 +84,27 @@ TEST_F(ErrorCommand, AFrameANumber) {
                  2, {"e.exr", "put #### in its name"}, "one file for all");
 }
 
+TEST_F(ErrorCommand, NothingToBeSeenIsSaidSo) {
+  const Plane black(64, 0), near(64, 2);
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {black, black, black, near}, 8, 8)
+      .write(folder / "black.exr");
+  const Result result =
+      defray(folder, "render black.exr -o out.exr --focus 1 --fstop 2 --focal-length 50");
+  EXPECT_NE(result.out.find("expected: no difference that a display would show"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(ErrorCommand, BadFramesAndMissedTargetsAreBothSaid) {
+  expect_ok(shell(folder, "cp pinhole.exr b.0001.exr; echo no > b.0002.exr"));
+  const Result result = defray(folder,
+                               "render b.####.exr -o o.####.exr --camera camera.json "
+                               "--focus-setting bg --target-db 60 --strict-target "
+                               "--skip-bad-frames");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("1 of 2 frames failed"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("1 of 2 frames miss --target-db 60"), std::string::npos) << result.err;
+}
+
 TEST_F(ErrorCommand, ATargetChoosesTheQuality) {
   const auto low = report("--target-db 5")["expected"];
   EXPECT_EQ(low["quality"], "preview");
@@ -116,6 +137,13 @@ TEST_F(ErrorCommand, WrongUseIsSaid) {
        {"--quality draft", "--rdb 9", "--hidden fill", "--half-size on"}) {
     expect_refused("--target-db 40 " + beside, {"--target-db goes without --quality"});
   }
+  for (const std::string beside :
+       {"--hidden off", "--border black", "--split off", "--highlights rays", "--rdb 5"}) {
+    expect_refused("--error-out e.exr " + beside,
+                   {"--error-out: errors are expected of", "--border"});
+    EXPECT_EQ(run(beside).out.find("expected"), std::string::npos) << beside;
+  }
+  expect_refused("--target-db 40 --border black", {"--target-db: errors are expected of"});
   expect_refused("--strict-target", {"--strict-target goes with --target-db"});
   expect_refused("--target 40", {"unknown option '--target'", "--target-db"});
 }

@@ -163,7 +163,7 @@ TEST(ExpectedError, IsNotFoundUnasked) {
   const Subject s = subject_of("spheres", "f2", 32, 24);
   EXPECT_FALSE(made(s, chain_of(Quality::draft), {}).prediction);
   MethodSettings literal;
-  EXPECT_FALSE(made(s, literal, expects).prediction);
+  EXPECT_FALSE(made(s, literal, {true, false, {}}).prediction);
 }
 
 TEST(Target, TakesTheFastestQualityThatMeetsIt) {
@@ -173,12 +173,12 @@ TEST(Target, TakesTheFastestQualityThatMeetsIt) {
     expected.push_back(made(s, chain_of(quality), expects).prediction->of_frame().psnr_db);
   }
   MethodSettings settings = chain_of(Quality::high);
-  settings.chain->split = false;  // not a quality's own: stays
+  settings.chain->repair = false;  // not a quality's own: stays
   const ResultWithError fast = made(s, settings, target(1));
   EXPECT_EQ(fast.quality, Quality::preview);
   EXPECT_TRUE(fast.settings.chain->half_size);
-  EXPECT_FALSE(fast.settings.chain->split);
-  settings.chain->split = true;
+  EXPECT_FALSE(fast.settings.chain->repair);
+  settings.chain->repair = true;
   for (std::size_t q = 0; q < 3; ++q) {
     if (expected[q + 1] < expected[q] + 0.02) continue;
     const ResultWithError next = made(s, settings, target(expected[q] + 0.01));
@@ -212,8 +212,29 @@ TEST(Target, OfNoUseIsRefused) {
     expect_error(ErrorKind::usage, {"target_db", "stages"},
                  [&] { validate(settings, target(40)); });
   }
+  for (const auto change : std::vector<void (*)(ChainSettings&)>{
+           [](ChainSettings& s) { s.border = Border::black; },
+           [](ChainSettings& s) { s.border = Border::renormalise; },
+           [](ChainSettings& s) { s.split = false; },
+           [](ChainSettings& s) { s.highlights = false; }}) {
+    MethodSettings other = chain;
+    change(*other.chain);
+    EXPECT_FALSE(is_predictable(other));
+    expect_error(ErrorKind::usage, {"target_db", "border"}, [&] { validate(other, target(40)); });
+    expect_error(ErrorKind::usage, {"error", "border"}, [&] { validate(other, expects); });
+  }
+  MethodSettings few = chain, bare = chain;
+  few.chain->cells_per_side = 5;
+  bare.chain->hidden = Hidden::off;
+  for (const MethodSettings& settings : {few, bare}) {
+    EXPECT_FALSE(is_predictable(settings));
+    validate(settings, target(40));  // which chooses that
+    expect_error(ErrorKind::usage, {"error", "hidden"}, [&] { validate(settings, expects); });
+  }
+  few.chain->cells_per_side = 6;
+  EXPECT_TRUE(is_predictable(few));
   validate(chain, target(90));
-  validate(literal, expects);
+  validate(literal, {true, false, {}});
 }
 
 }  // namespace
