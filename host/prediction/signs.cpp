@@ -62,7 +62,7 @@ class Reaches {
 };
 
 /// Sums of weighted moments.
-class Spread {
+class MomentSum {
  public:
   void add(const ShownMoments& m, float weight) {
     for (std::size_t c = 0; c < 3; ++c) mean_[c] += weight * m.mean[c];
@@ -104,7 +104,7 @@ class Windows {
       is_first = false;
     });
     const float middle = (least + most) / 2;
-    Spread pinhole, back, result;
+    MomentSum pinhole, back, result;
     for_each(x, y, radius, step, [&](const PixelBlock& b) {
       pinhole.add(b.pinhole, 1);
       result.add(b.result, 1);

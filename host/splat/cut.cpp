@@ -18,7 +18,7 @@ constexpr double widest_px = 1, widest_gaussian = 1, widest_disc = 0.35;
 constexpr double least_coherence = 0.9;
 
 /// A node as the camera sees it.
-struct Seen {
+struct SeenNode {
   double x, y, z, radius;
 };
 
@@ -26,7 +26,7 @@ class View {
  public:
   explicit View(const DefraySplatParams& p) : p_(p) {}
 
-  Seen see(const HierarchyNode& n) const {
+  SeenNode see(const HierarchyNode& n) const {
     const Vec3 at = Vec3{n.splat.x, n.splat.y, n.splat.z} - Vec3{p_.eye_x, p_.eye_y, p_.eye_z};
     const double basis = std::sqrt(2.0 * p_.cutoff * n.splat.variance);
     return {dot(at, {p_.right_x, p_.right_y, p_.right_z}),
@@ -35,7 +35,7 @@ class View {
   }
 
   /// Whether none of it can reach the picture.
-  bool is_outside(const Seen& s) const {
+  bool is_outside(const SeenNode& s) const {
     const double near = s.z - s.radius, far = s.z + s.radius;
     if (far <= p_.near_units) return true;
     const double nearest = std::max(near, static_cast<double>(p_.near_units));
@@ -49,7 +49,7 @@ class View {
            is_beside(-s.y, s, top + margin) || is_beside(s.y, s, p_.height - top + margin);
   }
 
-  bool is_small(const Seen& s, const HierarchyNode& n) const {
+  bool is_small(const SeenNode& s, const HierarchyNode& n) const {
     const double near = s.z - s.radius;
     if (!(near > p_.near_units)) return false;
     const double spanned = length({n.splat.area_x, n.splat.area_y, n.splat.area_z});
@@ -64,7 +64,7 @@ class View {
 
  private:
   /// Beyond the plane through the eye and a line in the picture, `edge` px from the axis.
-  bool is_beside(double off_axis, const Seen& s, double edge) const {
+  bool is_beside(double off_axis, const SeenNode& s, double edge) const {
     const double focal = p_.focal_px;
     return off_axis * focal - s.z * edge > s.radius * std::hypot(focal, edge);
   }
@@ -80,7 +80,7 @@ std::vector<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySp
   std::vector<DefraySplatNode> cut;
   for (std::uint32_t i = 0; i < tree.nodes.size();) {
     const HierarchyNode& node = tree.nodes[i];
-    const Seen seen = camera.see(node);
+    const SeenNode seen = camera.see(node);
     if (camera.is_outside(seen)) {
       i = node.next;
     } else if (lod && camera.is_small(seen, node)) {
