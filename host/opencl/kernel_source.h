@@ -11,8 +11,8 @@ struct Substitution {
   bool everywhere = false;  ///< Otherwise `from` must be there exactly once.
 };
 
-/// The .cl files of this name ("fill.cl"; none: all) with the headers that they include, each once.
-/// #line says where every line is from: build errors name file and line.
+/// The .cl files of this name ("chain/fill.cl"; none: all) with the headers that they include, each
+/// once. #line says where every line is from: build errors name file and line.
 std::string kernel_source(const std::vector<std::string>& names,
                           const std::vector<Substitution>& substitutions);
 

@@ -1,4 +1,4 @@
-// Twin of kernels/coc.cl: the thin lens of Shinya 1994, eq. 2-3, in pinhole pixels.
+// Twin of kernels/lens/coc.cl: the thin lens of Shinya 1994, eq. 2-3, in pinhole pixels.
 #include <cmath>
 #include <limits>
 

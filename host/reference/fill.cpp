@@ -1,4 +1,4 @@
-// Twin of kernels/fill.cl.
+// Twin of kernels/chain/fill.cl.
 #include <limits>
 #include <numbers>
 #include <optional>

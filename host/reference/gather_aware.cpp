@@ -1,4 +1,5 @@
-// Twin of kernels/gather_aware.cl: a pixel's samples in two layers, what is nearer and the rest.
+// Twin of kernels/methods/gather_aware.cl: a pixel's samples in two layers, what is nearer and the
+// rest.
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// Twin of kernels/gather_literal.cl: Glatzel & Wilhelm, eq. 4.
+// Twin of kernels/methods/gather_literal.cl: Glatzel & Wilhelm, eq. 4.
 #include <cmath>
 
 #include "reference/gather_frame.h"

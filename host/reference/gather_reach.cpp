@@ -1,4 +1,4 @@
-// Twins of kernels/gather_reach.cl, each tile against each.
+// Twins of kernels/methods/gather_reach.cl, each tile against each.
 #include <algorithm>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// Twins of kernels/highlights.cl.
+// Twins of kernels/chain/highlights.cl.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

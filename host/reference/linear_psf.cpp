@@ -1,4 +1,5 @@
-// Twin of kernels/linear_psf.cl: Shinya 1994, eq. 5, with the disc of one pixel's soft border.
+// Twin of kernels/methods/linear_psf.cl: Shinya 1994, eq. 5, with the disc of one pixel's soft
+// border.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Twins of kernels/mixed.cl.
+// Twins of kernels/chain/mixed.cl.
 #include <array>
 #include <cstdlib>
 #include <optional>

@@ -1,4 +1,4 @@
-// Twins of kernels/patterns.cl and patterns_match.cl, pixel by pixel and window by window.
+// Twins of kernels/chain/patterns.cl and patterns_match.cl, pixel by pixel and window by window.
 #include <cmath>
 #include <cstdlib>
 #include <optional>

@@ -1,4 +1,4 @@
-// Twins of kernels/rdb_tiles.cl.
+// Twins of kernels/rdb/rdb_tiles.cl.
 #include <algorithm>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// Twins of kernels/rdb_scatter.cl, rdb_merge.cl (Shinya 1994, section 4, steps 2 to 5) and
+// Twins of kernels/rdb/rdb_scatter.cl, rdb_merge.cl (Shinya 1994, section 4, steps 2 to 5) and
 // rdb_nearest.cl.
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// Twin of kernels/soften.cl.
+// Twin of kernels/chain/soften.cl.
 #include <cstdlib>
 
 #include "lens/lens_grid.h"

@@ -1,4 +1,4 @@
-// Twin of kernels/splat_project.cl: Krivanek & Zara 2003, sections 4.2, 5.2, 5.3, appendix A.
+// Twin of kernels/splat/splat_project.cl: Krivanek & Zara 2003, sections 4.2, 5.2, 5.3, appendix A.
 #include <algorithm>
 #include <array>
 #include <cmath>

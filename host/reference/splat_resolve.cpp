@@ -1,4 +1,4 @@
-// Twin of kernels/splat_resolve.cl: every splat into all of its pixels, one after the other,
+// Twin of kernels/splat/splat_resolve.cl: every splat into all of its pixels, one after the other,
 // without tiles.
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-// Twin of kernels/split.cl.
+// Twin of kernels/chain/split.cl.
 #include <optional>
 
 #include "reference/stage_frame.h"

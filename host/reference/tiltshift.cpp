@@ -1,4 +1,5 @@
-// Twin of kernels/tiltshift.cl: the reflected linear gradient of Glatzel & Wilhelm, figure 2.
+// Twin of kernels/methods/tiltshift.cl: the reflected linear gradient of Glatzel & Wilhelm,
+// figure 2.
 #include <algorithm>
 #include <cmath>
 

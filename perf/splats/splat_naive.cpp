@@ -84,7 +84,7 @@ double event_seconds(const cl::Event& event) {
 NaiveSplats::NaiveSplats(const DeviceInfo& info)
     : context_(info.device),
       queue_(context_, info.device, CL_QUEUE_PROFILING_ENABLE),
-      program_(context_, kernel_source({"splat_project.cl"}, {}) + source, true) {}
+      program_(context_, kernel_source({"splat/splat_project.cl"}, {}) + source, true) {}
 
 std::vector<Plane> NaiveSplats::draw(const std::vector<DefraySplat>& splats,
                                      const DefraySplatParams& params, int repetitions,

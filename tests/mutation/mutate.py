@@ -84,8 +84,8 @@ def folder_of(path):
 
 def launchers(kernel_file):
     """Kernels of a file, or of those that include it, and the host files that launch them."""
-    folder, wanted = f"{PROJECT}/kernels", {os.path.basename(kernel_file)}
-    texts = {f: open(f"{folder}/{f}").read() for f in os.listdir(folder) if f.endswith((".cl", ".clh", ".h"))}
+    wanted = {kernel_file.removeprefix("kernels/")}
+    texts = {f.removeprefix("kernels/"): text_of(f) for f in sources("kernels")}
     for _ in texts:
         wanted |= {f for f, text in texts.items() for w in wanted if f'#include "{w}"' in text or f'#include "kernels/{w}"' in text}
     kernels = sorted({k for f in wanted if f.endswith(".cl") for k in re.findall(r"__kernel void (\w+)\(", texts[f])})

@@ -1,5 +1,6 @@
 """One mutant: compiled, linked and tried beside the build, which stays as it is."""
 import json
+import glob
 import os
 import re
 import resource
@@ -156,12 +157,13 @@ class Worker:
     def _compile_kernels(self, path, text, overlay):
         kernels = f"{self.build.project}/kernels"
         files = [path] if path.endswith(".cl") else [
-            f"kernels/{f}" for f in sorted(os.listdir(kernels)) if f.endswith(".cl")]
+            os.path.relpath(f, self.build.project) for f in sorted(glob.glob(f"{kernels}/*/*.cl"))]
         shutil.copytree(kernels, f"{overlay}/check")
-        shutil.copy(f"{overlay}/{path}", f"{overlay}/check")
+        shutil.copy(f"{overlay}/{path}", f"{overlay}/check/{path.removeprefix('kernels/')}")
         for file in files:
-            code, _ = self.run(f"clang -x cl -cl-std=CL1.2 -fsyntax-only -Xclang -finclude-default-header "
-                               f"{overlay}/check/{os.path.basename(file)}", COMPILE_SECONDS)
+            code, _ = self.run(f"clang -I{overlay}/check -x cl -cl-std=CL1.2 -fsyntax-only -Xclang "
+                               f"-finclude-default-header {overlay}/check/{file.removeprefix('kernels/')}",
+                               COMPILE_SECONDS)
             if code != 0:
                 return False
         made = open(f"{self.build.folder}/kernels/kernel_files.h").read()

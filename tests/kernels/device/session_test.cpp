@@ -123,17 +123,18 @@ std::string place_of(const std::string& name, const std::string& text) {
 TEST(Session, BuildErrorsNameFileAndLine) {
   if (is_slow_device()) GTEST_SKIP() << "Oclgrind counts the lines of the whole program";
   expect_error(ErrorKind::device,
-               {"clBuildProgram", "defray_nonsense", place_of("fill.cl", "__kernel void")}, [] {
+               {"clBuildProgram", "defray_nonsense", place_of("chain/fill.cl", "__kernel void")},
+               [] {
                  with_substitution({"__kernel void fill(", "defray_nonsense __kernel void fill("});
                });
-  expect_error(ErrorKind::device, {place_of("rim.clh", "bool passes_rim(")}, [] {
+  expect_error(ErrorKind::device, {place_of("rdb/rim.clh", "bool passes_rim(")}, [] {
     with_substitution({"bool passes_rim(", "defray_nonsense passes_rim("});
   });
 }
 
 TEST(Session, BuildsTheFilesAskedFor) {
   SessionOptions options;
-  options.files = {"tiltshift.cl", "mixed.cl"};
+  options.files = {"methods/tiltshift.cl", "chain/mixed.cl"};
   const std::vector<std::string> expected{"mixed", "repair", "tiltshift"};
   EXPECT_EQ(Session(device_under_test(), options).kernel_names(), expected);
   options.files = {"nonesuch.cl"};

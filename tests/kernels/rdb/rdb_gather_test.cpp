@@ -69,7 +69,7 @@ TEST(RdbGather, GivesTheSameBitsInBandsOfAnyHeightOnCopies) {
 TEST(RdbGather, GivesTheSameBitsOnDevicesThatPreferScalars) {
   SessionOptions options;
   options.use_vectors = false;
-  options.files = {"rdb_tiles.cl", "rdb_gather.cl", "rdb_nearest.cl"};
+  options.files = {"rdb/rdb_tiles.cl", "rdb/rdb_gather.cl", "rdb/rdb_nearest.cl"};
   Session scalars(device_under_test(), options);
   EXPECT_FALSE(scalars.uses_vectors());
   EXPECT_EQ(session().uses_vectors(), device_under_test().prefers_vectors);

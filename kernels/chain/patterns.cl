@@ -18,7 +18,7 @@
 //             squared differences of 8-bit colours where both are known and of one surface (similar
 //             CoC), and how many such pairs there are (params.h); 0 where not needed
 // Global size: (units + 2 DEFRAY_PATTERN_MARGIN, cell_rows).
-#include "patterns_shift.clh"
+#include "chain/patterns_shift.clh"
 
 uint16 squared(const uint16 a, const uint16 b, const uint shift) {
   const uint16 d = (a >> shift & 255u) - (b >> shift & 255u);

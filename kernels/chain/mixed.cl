@@ -10,7 +10,7 @@
 // mixed       [height][width]  mixed: 1 where a neighbour lies on another surface: anti-aliased
 //                              colour holds both there
 // Global size of both: (runs of DEFRAY_RUN pixels of a row, height).
-#include "run.clh"
+#include "base/run.clh"
 
 // A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat,
 // all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come closer to one end.

@@ -10,8 +10,8 @@
 // channel0..3  [height][layers][width]
 // out0..3      [height][layers][width]
 // Global size: (runs of DEFRAY_RUN fragments of a row, height x layers).
-#include "colour.clh"
-#include "run.clh"
+#include "base/colour.clh"
+#include "base/run.clh"
 
 // What a fragment averages: a square of so many taps around it.
 typedef struct {

@@ -12,9 +12,9 @@
 // darkest      [tiles_y][tiles_x]  the least light that the fragments of a tile can look at
 // kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
 // Global size: (width, height x layers).
-#include "colour.clh"
-#include "frame.clh"
-#include "rank.clh"
+#include "base/colour.clh"
+#include "base/frame.clh"
+#include "chain/rank.clh"
 
 // The largest of the light channels: alpha is no light.
 float light_of(const float4 c, const uint channels) {

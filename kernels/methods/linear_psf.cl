@@ -12,7 +12,7 @@
 // out0..3     [band_rows][target_stride]
 // One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run,
 // launch_rows).
-#include "colour.clh"
+#include "base/colour.clh"
 
 // Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
 float16 lit(const float16 weight, const float16 colour) {

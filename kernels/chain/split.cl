@@ -17,8 +17,8 @@
 //                                     the margin was not seen
 // layer0..3       [height][2][width]  colour
 // Global size: (width, height).
-#include "colour.clh"
-#include "frame.clh"
+#include "base/colour.clh"
+#include "base/frame.clh"
 
 // Coverages that are as good as none or all; and bounds, beyond which differences grow too much.
 #define LEAST_COVERAGE 0.03f

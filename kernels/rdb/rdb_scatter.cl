@@ -24,9 +24,9 @@
 // is then one 64-bit minimum. Elsewhere the kernel runs twice: minimum of the keys, then minimum
 // of the indices that have this key. Global size: (width, window_rows x layers,
 // cell_count).
-#include "colour.clh"
+#include "base/colour.clh"
+#include "base/pcg3d.clh"
 #include "params.h"
-#include "pcg3d.clh"
 
 #ifdef DEFRAY_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable

@@ -16,7 +16,7 @@
 // count    [height][width]   fragments, up to where nothing shines through any more
 // One work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
 // DEFRAY_SPLAT_TILE).
-#include "any.clh"
+#include "base/any.clh"
 #include "splat_params.h"
 
 // What a run of pixels has come to: `light` has four channels.

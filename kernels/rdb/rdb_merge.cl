@@ -19,8 +19,8 @@
 //                                                  whether a colour differs from the pixel's own
 // seen            [band_rows][width]               cells won by what the picture shows
 // Global size: (width, band_rows).
-#include "colour.clh"
-#include "rim.clh"
+#include "base/colour.clh"
+#include "rdb/rim.clh"
 
 // What shows through where no ray arrives: the farthest fragment behind the pixel and those around
 // it. Windows reach one row beyond their band: no band changes the answer.

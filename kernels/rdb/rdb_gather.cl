@@ -24,8 +24,8 @@
 // sum0..3         [band_rows][width] colours' sums; after the last pass the means
 // filled, seen    [band_rows][width] as in rdb_merge
 // Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh).
-#include "rdb_gather_any.clh"
-#include "strip.clh"
+#include "rdb/rdb_gather_any.clh"
+#include "rdb/strip.clh"
 
 // One whole surface a pixel, all of it seen, no rim, nobody asks for winners. Inlined for three and
 // for four channels: a quarter less to load and add.

@@ -14,7 +14,7 @@
 // samples, rotations, colour, out         as in gather_literal
 // Samples are taken at whole pixels: no colour is mixed across an edge.
 // Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
-#include "gather.clh"
+#include "methods/gather.clh"
 
 // Whole pixels nearest to places of at most 2^22, halves to the even one.
 int16 nearest_of(const float16 places) { return as_int16(places + 0x1.8p23f) - as_int(0x1.8p23f); }

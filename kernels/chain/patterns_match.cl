@@ -14,8 +14,8 @@
 // channel0..3  [height][width]                linear colours of the frame
 // channel_behind0..3  [height][width]         the fragment's: before, smooth
 // Global size: (units, rows of cells of this launch).
-#include "colour.clh"
-#include "patterns_shift.clh"
+#include "base/colour.clh"
+#include "chain/patterns_shift.clh"
 
 // Cells of a unit and those that its windows reach to the right.
 #define COLUMNS 16

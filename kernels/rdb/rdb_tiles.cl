@@ -14,9 +14,9 @@
 // reach from how many tiles away, and a square dilates one axis at a time. tiles
 // [tiles_y][tiles_x][2][words] near      [reach_tiles + 1][words] Global size of both: (tiles_x,
 // tiles_y). Integers only: the same on every device.
-#include "colour.clh"
-#include "pcg3d.clh"
-#include "rays.clh"
+#include "base/colour.clh"
+#include "base/pcg3d.clh"
+#include "rdb/rays.clh"
 
 __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc_quanta,
                       __global const uint* restrict depth_bits,

@@ -20,7 +20,7 @@
 // behind_inverse [height][width]  1/depth; negative where nothing was found
 // behind0..3   [height][width]    colour
 // Global size: (runs of DEFRAY_RUN pixels of a row, height).
-#include "fill_walk.clh"
+#include "chain/fill_walk.clh"
 
 float2 direction_of(const DefrayFillParams p, const uint i) {
   return sixteenth(i * (DEFRAY_FILL_DIRECTIONS / p.directions));

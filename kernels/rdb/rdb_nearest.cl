@@ -11,7 +11,7 @@
 // nearest         [band_rows][width]               (x: source index in the window, y: key),
 //                                                  all ones where there is none
 // Global size: (width, band_rows).
-#include "rim.clh"
+#include "rdb/rim.clh"
 
 __kernel void rdb_nearest(const DefrayRdbParams p, __global const uint2* restrict winner,
                           __global const uint* restrict data_of, __global const int2* restrict lens,

@@ -17,8 +17,8 @@
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
 // sum0..3      [band_rows][width] in and out
 // Global size: (width, band_rows).
-#include "colour.clh"
-#include "frame.clh"
+#include "base/colour.clh"
+#include "base/frame.clh"
 
 #define LENS_RADIUS (1L << DEFRAY_LENS_FRACTION_BITS)
 

@@ -9,7 +9,7 @@
 // rotations    [DEFRAY_GATHER_ROTATIONS]  (cos, sin)
 // colour, out  [height][width]     four channels; rows of the band are written
 // Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
-#include "gather.clh"
+#include "methods/gather.clh"
 
 // Whole pixels at or below places of less than 2^31. (Of floor PoCL makes a call.)
 int16 whole_px(const float16 places) {
