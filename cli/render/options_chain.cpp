@@ -10,12 +10,18 @@ const WordTable<Hidden> hidden_words{
 const WordTable<Border> border_words{
     {"clamp", Border::clamp}, {"black", Border::black}, {"renormalise", Border::renormalise}};
 
+WordTable<Quality> quality_words() {
+  WordTable<Quality> words;
+  for (const Quality quality : all_qualities) words.emplace_back(to_string(quality), quality);
+  return words;
+}
+
 /// "preview: --rdb 6 --hidden fill --half-size on".
 std::string about(Quality quality) {
   const ChainSettings s = settings_for(quality);
   const std::string hidden = word_of(s.hidden, hidden_words);
-  return fmt::format("{}: --rdb {} --hidden {}{}", word_of(quality, quality_words),
-                     s.cells_per_side, hidden, s.half_size ? " --half-size on" : "");
+  return fmt::format("{}: --rdb {} --hidden {}{}", to_string(quality), s.cells_per_side, hidden,
+                     s.half_size ? " --half-size on" : "");
 }
 
 }  // namespace
@@ -29,8 +35,8 @@ OptionRow quality_row(ChainSettings& s) {
   };
   return {
       "--quality",
-      word<Quality>([&s](Quality quality) { s = settings_for(quality); }, quality_words,
-                    word_of(Quality::normal, quality_words)),
+      word<Quality>([&s](Quality quality) { s = settings_for(quality); }, quality_words(),
+                    to_string(Quality::normal)),
       fmt::format("{}; {}; {}; {}, and twice as many repetitions of the picture looked at",
                   about(Quality::preview), about(Quality::draft), about(Quality::normal),
                   about(Quality::high)),

@@ -57,11 +57,6 @@ struct RenderCommand {
 /// The methods that have a lens, and so a circle of confusion by depth.
 inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
 
-inline const WordTable<Quality> quality_words{{"preview", Quality::preview},
-                                              {"draft", Quality::draft},
-                                              {"normal", Quality::normal},
-                                              {"high", Quality::high}};
-
 /// What only the chain around the RDB has.
 inline const Scope of_chain{{Method::rdb}, false, true};
 

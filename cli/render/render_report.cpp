@@ -8,7 +8,6 @@
 
 #include "base/text.h"
 #include "options/option_table.h"
-#include "render/render_command.h"
 
 namespace defray::cli {
 namespace {
@@ -51,8 +50,7 @@ std::string chain_line(const ChainReport& d) {
 }
 
 std::string expected_line(const ExpectedError& e) {
-  const std::string chosen =
-      e.quality ? fmt::format("--quality {}: ", word_of(*e.quality, quality_words)) : "";
+  const std::string chosen = e.quality ? fmt::format("--quality {}: ", to_string(*e.quality)) : "";
   if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
@@ -67,7 +65,7 @@ nlohmann::ordered_json expected_json(const ExpectedError& e) {
                                  {"hidden", e.shares[1]},     {"edges", e.shares[2]},
                                  {"detail", e.shares[3]}};
   if (e.quality) {
-    json["quality"] = word_of(*e.quality, quality_words);
+    json["quality"] = to_string(*e.quality);
     json["misses_target"] = e.misses_target;
   }
   return json;

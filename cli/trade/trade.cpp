@@ -40,7 +40,8 @@ struct Candidate {
 /// Every quality; with a truth, which alone tells of them, the other methods.
 std::vector<Candidate> candidates(const TradeCommand& job) {
   std::vector<Candidate> all;
-  for (const auto& [name, quality] : quality_words) {
+  for (const Quality quality : all_qualities) {
+    const std::string name = to_string(quality);
     MethodSettings method = job.settings.method;
     method.chain = settings_for(quality);
     method.chain->aperture = job.chain.aperture;
@@ -117,7 +118,8 @@ double true_db_of(ColourFile truth, const FrameResult& result) {
 
 /// Renders it three times.
 TradePoint measured(const TradeCommand& job, const Candidate& candidate,
-                    const RenderSettings& common, Device& device, const Progress& progress) {
+                    const RenderSettings& common, const std::optional<ColourFile>& truth,
+                    Device& device, const Progress& progress) {
   RenderSettings settings = common;
   settings.method = candidate.method;
   settings.error.wants_expected = true;
@@ -140,7 +142,7 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                    (seconds[2] - seconds[0]) / seconds[1],
                    result.report.expected,
                    {}};
-  if (!job.truth.empty()) point.true_db = true_db_of(read_truth(job), result);
+  if (truth) point.true_db = true_db_of(*truth, result);
   return point;
 }
 
@@ -160,8 +162,7 @@ void check_files(const TradeCommand& job, const std::vector<Candidate>& all) {
 }
 
 /// Throws Error(input) where the truth cannot be compared.
-void check_truth(const TradeCommand& job, const FrameReport& input) {
-  const ColourFile truth = read_truth(job);
+void check_truth(const TradeCommand& job, const FrameReport& input, const ColourFile& truth) {
   if (truth.display != input.display) {
     fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same", job.truth,
          to_string(truth.display), job.paths.input, to_string(input.display));
@@ -176,8 +177,8 @@ void check_truth(const TradeCommand& job, const FrameReport& input) {
   }
 }
 
-/// Before anything is rendered.
-void check(const TradeCommand& job, const std::vector<Candidate>& all) {
+/// Before anything is rendered. The truth, where there is one.
+std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candidate>& all) {
   if (has_frame_pattern(job.paths.input) &&
       job.paths.input.find_first_of("#%") != std::string::npos) {
     fail(ErrorKind::usage, "{}: trade takes one picture; name one of the frames", job.paths.input);
@@ -186,9 +187,11 @@ void check(const TradeCommand& job, const std::vector<Candidate>& all) {
   check_lens(job, {std::nullopt});
   check_files(job, all);
   const FrameReport input = inspect_file(job.paths, settings_at(job, std::nullopt));
-  if (!job.truth.empty()) check_truth(job, input);
+  std::optional<ColourFile> truth;
+  if (!job.truth.empty()) check_truth(job, input, truth.emplace(read_truth(job)));
   create_folder(job.folder);
   check_can_write(job.folder + "/index.html");
+  return truth;
 }
 
 int run(const OptionTable& options, TradeCommand& job) {
@@ -197,15 +200,15 @@ int run(const OptionTable& options, TradeCommand& job) {
   options.refuse_idle({Method::rdb, false, job.is_on_reference()});
   finish(job);
   const std::vector<Candidate> all = candidates(job);
-  check(job, all);
+  const std::optional<ColourFile> truth = check(job, all);
   Device device = Device::open(job.device, {job.math});
   if (!job.is_on_reference()) device.set_memory(job.memory_bytes());
   const RenderSettings settings = settings_at(job, std::nullopt);
   ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);
   Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    trade.points.push_back(
-        measured(job, all[i], settings, device, [&](double share) { bar.update(i, share); }));
+    trade.points.push_back(measured(job, all[i], settings, truth, device,
+                                    [&](double share) { bar.update(i, share); }));
   }
   bar.clear();
   recommend(trade, job.target_db);

@@ -2,6 +2,11 @@
 
 namespace defray {
 
+const char* to_string(Quality quality) {
+  constexpr std::array words{"preview", "draft", "normal", "high"};
+  return words[static_cast<std::size_t>(quality)];
+}
+
 ChainSettings settings_for(Quality quality) {
   ChainSettings s;
   if (quality == Quality::preview) {

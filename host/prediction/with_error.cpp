@@ -1,14 +1,10 @@
 #include "prediction/with_error.h"
 
-#include <array>
-
 #include "base/error.h"
 #include "base/stopwatch.h"
 
 namespace defray {
 namespace {
-
-constexpr std::array ladder{Quality::preview, Quality::draft, Quality::normal, Quality::high};
 
 /// What a quality says, all else as it is.
 ChainSettings with_quality(ChainSettings chain, Quality quality) {
@@ -35,8 +31,8 @@ ResultWithError apply(const Frame& frame, const MethodSettings& settings,
 /// The next quality that is likely to reach the target, the last if none is; past the last from it.
 std::size_t next_rung(std::size_t rung, const Prediction& prediction, const ChainSettings& chain,
                       double target_db) {
-  for (++rung; rung + 1 < ladder.size(); ++rung) {
-    if (prediction.guess_db(with_quality(chain, ladder[rung])) >= target_db) break;
+  for (++rung; rung + 1 < all_qualities.size(); ++rung) {
+    if (prediction.guess_db(with_quality(chain, all_qualities[rung])) >= target_db) break;
   }
   return rung;
 }
@@ -86,17 +82,17 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
   }
   ResultWithError out;
   double predict_seconds = 0;
-  for (std::size_t rung = 0; rung < ladder.size();) {
+  for (std::size_t rung = 0; rung < all_qualities.size();) {
     MethodSettings chosen = settings;
-    chosen.chain = with_quality(*settings.chain, ladder[rung]);
+    chosen.chain = with_quality(*settings.chain, all_qualities[rung]);
     const auto of_all = [&](double share) {
-      progress((static_cast<double>(rung) + share) / ladder.size());
+      progress((static_cast<double>(rung) + share) / all_qualities.size());
     };
     out = {};  // the last one's planes
     out = apply(frame, chosen, error, backend, wants_nearest,
                 progress ? Progress(of_all) : Progress());
     out.predict_seconds = predict_seconds += out.predict_seconds;
-    out.quality = ladder[rung];
+    out.quality = all_qualities[rung];
     if (out.prediction->of_frame().psnr_db >= *error.target_db) break;
     rung = next_rung(rung, *out.prediction, *settings.chain, *error.target_db);
   }

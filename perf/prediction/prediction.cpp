@@ -16,7 +16,7 @@ void write_signs(const std::string& path, const std::vector<PredictedRender>& re
   for (const std::string& name : sign_names()) text += ",\"" + name + "\"";
   text += "\n";
   for (const PredictedRender& r : renders) {
-    text += fmt::format("\"{}, {}, {}\",{},{}", r.scene, r.width, word_of(r.quality),
+    text += fmt::format("\"{}, {}, {}\",{},{}", r.scene, r.width, to_string(r.quality),
                         r.sets_model ? "set" : "test", r.true_square);
     for (const double sign : r.signs) text += fmt::format(",{}", sign);
     text += "\n";
@@ -60,8 +60,8 @@ Section prediction(const Bench& bench) {
   };
   add("set the model", [](const PredictedRender& r) { return r.sets_model; });
   add("test it", [](const PredictedRender& r) { return !r.sets_model; });
-  for (const Quality quality : qualities) {
-    add(fmt::format("test it, {}", word_of(quality)),
+  for (const Quality quality : all_qualities) {
+    add(fmt::format("test it, {}", to_string(quality)),
         [quality](const PredictedRender& r) { return !r.sets_model && r.quality == quality; });
   }
   for (const auto& row : {table.rows[0], table.rows[1]}) {

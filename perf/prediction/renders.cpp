@@ -105,18 +105,13 @@ void add_random_scenes(const Bench& bench, const SceneSize& size, std::uint32_t 
 
 }  // namespace
 
-const char* word_of(Quality quality) {
-  constexpr std::array words{"preview", "draft", "normal", "high"};
-  return words[static_cast<std::size_t>(quality)];
-}
-
 double PredictedRender::true_db() const { return -10 * std::log10(std::max(true_square, 1e-9)); }
 
 std::vector<PredictedRender> predicted_renders(Backend& backend, const Subject& subject,
                                                const TwoTruths& truths) {
   std::vector<PredictedRender> out;
   const Frame frame = subject.frame();
-  for (const Quality quality : qualities) {
+  for (const Quality quality : all_qualities) {
     const MethodSettings settings = default_chain(quality);
     const MethodResult result = apply_method(frame, settings, backend);
     const Prediction prediction(frame, *settings.chain, result, true);

@@ -9,12 +9,6 @@
 
 namespace defray::perf {
 
-inline constexpr std::array qualities{Quality::preview, Quality::draft, Quality::normal,
-                                      Quality::high};
-
-/// "draft".
-const char* word_of(Quality quality);
-
 struct PredictedRender {
   std::string scene;  ///< With its setting.
   int width = 0;

@@ -17,7 +17,7 @@ Figures measure_prediction(TableBench& b) {
     for (PredictedRender& r :
          predicted_renders(b.bench().backend, place.subject, {place.truth, place.truth})) {
       note +=
-          fmt::format(" {} {:.1f}, {:.1f};", word_of(r.quality), r.true_db(), r.expected.psnr_db);
+          fmt::format(" {} {:.1f}, {:.1f};", to_string(r.quality), r.true_db(), r.expected.psnr_db);
       given.push_back(std::move(r));
     }
     note.back() = '.';

@@ -1,5 +1,6 @@
 #pragma once
 // The methods and their settings.
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -63,6 +64,13 @@ struct ChainSettings {
 };
 
 enum class Quality { preview, draft, normal, high };
+
+/// The fastest first.
+inline constexpr std::array all_qualities{Quality::preview, Quality::draft, Quality::normal,
+                                          Quality::high};
+
+/// "draft", as on the command line.
+DEFRAY_API const char* to_string(Quality quality);
 
 /// What goes together, the fastest first; Quality::normal is ChainSettings().
 DEFRAY_API ChainSettings settings_for(Quality quality);
