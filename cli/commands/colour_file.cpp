@@ -18,8 +18,8 @@ ColourFile read_colour_file(const std::string& path, const ChannelRequest& reque
   const PartInfo& part = file.parts()[static_cast<std::size_t>(choice.part)];
   ColourFile colour{path, {}, part.data, part.display};
   for (const int c : choice.channels) colour.planes.push_back(file.plane(choice.part, c));
-  if (colour.planes.size() <= 2)
-    colour.planes.insert(colour.planes.begin(), 2, colour.planes.front());
+  colour.is_grey = colour.planes.size() <= 2;
+  if (colour.is_grey) colour.planes.insert(colour.planes.begin(), 2, colour.planes.front());
   return colour;
 }
 

@@ -15,6 +15,7 @@ struct ColourFile {
   std::string path;
   std::vector<Plane> planes;
   Window data, display;
+  bool is_grey = false;  ///< One plane of the file, three times.
 };
 
 /// Throws Error(input) as ImageFile::read and choose_colour do.

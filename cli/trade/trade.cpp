@@ -167,6 +167,10 @@ void check_truth(const TradeCommand& job, const FrameReport& input, const Colour
     fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same", job.truth,
          to_string(truth.display), job.paths.input, to_string(input.display));
   }
+  if (truth.is_grey && input.colour_channels.size() > 2) {
+    fail(ErrorKind::input, "{}: is grey, {} has {}: no truth of it", job.truth, job.paths.input,
+         join(input.colour_channels, " "));
+  }
   for (const Plane& plane : truth.planes) {
     for (std::size_t i = 0; i < plane.size(); ++i) {
       if (std::isfinite(plane[i])) continue;
@@ -182,6 +186,11 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
   if (has_frame_pattern(job.paths.input) &&
       job.paths.input.find_first_of("#%") != std::string::npos) {
     fail(ErrorKind::usage, "{}: trade takes one picture; name one of the frames", job.paths.input);
+  }
+  for (const std::string& path : {job.paths.input, job.truth, job.folder}) {
+    if (path == "-") {
+      fail(ErrorKind::usage, "trade reads files several times and writes a folder: '-' is neither");
+    }
   }
   validate(job.settings.method, {false, false, job.target_db});
   check_lens(job, {std::nullopt});

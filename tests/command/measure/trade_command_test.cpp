@@ -1,4 +1,7 @@
 // defray trade as a user runs it, and what it recommends.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -118,6 +121,34 @@ TEST_F(TradeCommand, TruthsThatAreEqualOrNoNumbers) {
   ImageFile::from_planes({"R", "G", "B"}, {plane, plane, plane}, 96, 64).write(folder / "nan.exr");
   expect_refused("pinhole.exr -o none --truth nan.exr" + lens, 3,
                  {"nan.exr: has nan at pixel (4, 1)"});
+}
+
+TEST_F(TradeCommand, ATruthOfAPartIsComparedThere) {
+  OIIO::ImageBuf file(folder / "truth_bg.exr");
+  file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  const OIIO::ROI part(30, 60, 20, 40, 0, 1, 0, file.nchannels());
+  OIIO::ImageBuf cut = OIIO::ImageBufAlgo::cut(file, part);
+  OIIO::ImageSpec& spec = cut.specmod();
+  spec.x = 30, spec.y = 20, spec.full_x = spec.full_y = 0;
+  spec.full_width = 96, spec.full_height = 64;
+  cut.write(folder / "part.exr");
+  const json trade =
+      json::parse(defray(folder, "trade pinhole.exr -o t --json --truth part.exr" + lens).out);
+  expect_ok(defray(folder, "render pinhole.exr -o out.exr --quality draft" + lens));
+  const json there =
+      json::parse(defray(folder, "compare out.exr truth_bg.exr --crop 30x20+30+20 --json").out);
+  EXPECT_NEAR(trade["points"][1]["true_db"], there["psnr_srgb_db"], 0.01);
+}
+
+TEST_F(TradeCommand, WhatIsNoTruthOrNoFileIsRefused) {
+  ImageFile::from_planes({"Y"}, {Plane(96 * 64, 0.5f)}, 96, 64).write(folder / "grey.exr");
+  expect_refused("pinhole.exr -o none --truth grey.exr" + lens, 3,
+                 {"grey.exr: is grey, pinhole.exr has R G B"});
+  for (const std::string dash :
+       {"- -o none", "pinhole.exr -o -", "pinhole.exr -o none --truth -"}) {
+    expect_refused(dash + lens, 2, {"trade reads files several times", "'-'"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "-"));
 }
 
 TEST_F(TradeCommand, CommandsAreForAShell) {
