@@ -70,25 +70,38 @@ Plane expected_colours(const Frame& f, Plane plane) {
   return plane;
 }
 
-TEST(BorderColours, AreMeansOfTheEdgesSurface) {
-  for (std::uint32_t seed = 0; seed < 12; ++seed) {
-    const int layers = 1 + static_cast<int>(seed % 2), margin = static_cast<int>(seed * 2 % 7) + 3;
-    const int width = seed == 3 ? 4 : 17, height = seed == 4 ? 2 : 14;
-    Frame f = striped(width, height, margin, layers, seed);
-    std::vector<Plane> before;
-    for (const Values<float>& channel : f.channels)
-      before.emplace_back(channel.begin(), channel.end());
-    continue_colours(f);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Plane expected = expected_colours(f, before[c]);
-      for (std::size_t i = 0; i < expected.size(); ++i) {
-        if (std::isnan(expected[i])) {
-          EXPECT_TRUE(std::isnan(f.channels[c][i])) << seed << " " << i;
-        } else {
-          EXPECT_NEAR(f.channels[c][i], expected[i], 1e-4) << seed << " " << i;
-        }
+void expect_continued(Frame f) {
+  std::vector<Plane> before;
+  for (const Values<float>& channel : f.channels) {
+    before.emplace_back(channel.begin(), channel.end());
+  }
+  continue_colours(f);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Plane expected = expected_colours(f, before[c]);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (std::isnan(expected[i])) {
+        EXPECT_TRUE(std::isnan(f.channels[c][i])) << i;
+      } else {
+        EXPECT_NEAR(f.channels[c][i], expected[i], 1e-4) << i;
       }
     }
+  }
+}
+
+TEST(BorderColours, AreMeansOfTheEdgesSurface) {
+  for (std::uint32_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const int layers = 1 + static_cast<int>(seed % 2), margin = static_cast<int>(seed * 2 % 7) + 3;
+    const int width = seed == 3 ? 4 : 17, height = seed == 4 ? 2 : 14;
+    expect_continued(striped(width, height, margin, layers, seed));
+  }
+}
+
+TEST(BorderColours, OfAPictureNarrowerThanItsMarginAreOfThePictureAlone) {
+  for (const auto& [width, height] : {std::pair{4, 11}, {11, 4}, {1, 1}}) {
+    Frame f = striped(width, height, 9, 1, 5);
+    f.coc_quanta = std::vector<std::int32_t>(f.surfaces());  // one surface
+    expect_continued(f);
   }
 }
 
