@@ -11,6 +11,7 @@ using Run = std::function<int()>;
 Run add_render(CLI::App& app);
 Run add_splat(CLI::App& app);
 Run add_trade(CLI::App& app);
+Run add_tune(CLI::App& app);
 Run add_info(CLI::App& app);
 Run add_devices(CLI::App& app);
 Run add_scene(CLI::App& app);

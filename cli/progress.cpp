@@ -21,7 +21,7 @@ void ProgressBar::clear() {
   if (is_shown_) fmt::print(stderr, "\r\033[K");
 }
 
-void ProgressBar::update(std::size_t done, double share) {
+void ProgressBar::update(std::size_t done, double share, const std::string& text) {
   if (!is_shown_) return;
   constexpr int bar_width = 30;
   const double part = (static_cast<double>(done) + share) / static_cast<double>(total_);
@@ -30,8 +30,9 @@ void ProgressBar::update(std::size_t done, double share) {
   const auto filled =
       static_cast<std::size_t>(std::clamp(static_cast<int>(part * bar_width), 0, bar_width));
   const int left = part > 0 ? static_cast<int>(std::ceil(elapsed / part - elapsed)) : 0;
-  fmt::print(stderr, "\r[{}{}] {}/{} {}, {}:{:02} left\033[K", std::string(filled, '#'),
-             std::string(bar_width - filled, '.'), done, total_, what_, left / 60, left % 60);
+  fmt::print(stderr, "\r[{}{}] {}/{} {}, {}:{:02} left{}{}\033[K", std::string(filled, '#'),
+             std::string(bar_width - filled, '.'), done, total_, what_, left / 60, left % 60,
+             text.empty() ? "" : "; ", text);
   std::fflush(stderr);
 }
 

@@ -2,6 +2,7 @@
 // A progress bar on a terminal; nothing anywhere else.
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace defray::cli {
 
@@ -14,8 +15,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` whole items and `share` (0 to 1) of the next.
-  void update(std::size_t done, double share);
+  /// `done` whole items and `share` (0 to 1) of the next; `text` follows.
+  void update(std::size_t done, double share, const std::string& text = "");
   /// Clears the line, so that other text can be printed.
   void clear();
 

@@ -146,8 +146,8 @@ int run_command(int argc, char** argv) {
   app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
   std::vector<std::pair<CLI::App*, Run>> commands;
-  for (const auto add : {add_render, add_splat, add_trade, add_info, add_devices, add_scene,
-                         add_compare, add_sheet, add_psf, add_validate}) {
+  for (const auto add : {add_render, add_splat, add_trade, add_tune, add_info, add_devices,
+                         add_scene, add_compare, add_sheet, add_psf, add_validate}) {
     const Run command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), command);
   }

@@ -11,7 +11,10 @@ place=$(realpath --relative-to="$project" "$readme")
 export PATH=$(realpath "$(dirname "$2")"):$PATH
 full=${3:-${DEFRAY_TEST_LONG:+--full}}
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+cache=$(mktemp -d)
+trap 'rm -rf "$folder" "$cache"' EXIT
+# Of the user's cache only kernels that are compiled already.
+export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache} XDG_CACHE_HOME=$cache
 mkdir -p "$folder/$(dirname "$place")"
 cp "$readme" "$folder/$place"
 

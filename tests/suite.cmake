@@ -17,7 +17,7 @@ function(add_shards name count cost label)
                  ENVIRONMENT
                  "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${test}.json"
     )
-    if("${label}" MATCHES "quick|both" OR ${name} MATCHES "^sanitized")
+    if("${label}" MATCHES "quick|both" OR ${name} MATCHES "^(sanitized|rest_of)")
       set(reached ${CMAKE_BINARY_DIR}/reached/${test})
       file(MAKE_DIRECTORY ${reached})
       set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "DEFRAY_REACHED=${reached}")
@@ -106,7 +106,7 @@ add_check(mutants 100 full python3 ${here}/mutation/mutate.py --count 10 --seed 
 set_tests_properties(
   mutants
   PROPERTIES DEPENDS
-             "sanitized_kernels_1;sanitized_kernels_2;sanitized_host;sanitized_command_1;sanitized_command_2;properties"
+             "sanitized_kernels_1;sanitized_kernels_2;sanitized_host;sanitized_command_1;sanitized_command_2;rest_of_kernels_1;rest_of_kernels_2;rest_of_host;rest_of_command;properties"
 )
 
 # Five seconds of every fuzzer, built by run.sh, from the seeds in corpus/ and what the runs before

@@ -105,6 +105,18 @@ std::array<double, 3> parse_point(const std::string& option, const std::string& 
   return point;
 }
 
+double parse_seconds(const std::string& option, const std::string& text) {
+  static const std::regex form(R"((\d{1,6}(?:\.\d{1,6})?)([smh]?))");
+  std::smatch match;
+  if (std::regex_match(text, match, form)) {
+    const double seconds = std::stod(match[1]) * (match[2] == "h"   ? 3600
+                                                  : match[2] == "m" ? 60
+                                                                    : 1);
+    if (seconds > 0) return seconds;
+  }
+  fail(ErrorKind::usage, "{} '{}': write it as 90s, 10m or 1h, above 0", option, text);
+}
+
 std::vector<WorkGroup> parse_work_groups(const std::string& text) {
   static const std::regex form(R"((?:([a-z]\w*)=)?([1-9]\d{0,5})(?:x([1-9]\d{0,5}))?)");
   std::vector<WorkGroup> groups;

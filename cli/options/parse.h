@@ -31,6 +31,9 @@ PixelPlace parse_place(const std::string& option, const std::string& text);
 /// "1,2.5,-3" -> three finite numbers. Throws Error(usage).
 std::array<double, 3> parse_point(const std::string& option, const std::string& text);
 
+/// "90", "90s", "10m", "1h" -> seconds, above 0. Throws Error(usage).
+double parse_seconds(const std::string& option, const std::string& text);
+
 /// A work-group for one kernel, or for all that no other names.
 struct WorkGroup {
   std::string kernel;  ///< Empty: all.

@@ -139,6 +139,10 @@ OptionGroup device_options(RenderCommand& job) {
         parsed<std::string>([&job](const auto& text) { job.work_groups = parse_work_groups(text); },
                             "each kernel's own"),
         "Work-group, 64x1; for single kernels: fill=8x8,rdb_merge=32x1",
+        {.scope = on_devices}},
+       {"--no-tuning",
+        flag(job.no_tuning),
+        "Do not use the work-groups that 'defray tune' found: the same picture",
         {.scope = on_devices}}}};
 }
 

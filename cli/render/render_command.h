@@ -44,6 +44,7 @@ struct RenderCommand {
   std::string device;
   Math math = Math::strict;
   std::vector<WorkGroup> work_groups;
+  bool no_tuning = false;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
   bool stats = false;
   bool strict_target = false;

@@ -157,6 +157,7 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
                  {"coc_limited_px", r.coc_limited},
                  {"nonfinite_values", r.nonfinite},
                  {"notes", own_notes(r)},
+                 {"tuned", r.tuned},
                  {"read_s", r.read_seconds},
                  {"render_s", r.render_seconds},
                  {"predict_s", r.predict_seconds},
@@ -202,6 +203,7 @@ void print_stats(const FrameReport& r) {
       "  tiles: {:.1f} % in focus, {:.1f} % smooth, {:.1f} % mixed, {:.1f} % with "
       "hidden surfaces, {:.1f} % with lights\n",
       100 * t.in_focus, 100 * t.smooth, 100 * t.mixed, 100 * t.hidden, 100 * t.lights);
+  if (!r.tuned.empty()) fmt::print("  tuned: --work-group {}\n", join(r.tuned, ","));
 }
 
 void print_json_line(const FrameOutcome& o, const std::string& device) {

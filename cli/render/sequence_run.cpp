@@ -6,6 +6,7 @@
 #include "image/display.h"
 #include "image/output.h"
 #include "image/sequence.h"
+#include "open_device.h"
 #include "render/show_session.h"
 #include "standard_streams.h"
 
@@ -36,9 +37,9 @@ bool exists(const FramePaths& paths) {
   return true;
 }
 
-Device open_device(const RenderCommand& job) {
+Device device_of(const RenderCommand& job) {
   check_output_format(job.paths.output);
-  Device device = Device::open(job.device, {job.math});
+  Device device = open_device(job.device, {job.math, !job.no_tuning}, job.quiet);
   if (job.is_on_reference()) return device;
   device.set_memory(job.memory_bytes());
   for (const WorkGroup& group : job.work_groups) {
@@ -89,7 +90,7 @@ std::size_t SequenceRun::render() {
                       [this, i] { return read(frames_[i]); });
   };
   std::future<Work> reading = read_ahead(0), writing;
-  device_.emplace(open_device(job_));
+  device_.emplace(device_of(job_));
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     Work work = reading.get();
     if (i + 1 < frames_.size()) reading = read_ahead(i + 1);

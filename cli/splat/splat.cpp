@@ -13,6 +13,7 @@
 #include "image/sequence.h"
 #include "image/viewer.h"
 #include "lens/camera.h"
+#include "open_device.h"
 #include "progress.h"
 #include "splat/splat_command.h"
 #include "splat/splat_report.h"
@@ -136,7 +137,7 @@ void check(const SplatCommand& job) {
 
 int run(const SplatCommand& job) {
   check(job);
-  Device device = Device::open(job.device);
+  Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
   const bool has_bar = !job.quiet && !job.json;
   const SplatModel model = model_of(job, has_bar);
   for (const std::string& note : model.notes()) fmt::print(stderr, "defray: note: {}\n", note);

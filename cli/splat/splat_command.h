@@ -21,6 +21,7 @@ struct SplatCommand {
   SplatSettings settings;
   int turntable = 0;  ///< Frames of a turn; 0: a single picture.
   std::string device;
+  bool no_tuning = false;
   bool has_depth = false, has_fragments = false;  ///< Channels beside R G B A.
   bool json = false, quiet = false, show = false;
 };

@@ -105,6 +105,8 @@ OptionGroup output_rows(SplatCommand& job) {
        {"--fragments", flag(job.has_fragments),
         "Also channel fragments: how many splats a pixel was made of"},
        {"--device", value(job.device), "Index or part of the name of 'defray devices'; reference"},
+       {"--no-tuning", flag(job.no_tuning),
+        "Do not use the work-groups that 'defray tune' found: the same picture"},
        {"--json", flag(job.json), "One JSON line a frame instead of text"},
        {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
        {"--show", flag(job.show), "Show the last picture in a window; q closes it"}}};

@@ -26,6 +26,7 @@ void print_json(const std::string& path, const Lens& lens, const CameraPose& pos
                                     {"nearest_coc_px", r.nearest_coc_px},
                                     {"farthest_coc_px", r.farthest_coc_px},
                                     {"stages", stages},
+                                    {"tuned", r.tuned},
                                     {"seconds", seconds}};
   fmt::print("{}\n", line.dump());
 }

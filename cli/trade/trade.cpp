@@ -10,6 +10,7 @@
 #include "image/safe_output.h"
 #include "image/sequence.h"
 #include "measure/metrics.h"
+#include "open_device.h"
 #include "prediction/with_error.h"
 #include "progress.h"
 #include "render/render_command.h"
@@ -210,7 +211,7 @@ int run(const OptionTable& options, TradeCommand& job) {
   finish(job);
   const std::vector<Candidate> all = candidates(job);
   const std::optional<ColourFile> truth = check(job, all);
-  Device device = Device::open(job.device, {job.math});
+  Device device = open_device(job.device, {job.math, !job.no_tuning}, job.quiet);
   if (!job.is_on_reference()) device.set_memory(job.memory_bytes());
   const RenderSettings settings = settings_at(job, std::nullopt);
   ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);

@@ -9,6 +9,7 @@
 #include "library/backend_of.h"
 #include "opencl/session.h"
 #include "reference/twin_backend.h"
+#include "tuning/tuning_file.h"
 
 namespace defray {
 
@@ -16,6 +17,8 @@ struct Device::State {
   std::string name;
   std::optional<Session> session;  ///< None: the reference.
   std::unique_ptr<Backend> backend;
+  std::vector<tuning::Result> tried = {};
+  std::vector<std::string> notes = {};
 };
 
 Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -32,12 +35,19 @@ Device Device::open(const std::string& name, const DeviceOptions& options) {
   if (name == "reference") return reference();
   SessionOptions session;
   session.math = options.math;
+  session.measures = options.measures;
   const DeviceInfo info =
       select_device(name, "; or use " + field("device") + " reference, the slow scalar twin");
   auto state = std::make_unique<State>();
   state->name = info.name + (options.math == Math::fast ? " (fast arithmetic)" : "");
   state->session.emplace(info, session);
   state->backend = std::make_unique<DeviceBackend>(*state->session);
+  if (options.use_tuning) {
+    const tuning::Key key = tuning::key_of(info);
+    tuning::Tuning known = tuning::read(tuning::path_of(key), key, info.max_work_group);
+    state->tried = std::move(known.results);
+    if (!known.notice.empty()) state->notes.push_back(std::move(known.notice));
+  }
   return Device(std::move(state));
 }
 
@@ -49,8 +59,17 @@ Device Device::reference() {
 }
 
 const std::string& Device::name() const { return state_->name; }
+const std::vector<std::string>& Device::notes() const { return state_->notes; }
 
-Device::State& Device::state_on_device(const char* setting) {
+const DeviceProperties& Device::properties() const {
+  return state_on_device("properties").session->info();
+}
+
+std::map<std::string, double> Device::take_kernel_seconds() {
+  return state_on_device("measures").session->take_kernel_seconds();
+}
+
+Device::State& Device::state_on_device(const char* setting) const {
   if (!state_->session) {
     fail(ErrorKind::usage, "{} means nothing to {} reference", field(setting), field("device"));
   }
@@ -77,5 +96,20 @@ void Device::set_work_group(const std::string& kernel, std::size_t x, std::size_
 }
 
 Backend& backend_of(Device& device) { return *device.state_->backend; }
+
+std::vector<std::string> use_tuning(Device& device, const std::string& frame_class) {
+  std::vector<std::string> used;
+  std::optional<Session>& session = device.state_->session;
+  if (!session) return used;
+  std::map<std::string, std::array<std::size_t, 2>> groups;
+  for (const auto& [kernel, shape] : tuning::adopted(device.state_->tried, frame_class)) {
+    groups[kernel] = {shape.x, shape.y};
+  }
+  session->set_tuned(std::move(groups));
+  for (const auto& [kernel, group] : session->tuned()) {
+    used.push_back(fmt::format("{}={}x{}", kernel, group[0], group[1]));
+  }
+  return used;
+}
 
 }  // namespace defray

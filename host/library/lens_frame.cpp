@@ -5,6 +5,7 @@
 
 #include "lens/coc.h"
 #include "methods/tiltshift.h"
+#include "tuning/results.h"
 
 namespace defray {
 namespace {
@@ -64,6 +65,11 @@ Frame lens_frame(PinholePicture picture, const TiltshiftSettings& tiltshift, Bac
       tiltshift_params(tiltshift, f.width, f.height, f.origin_y, f.display_height));
   describe_coc(f.coc_quanta.host(), report);
   return f;
+}
+
+std::string class_of(const Frame& frame, const RenderReport& report) {
+  return tuning::frame_class(
+      frame.pixels(), std::max(std::abs(report.nearest_coc_px), std::abs(report.farthest_coc_px)));
 }
 
 }  // namespace defray

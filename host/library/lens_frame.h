@@ -21,4 +21,7 @@ Frame lens_frame(PinholePicture picture, const Lens& lens, Backend& backend, Ren
 Frame lens_frame(PinholePicture picture, const TiltshiftSettings& tiltshift, Backend& backend,
                  RenderReport& report);
 
+/// What work-groups are tuned for.
+std::string class_of(const Frame& frame, const RenderReport& report);
+
 }  // namespace defray

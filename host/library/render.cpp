@@ -90,6 +90,7 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   RenderResult out;
   Backend& backend = backend_of(device);
   const Frame frame = frame_of(picture, lens, options, backend, out.report);
+  out.report.tuned = use_tuning(device, class_of(frame, out.report));
   ResultWithError made =
       apply_with_error(frame, options, options.error, backend, options.wants_nearest, progress);
   MethodResult& result = made.result;

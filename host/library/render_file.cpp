@@ -120,6 +120,7 @@ void FileRender::render(Device& device, const Progress& progress) {
   Backend& backend = backend_of(device);
   Stopwatch watch;
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
+  s.report.tuned = use_tuning(device, class_of(frame, s.report));
   const bool wants_nearest = !s.source->further.data.empty();
   const ErrorSettings error = error_settings(s.settings, s.paths);
   ResultWithError made =

@@ -10,6 +10,7 @@
 #include "splat/splat_picture.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
+#include "tuning/results.h"
 
 namespace defray {
 
@@ -72,8 +73,12 @@ SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pos
   params.one_sided = m.has_normals && !settings.two_sided;
   params.has_headlight = !m.has_colours;
   SplatResult out;
+  const std::size_t pixels =
+      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+  const std::vector<std::string> tuned = use_tuning(device, tuning::cloud_class(pixels));
   SplatPlanes planes = draw_splats(backend_of(device), m.tree, params, settings.lod,
                                    settings.transparency, out.report, progress);
+  out.report.tuned = tuned;
   out.colour = std::move(planes.colour);
   out.depth = std::move(planes.depth);
   out.fragments = std::move(planes.fragments);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "opencl/driver_stacks.h"
 #include "opencl/kernel_cache.h"
 
 namespace defray {
@@ -59,6 +60,7 @@ bool is_pocl(const DeviceInfo& info) { return info.platform == "Portable Computi
 
 std::vector<DeviceInfo> list_devices() {
   prepare_kernel_cache();
+  const DriverStacks stacks;  // drivers start their threads at the first question
   std::vector<DeviceInfo> found;
   std::vector<cl::Platform> platforms;
   try {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "kernels/splat_params.h"
+#include "kernels/params.h"
 
 namespace defray {
 namespace {
@@ -14,9 +14,9 @@ constexpr std::size_t plane = 4, colour = 4 * plane;
 }  // namespace
 
 const std::vector<Launch>& launch_table() {
-  // Work-groups are not tuned yet.
+  // Work-groups: as `defray tune` found them on PoCL's CPU device (perf/README.md, Work-groups).
   static const std::vector<Launch> table = {
-      {"coc", 64, 1},
+      {"coc", 64, 0},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
       // further on; 1 for rounding.
       {"fill", 8, 1, 3 + 16 + 1, 3 * plane + colour + 2 * plane + colour, DEFRAY_RUN},
@@ -28,10 +28,10 @@ const std::vector<Launch>& launch_table() {
       {"highlights_add", 64, 1},
       {"linear_psf", 16, 1},
       {"mixed", 8, 1, 1, 2 * plane, DEFRAY_RUN},
-      {"patterns_difference", 8, 1},
+      {"patterns_difference", 16, 4},
       // What matches are within reach of, and both surfaces.
       {"patterns_match", 8, 1, 0, 5 * plane + 2 * colour},
-      {"rdb_clear", 256, 1},
+      {"rdb_clear", 256, 0},
       {"rdb_gather", 1, 1},
       // Cells take the most (rdb/rdb_plan.h); this says whether the frame stays on the device.
       {"rdb_merge", 64, 1, 1, 3 * plane + 2 * colour},
@@ -42,11 +42,11 @@ const std::vector<Launch>& launch_table() {
       {"rdb_tiles", 16, 1},
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 8, 1, 3, 2 * plane, DEFRAY_RUN},
-      {"soften", 8, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
-      {"splat_project", 64, 1},
-      {"splat_resolve", 1, DEFRAY_SPLAT_TILE},
+      {"soften", 2, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
+      {"splat_project", 128, 0},
+      {"splat_resolve", 8, 1},
       // A square of 7 px around. Two layers are written, the frame and what lies behind read.
-      {"split", 64, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
+      {"split", 128, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
       {"tiltshift", 64, 1},
   };
   return table;

@@ -8,7 +8,7 @@ namespace defray {
 
 struct Launch {
   const char* kernel;
-  /// Work-group; any other gives the same bits.
+  /// Work-group; any other gives the same bits. `group_y` 0: a kernel of one dimension.
   std::size_t group_x, group_y;
   /// Rows around its own that a work-item looks at beyond what the CoC says.
   int reach_px = 0;

@@ -63,6 +63,24 @@ void Session::set_work_group(const std::string& kernel, std::size_t x, std::size
   }
 }
 
+void Session::set_tuned(std::map<std::string, std::array<std::size_t, 2>> groups) {
+  tuned_ = std::move(groups);
+}
+
+std::map<std::string, std::array<std::size_t, 2>> Session::tuned() const {
+  auto used = tuned_;
+  for (const auto& [kernel, group] : groups_) used.erase(kernel);
+  return used;
+}
+
+std::array<std::size_t, 2> Session::group_of(const std::string& name) const {
+  for (const auto* groups : {&groups_, &tuned_}) {
+    if (const auto found = groups->find(name); found != groups->end()) return found->second;
+  }
+  const Launch& launch = launch_of(name);
+  return {launch.group_x, launch.group_y};
+}
+
 cl::Buffer Session::buffer(std::size_t bytes) {
   if (bytes > info_.max_buffer_bytes) {
     fail(ErrorKind::device, "a buffer of {} MiB is needed: {} allows at most {} MiB; lower {}",
@@ -168,14 +186,8 @@ void Session::fail_argument(const char* name, cl_uint index, int code) const {
 
 void Session::enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
                       const std::vector<std::size_t>& first) {
-  const Launch& launch = launch_of(name);
-  const auto set = groups_.find(name);
-  const bool is_set = set != groups_.end();
-  const std::size_t group[3] = {is_set ? set->second[0] : launch.group_x,
-                                global.size() < 2 ? 1
-                                : is_set          ? set->second[1]
-                                                  : launch.group_y,
-                                1};
+  const auto [x, y] = group_of(name);
+  const std::size_t group[3] = {x, global.size() < 2 ? 1 : y, 1};
   std::size_t padded[3] = {1, 1, 1}, offset[3] = {0, 0, 0};
   std::copy(first.begin(), first.end(), offset);
   for (std::size_t d = 0; d < global.size(); ++d) {

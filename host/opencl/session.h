@@ -38,9 +38,14 @@ class Session {
   /// launches. Needs SessionOptions::measures.
   const std::map<std::string, std::size_t>& kernel_bytes() const { return kernel_bytes_; }
 
-  /// Work-group {x, y} of every kernel, or of one; {0, 0}: as the launch table has it.
+  /// Work-group {x, y} of every kernel, or of one; {0, 0}: as tuned, or as the launch table has it.
   void set_work_group(std::size_t x, std::size_t y);
   void set_work_group(const std::string& kernel, std::size_t x, std::size_t y);
+
+  /// Work-groups that are used where none is set: instead of those that were here before.
+  void set_tuned(std::map<std::string, std::array<std::size_t, 2>> groups);
+  /// Those of them that are used: none is set.
+  std::map<std::string, std::array<std::size_t, 2>> tuned() const;
 
   /// What is made on the device for a stage fits so much, unless a row with the rows that it looks
   /// at is more already.
@@ -164,6 +169,7 @@ class Session {
   const void* map(const cl::Buffer& buffer, std::size_t bytes);
   void unmap(const cl::Buffer& buffer, const void* mapped);
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
+  std::array<std::size_t, 2> group_of(const std::string& name) const;
   void enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
                const std::vector<std::size_t>& first);
 
@@ -180,8 +186,8 @@ class Session {
   std::optional<unsigned char> fill_;
   std::map<std::string, std::vector<cl::Event>> events_;
   std::map<std::string, std::size_t> kernel_bytes_;
-  std::set<cl_mem> given_;                                    ///< To the launch that is being made.
-  std::map<std::string, std::array<std::size_t, 2>> groups_;  ///< Other than the launch table's.
+  std::set<cl_mem> given_;  ///< To the launch that is being made.
+  std::map<std::string, std::array<std::size_t, 2>> groups_, tuned_;  ///< Not the launch table's.
   cl::Context context_;
   cl::CommandQueue queue_;
   cl::Program program_;

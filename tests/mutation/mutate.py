@@ -164,7 +164,10 @@ class Run:
             before, after = changed_lines(mutant)
             known = self.done.get((mutant.name(text_of(mutant.path)), after))
             try:
-                outcome = known["outcome"] if known else self.try_one(worker, mutant)
+                if known:
+                    outcome = known["outcome"]
+                else:
+                    outcome = "equivalent" if (mutant.path, *changed_lines(mutant)) in self.known else self.try_one(worker, mutant)
             except KeyboardInterrupt:
                 return
             self.note(mutant, outcome, known["seconds"] if known else time.time() - begin, not known)

@@ -13,6 +13,7 @@ class Test:
     program: str
     name: str
     seconds: float
+    is_long: bool = False  # of those that --full alone runs
     functions: set = field(default_factory=set)  # (path, line where it begins)
 
 
@@ -24,7 +25,7 @@ class Reached:
         self.tests = []
         for shard in sorted(os.listdir(f"{build}/reached")):
             binaries = f"{build}/asan/bin" if shard.startswith("sanitized") else f"{build}/bin"
-            self._read(f"{build}/reached/{shard}", binaries)
+            self._read(f"{build}/reached/{shard}", binaries, shard.startswith("rest_of"))
         self.by_path = defaultdict(set)       # path: indices of tests
         self.by_function = defaultdict(set)   # (path, line): indices of tests
         for index, test in enumerate(self.tests):
@@ -35,14 +36,14 @@ class Reached:
         for path, line in sorted(self.by_function):
             self.beginnings[path].append(line)
 
-    def _read(self, folder, binaries):
+    def _read(self, folder, binaries, is_long):
         if not os.path.exists(f"{folder}/TESTS"):
             return
         places = {file[:-len(".places")]: self._places(f"{folder}/{file}", f"{binaries}/{file[:-len('.places')]}")
                   for file in os.listdir(folder) if file.endswith(".places")}
         for line in open(f"{folder}/TESTS"):
             program, name, milliseconds, *flags = line.split()
-            test = Test(program, name, int(milliseconds) / 1000)
+            test = Test(program, name, int(milliseconds) / 1000, is_long)
             for flag in flags:
                 module, index = flag.split(":")
                 place = places[module][int(index)] if module in places else None

@@ -223,7 +223,7 @@ def chosen_tests(near, far, tests, budget):
         for index in sorted(indices, key=lambda i: tests[i].seconds):
             if (tests[index].seconds <= longest) == quick and tests[index].seconds <= left:
                 left -= tests[index].seconds
-                chosen.setdefault(tests[index].program, []).append(index)
+                chosen.setdefault((tests[index].program, tests[index].is_long), []).append(index)
         groups += sorted(chosen.items(), key=lambda group: sum(tests[i].seconds for i in group[1]))
     return groups
 
@@ -247,13 +247,14 @@ def try_mutant(worker, path, text, near, far, tests, kernels, budget=BUDGET):
         if code != 0:
             return "timed out in validate" if code is None else "killed by validate"
     count = 0
-    for name, indices in chosen_tests(near, far, tests, budget):
+    for (name, is_long), indices in chosen_tests(near, far, tests, budget):
         if name == "command_tests":
             program("defray")
         usual = sum(tests[i].seconds for i in indices)
         filters = ":".join(tests[i].name for i in indices)
         code, said = worker.run([program(name), f"--gtest_filter={filters}", "--gtest_fail_fast"],
-                                HANGS[0] + HANGS[1] * usual, environment)
+                                HANGS[0] + HANGS[1] * usual,
+                                {**environment, **({"DEFRAY_TEST_LONG": "1"} if is_long else {})})
         if code != 0:
             return f"timed out in {name}" if code is None else f"killed by {first_failure(said)}"
         count += len(indices)

@@ -1,6 +1,7 @@
 #pragma once
 // Where pictures are rendered.
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ inline constexpr std::size_t default_memory_bytes = std::size_t{512} << 20;
 
 struct DeviceOptions {
   Math math = Math::strict;
+  /// Work-groups that `defray tune` found for this device: the same bits, sooner.
+  bool use_tuning = true;
+  bool measures = false;  ///< Keeps each kernel's time, for take_kernel_seconds().
 };
 
 /// A device made ready: its kernels are built once, here. For one thread at a time; several devices
@@ -64,22 +68,33 @@ class DEFRAY_API Device {
 
   const std::string& name() const;
 
+  /// What the user should know: why work-groups found by `defray tune` are not used.
+  const std::vector<std::string>& notes() const;
+
+  /// Throws Error(usage) for the reference.
+  const DeviceProperties& properties() const;
+
+  /// Seconds that each kernel has run on the device since the last call, by its name; nothing
+  /// without DeviceOptions::measures. Throws Error(usage) for the reference.
+  std::map<std::string, double> take_kernel_seconds();
+
   /// What is made on the device at a time for one stage; default_memory_bytes unless set. The same
   /// bits come from more or less. Throws Error(usage) for the reference, which has no device
   /// memory.
   void set_memory(std::size_t bytes);
 
-  /// Work-group of every kernel, or of one; {0, 0}: each kernel's own, the default. The same bits
-  /// come from any. Throws Error(usage) for more work-items than the device allows, a kernel that
-  /// there is not, and the reference.
+  /// Work-group of every kernel, or of one; {0, 0}: as tuned, or each kernel's own, the default.
+  /// The same bits come from any. Throws Error(usage) for more work-items than the device allows, a
+  /// kernel that there is not, and the reference.
   void set_work_group(std::size_t x, std::size_t y);
   void set_work_group(const std::string& kernel, std::size_t x, std::size_t y);
 
  private:
   struct State;
   explicit Device(std::unique_ptr<State> state);
-  State& state_on_device(const char* setting);
+  State& state_on_device(const char* setting) const;
   friend Backend& backend_of(Device& device);
+  friend std::vector<std::string> use_tuning(Device& device, const std::string& frame_class);
 
   std::unique_ptr<State> state_;
 };

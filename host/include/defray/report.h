@@ -77,6 +77,8 @@ struct RenderReport {
   std::size_t nonfinite = 0;                       ///< Colour values that were NaN or Inf.
   std::optional<ChainReport> chain;                ///< Of the RDB with its stages.
   std::optional<ExpectedError> expected;           ///< Of the same, where it was asked for.
+  /// Work-groups that `defray tune` found and that were used: "fill=16x1".
+  std::vector<std::string> tuned;
 };
 
 }  // namespace defray

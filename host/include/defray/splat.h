@@ -64,6 +64,7 @@ struct SplatReport {
   double nearest_units = 0, farthest_units = 0;    ///< Depths of the splats seen.
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Their signed CoC radii.
   std::vector<StageTime> stages;
+  std::vector<std::string> tuned;  ///< As RenderReport::tuned.
 };
 
 /// Planes are row by row from the top, [height][width].

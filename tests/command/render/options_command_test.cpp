@@ -91,6 +91,14 @@ TEST_F(OptionsCommand, WorkGroupsForOneKernelOrAllChangeNoBit) {
   }
 }
 
+// PoCL keeps work-items' variables on its threads' stacks.
+TEST_F(OptionsCommand, TheLargestWorkGroupChangesNoBit) {
+  const std::size_t most = device_under_test().max_work_group;
+  const std::uint64_t base = rendered(lens);
+  EXPECT_EQ(rendered(lens + "--work-group " + std::to_string(most)), base);
+  EXPECT_EQ(rendered(fmt::format("{}--work-group {}x4", lens, most / 4)), base);
+}
+
 TEST_F(OptionsCommand, WrongWorkGroupsAreRefused) {
   const auto refused = [&](const std::string& groups, const std::vector<std::string>& words) {
     expect_refused(lens + "--work-group " + groups, words);

@@ -51,6 +51,9 @@ TEST(HalfSteps, TerracesBecomeTheSlopeTheyWere) {
   const float step = 1.0f / 128;
   EXPECT_GT(report.largest_px, 0.5);
   EXPECT_GT(report.smoothed, z.size() / 2);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) changed += z[i] != stepped[i] ? 1 : 0;
+  EXPECT_EQ(report.smoothed, changed);
   double before = 0, after = 0;
   for (std::size_t i = 0; i < z.size(); ++i) {
     EXPECT_LE(std::fabs(z[i] - stepped[i]), step / 2);

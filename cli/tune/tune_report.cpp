@@ -1,0 +1,131 @@
+#include "tune/tune_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "base/text.h"
+#include "measure/heat_map.h"
+#include "measure/html_report.h"
+
+namespace defray::cli {
+namespace {
+
+using tuning::Finding;
+
+/// "7 % (5 to 9 %)", what is won and the quartiles.
+std::string gain_of(const Finding& f) {
+  if (f.best == f.own) return "-";
+  return fmt::format("{:.0f} % ({:.0f} to {:.0f} %)", 100 * f.gain(), 100 * (1 - f.high),
+                     100 * (1 - f.low));
+}
+
+/// Times over the work-groups of a kernel on frames of a class.
+HeatMap map_of(const TuneReport& report, const Finding& f) {
+  std::set<std::size_t> xs, ys;
+  std::vector<const tuning::Result*> tries;
+  for (const tuning::Result& r : report.results) {
+    if (r.place != f.place || r.run_ms.empty()) continue;
+    tries.push_back(&r);
+    xs.insert(r.shape.x);
+    ys.insert(r.shape.y);
+  }
+  HeatMap map{fmt::format("{}: {}", f.place.kernel, f.place.picture), "x; ms, median", "y", {}, {}, {}};
+  for (const std::size_t x : xs) map.columns.push_back(std::to_string(x));
+  for (const std::size_t y : ys) {
+    map.rows.push_back(std::to_string(y));
+    for (const std::size_t x : xs) {
+      const auto is_this = [&](const auto* r) { return r->shape == tuning::Shape{x, y}; };
+      const auto found = std::find_if(tries.begin(), tries.end(), is_this);
+      map.values.push_back(found == tries.end()
+                               ? std::nullopt
+                               : std::optional(tuning::median_of((*found)->run_ms)));
+    }
+  }
+  return map;
+}
+
+std::string file_of(std::size_t index, const Finding& f) {
+  return fmt::format("{}-{}.png", index + 1, f.place.kernel);
+}
+
+std::string intro_of(const TuneReport& report) {
+  return fmt::format(
+      "Work-groups of kernels on {} ({}, {}). Any gives the same bits; times are medians of kernels' "
+      "own times. The fastest is used where it was run five times or more beside the kernel's own, "
+      "was 3 % sooner in the median and sooner in three of four pairs.",
+      report.key.device, report.key.platform, report.key.driver);
+}
+
+}  // namespace
+
+void print_text(const TuneReport& report) {
+  const std::vector<Finding> all = findings(report.results);
+  fmt::print("{}, {}\n", report.key.device, report.key.driver);
+  if (all.empty()) {
+    fmt::print("  nothing is tuned; 'defray tune' does it\n");
+    return;
+  }
+  std::string picture;
+  for (const Finding& f : all) {
+    if (std::exchange(picture, f.place.picture) != f.place.picture) {
+      fmt::print("  {}; for {} frames\n", picture, f.place.frame_class);
+      fmt::print("    {:<20} {:>8} {:>9} {:>8} {:>9}  {:<20} {:>5}\n", "kernel", "own", "ms",
+                 "best", "ms", "gain, quartiles", "tried");
+    }
+    fmt::print("    {:<20} {:>8} {:>9.3f} {:>8} {:>9.3f}  {:<20} {:>5}{}\n", f.place.kernel,
+               to_string(f.own), f.own_ms, to_string(f.best), f.best_ms, gain_of(f), f.tried,
+               f.is_adopted ? "  used" : "");
+  }
+  fmt::print("  {}\n", report.path);
+}
+
+void print_json(const TuneReport& report) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Finding& f : findings(report.results)) {
+    list.push_back({{"frames", f.place.frame_class},
+                    {"picture", f.place.picture},
+                    {"kernel", f.place.kernel},
+                    {"own", to_string(f.own)},
+                    {"own_ms", f.own_ms},
+                    {"best", to_string(f.best)},
+                    {"best_ms", f.best_ms},
+                    {"gain", f.gain()},
+                    {"gain_low", 1 - f.high},
+                    {"gain_high", 1 - f.low},
+                    {"tried", f.tried},
+                    {"used", f.is_adopted}});
+  }
+  const nlohmann::ordered_json json = {{"device", report.key.device},
+                                       {"platform", report.key.platform},
+                                       {"driver", report.key.driver},
+                                       {"file", report.path},
+                                       {"kernels", list}};
+  fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void write_report(const std::string& folder, const TuneReport& report) {
+  Table table{"tuning",
+              "Own: the work-group that is built in.",
+              {"frames", "picture", "kernel", "own", "ms", "best", "ms", "gain, quartiles", "tried", "used"},
+              {}};
+  Section section{"What was found", "", {}, {}, {}};
+  const std::vector<Finding> all = findings(report.results);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Finding& f = all[i];
+    table.rows.push_back({f.place.frame_class, f.place.picture, f.place.kernel, to_string(f.own), fmt::format("{:.3f}", f.own_ms),
+                          to_string(f.best), fmt::format("{:.3f}", f.best_ms), gain_of(f),
+                          std::to_string(f.tried), f.is_adopted ? "yes" : "no"});
+    write_heat_map(folder + "/" + file_of(i, f), map_of(report, f));
+    section.figures.push_back(
+        {file_of(i, f), fmt::format("{} on frames of class {}: built in {}, fastest {}", f.place.kernel,
+                                 f.place.frame_class, to_string(f.own), to_string(f.best))});
+  }
+  section.tables.push_back(std::move(table));
+  write_page(folder, {"defray tune: " + report.key.device, intro_of(report), {section}});
+}
+
+}  // namespace defray::cli
