@@ -72,7 +72,8 @@ TEST_F(TuneCommand, FindsKeepsShowsExportsAndForgets) {
   // A second run goes on.
   const auto runs = [&] {
     std::size_t count = 0;
-    for (const json& r : json::parse(std::ifstream(file()))["results"]) {
+    const json kept = json::parse(std::ifstream(file()));
+    for (const json& r : kept["results"]) {
       count += r["times"]["runtimes"].size();
     }
     return count;
