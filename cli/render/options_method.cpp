@@ -15,7 +15,7 @@ WordTable<Method> method_words() {
   return words;
 }
 
-/// Error instead of quality.
+/// Error or time instead of quality.
 std::vector<OptionRow> target_rows(RenderCommand& job) {
   const auto is_free = [](const Given& given) {
     return !given("--quality") && !given("--rdb") && !given("--hidden") && !given("--half-size");
@@ -29,6 +29,15 @@ std::vector<OptionRow> target_rows(RenderCommand& job) {
             .scope = of_chain,
             .needs = {is_free,
                       "goes without --quality, --rdb, --hidden and --half-size: it chooses them"}}},
+          {"--budget-ms",
+           value(job.settings.budget_ms),
+           "The best quality and --rdb that are expected to take so many milliseconds a picture, "
+           "files apart, on this device, which learns from frame to frame",
+           {.field = "budget_ms",
+            .scope = Scope{{Method::rdb}, false, false},
+            .needs = {[is_free](const Given& g) { return is_free(g) && !g("--target-db"); },
+                      "goes without --quality, --rdb, --hidden, --half-size and --target-db: it "
+                      "chooses them"}}},
           {"--strict-target",
            flag(job.strict_target),
            "Exit with 1 where no quality is expected to reach --target-db",

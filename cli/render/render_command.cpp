@@ -2,6 +2,7 @@
 
 #include "lens/depth.h"
 #include "lens/lens_grid.h"
+#include "library/budget.h"
 #include "methods/tiltshift.h"
 #include "options/lens_rows.h"
 #include "prediction/with_error.h"
@@ -41,6 +42,7 @@ void finish(RenderCommand& job) {
   validate(s.depth);
   s.camera_from_metadata = job.camera == from_metadata;
   validate(m, {false, !job.paths.error.empty(), s.error.target_db});
+  if (s.budget_ms) validate_budget(m, s.error, *s.budget_ms);
   s.error.wants_expected = job.json || !job.quiet;
 }
 

@@ -59,6 +59,11 @@ std::string expected_line(const ExpectedError& e) {
       100 * e.shares[2], 100 * e.shares[3]);
 }
 
+/// As options, to be repeated exactly.
+std::string options_of(const BudgetChoice& b) {
+  return fmt::format("--quality {} --rdb {}", to_string(b.quality), b.cells_per_side);
+}
+
 nlohmann::ordered_json expected_json(const ExpectedError& e) {
   nlohmann::ordered_json json = {{"psnr_srgb_db", e.psnr_db}, {"low_db", e.low_db},
                                  {"high_db", e.high_db},      {"sampling", e.shares[0]},
@@ -152,6 +157,12 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
   report.update(lens_json(r));
   if (r.chain) report["chain"] = chain_json(*r.chain);
   if (r.expected) report["expected"] = expected_json(*r.expected);
+  if (r.budget) {
+    report["budget"] = {{"quality", to_string(r.budget->quality)},
+                        {"rdb", r.budget->cells_per_side},
+                        {"expected_ms", r.budget->expected_ms},
+                        {"budget_ms", r.budget->budget_ms}};
+  }
   report.update({{"nearest_coc_px", r.nearest_coc_px},
                  {"farthest_coc_px", r.farthest_coc_px},
                  {"coc_limited_px", r.coc_limited},
@@ -183,6 +194,10 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
+  if (r.budget) {
+    fmt::print("  {}: {:.4g} ms expected, {:.4g} taken, of {:.4g}\n", options_of(*r.budget),
+               r.budget->expected_ms, 1000 * r.render_seconds, r.budget->budget_ms);
+  }
   if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,

@@ -50,34 +50,33 @@ std::vector<OptionGroup> tune_options(TuneCommand& job) {
   std::erase_if(device.rows, [](const OptionRow& row) {
     return row.name == "--work-group" || row.name == "--no-tuning";
   });
-  return {{"",
-           {{"input", value(job.paths.input), "A picture with depth, instead of built-in ones"},
-            {"-o,--output", value(job.folder), "Folder for a report: a heat map a kernel"},
-            {"--budget", value(job.budget), "Time for all of it: 60s, 10m, 1h"},
-            {"--kernel",
-             values(job.kernels),
-             "These kernels; without it, those that take 2 % or more of a picture"},
-            {"--methods", values(job.methods), "rdb, gather, linear, splat (built-in pictures)"},
-            {"--sizes",
-             values(job.sizes),
-             "Of built-in pictures: small (640x480), hd (1920x1080), uhd (3840x2160)",
-             {.needs = {[](const Given& given) { return !given("input"); },
-                        "goes without a picture, which has its own"}}},
-            {"--show", flag(job.shows), "Tell what is known of the device, and tune nothing"},
-            {"--clear", flag(job.clears), "Forget what is known of the device"},
-            {"--export", value(job.export_to), "Write what is known to this JSON file"},
-            {"--depth",
-             value(job.paths.depth),
-             "Take depth from this file",
-             {.needs = {[](const Given& given) { return given("input"); },
-                        "goes with a picture"}}}}},
-          of_a_picture(channel_options(job), "--channels"),
-          of_a_picture(lens_options(job), "--focus-frame"),
-          of_a_picture(aperture_options(job.chain.aperture), ""),
-          device,
-          {"Terminal",
-           {{"--json", flag(job.json), "JSON instead of text"},
-            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"}}}};
+  return {
+      {"",
+       {{"input", value(job.paths.input), "A picture with depth, instead of built-in ones"},
+        {"-o,--output", value(job.folder), "Folder for a report: a heat map a kernel"},
+        {"--budget", value(job.budget), "Time for all of it: 60s, 10m, 1h"},
+        {"--kernel", values(job.kernels),
+         "These kernels; without it, those that take 2 % or more of a picture"},
+        {"--methods", values(job.methods), "rdb, gather, linear, splat (built-in pictures)"},
+        {"--sizes",
+         values(job.sizes),
+         "Of built-in pictures: small (640x480), hd (1920x1080), uhd (3840x2160)",
+         {.needs = {[](const Given& given) { return !given("input"); },
+                    "goes without a picture, which has its own"}}},
+        {"--show", flag(job.shows), "Tell what is known of the device, and tune nothing"},
+        {"--clear", flag(job.clears), "Forget what is known of the device"},
+        {"--export", value(job.export_to), "Write what is known to this JSON file"},
+        {"--depth",
+         value(job.paths.depth),
+         "Take depth from this file",
+         {.needs = {[](const Given& given) { return given("input"); }, "goes with a picture"}}}}},
+      of_a_picture(channel_options(job), "--channels"),
+      of_a_picture(lens_options(job), "--focus-frame"),
+      of_a_picture(aperture_options(job.chain.aperture), ""),
+      device,
+      {"Terminal",
+       {{"--json", flag(job.json), "JSON instead of text"},
+        {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"}}}};
 }
 
 void check(const TuneCommand& job) {
@@ -206,7 +205,8 @@ int run(const OptionTable& options, TuneCommand& job) {
 
 Run add_tune(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "tune", "Find this device's fastest work-groups, once; render, splat and the library use them");
+      "tune",
+      "Find this device's fastest work-groups, once; render, splat and the library use them");
   command->footer(tune_footer);
   const auto job = std::make_shared<TuneCommand>();
   const OptionTable options(*command, tune_options(*job));

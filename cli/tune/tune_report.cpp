@@ -33,16 +33,16 @@ HeatMap map_of(const TuneReport& report, const Finding& f) {
     xs.insert(r.shape.x);
     ys.insert(r.shape.y);
   }
-  HeatMap map{fmt::format("{}: {}", f.place.kernel, f.place.picture), "x; ms, median", "y", {}, {}, {}};
+  HeatMap map{
+      fmt::format("{}: {}", f.place.kernel, f.place.picture), "x; ms, median", "y", {}, {}, {}};
   for (const std::size_t x : xs) map.columns.push_back(std::to_string(x));
   for (const std::size_t y : ys) {
     map.rows.push_back(std::to_string(y));
     for (const std::size_t x : xs) {
       const auto is_this = [&](const auto* r) { return r->shape == tuning::Shape{x, y}; };
       const auto found = std::find_if(tries.begin(), tries.end(), is_this);
-      map.values.push_back(found == tries.end()
-                               ? std::nullopt
-                               : std::optional(tuning::median_of((*found)->run_ms)));
+      map.values.push_back(
+          found == tries.end() ? std::nullopt : std::optional(tuning::median_of((*found)->run_ms)));
     }
   }
   return map;
@@ -54,7 +54,8 @@ std::string file_of(std::size_t index, const Finding& f) {
 
 std::string intro_of(const TuneReport& report) {
   return fmt::format(
-      "Work-groups of kernels on {} ({}, {}). Any gives the same bits; times are medians of kernels' "
+      "Work-groups of kernels on {} ({}, {}). Any gives the same bits; times are medians of "
+      "kernels' "
       "own times. The fastest is used where it was run five times or more beside the kernel's own, "
       "was 3 % sooner in the median and sooner in three of four pairs.",
       report.key.device, report.key.platform, report.key.driver);
@@ -110,19 +111,22 @@ void print_json(const TuneReport& report) {
 void write_report(const std::string& folder, const TuneReport& report) {
   Table table{"tuning",
               "Own: the work-group that is built in.",
-              {"frames", "picture", "kernel", "own", "ms", "best", "ms", "gain, quartiles", "tried", "used"},
+              {"frames", "picture", "kernel", "own", "ms", "best", "ms", "gain, quartiles", "tried",
+               "used"},
               {}};
   Section section{"What was found", "", {}, {}, {}};
   const std::vector<Finding> all = findings(report.results);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Finding& f = all[i];
-    table.rows.push_back({f.place.frame_class, f.place.picture, f.place.kernel, to_string(f.own), fmt::format("{:.3f}", f.own_ms),
-                          to_string(f.best), fmt::format("{:.3f}", f.best_ms), gain_of(f),
-                          std::to_string(f.tried), f.is_adopted ? "yes" : "no"});
+    table.rows.push_back({f.place.frame_class, f.place.picture, f.place.kernel, to_string(f.own),
+                          fmt::format("{:.3f}", f.own_ms), to_string(f.best),
+                          fmt::format("{:.3f}", f.best_ms), gain_of(f), std::to_string(f.tried),
+                          f.is_adopted ? "yes" : "no"});
     write_heat_map(folder + "/" + file_of(i, f), map_of(report, f));
     section.figures.push_back(
-        {file_of(i, f), fmt::format("{} on frames of class {}: built in {}, fastest {}", f.place.kernel,
-                                 f.place.frame_class, to_string(f.own), to_string(f.best))});
+        {file_of(i, f),
+         fmt::format("{} on frames of class {}: built in {}, fastest {}", f.place.kernel,
+                     f.place.frame_class, to_string(f.own), to_string(f.best))});
   }
   section.tables.push_back(std::move(table));
   write_page(folder, {"defray tune: " + report.key.device, intro_of(report), {section}});

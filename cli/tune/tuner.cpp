@@ -41,8 +41,8 @@ Tuner::Milliseconds Tuner::draw(const Shapes& shapes) {
   bool is_right = true;
   if (!is_compiled) {
     // Devices compile for a work-group when it is first used: not in the time that is kept.
-    is_right = workload_->draw_small(device_) == expected_small_ &&
-               workload_->draw(device_) == expected_;
+    is_right =
+        workload_->draw_small(device_) == expected_small_ && workload_->draw(device_) == expected_;
   }
   device_.take_kernel_seconds();
   is_right = is_right && workload_->draw(device_) == expected_;

@@ -21,8 +21,9 @@ class Tuner {
   /// DeviceOptions::measures, and without use_tuning.
   Tuner(Device& device, std::string path, std::vector<std::string> kernels);
 
-  /// So long, one picture at the least, or until nothing is left to learn. Throws Error(device) where the launch table's own
-  /// work-groups do not give the twins' bits, or none of `kernels` runs; Error(output).
+  /// So long, one picture at the least, or until nothing is left to learn. Throws Error(device)
+  /// where the launch table's own work-groups do not give the twins' bits, or none of `kernels`
+  /// runs; Error(output).
   void run(const Workload& workload, double seconds, const TuneProgress& progress);
 
   /// Kernels that were tuned in any picture.

@@ -22,7 +22,8 @@ constexpr PictureSize small_picture{96, 64};
 
 const WordTable<Method> method_names{
     {"rdb", Method::rdb}, {"gather", Method::gather}, {"linear", Method::linear}};
-const WordTable<PictureSize> sizes{{"small", {640, 480}}, {"hd", {1920, 1080}}, {"uhd", {3840, 2160}}};
+const WordTable<PictureSize> sizes{
+    {"small", {640, 480}}, {"hd", {1920, 1080}}, {"uhd", {3840, 2160}}};
 
 /// A built-in scene as a lens takes it.
 struct BuiltIn {
@@ -45,8 +46,7 @@ std::shared_ptr<const BuiltIn> built_in(const std::string& name, PictureSize siz
   for (const float z : made->pinhole.depth) {
     largest = std::max(largest, std::abs(1 - focus / static_cast<double>(z)));
   }
-  made->lens.aperture_diameter_mm *=
-      coc_px / (largest * background_coc_px(made->lens, size.width));
+  made->lens.aperture_diameter_mm *= coc_px / (largest * background_coc_px(made->lens, size.width));
   return made;
 }
 
@@ -62,8 +62,10 @@ Workload workload_of(const std::string& method, const std::string& scene, Pictur
   const auto frame = built_in(scene, size, coc_px);
   const auto small = built_in(scene, small_picture, coc_px / 4);
   const Options options = options_of(method);
-  return {fmt::format("{}, {}, {}x{}, CoC up to {} px", method, scene, size.width, size.height, coc_px),
-          tuning::frame_class(frame->pinhole.depth.size(), coc_px), drawn_by(options, frame), drawn_by(options, small)};
+  return {
+      fmt::format("{}, {}, {}x{}, CoC up to {} px", method, scene, size.width, size.height, coc_px),
+      tuning::frame_class(frame->pinhole.depth.size(), coc_px), drawn_by(options, frame),
+      drawn_by(options, small)};
 }
 
 Workload splat_workload(PictureSize size) {
@@ -81,10 +83,10 @@ Workload splat_workload(PictureSize size) {
       return splat(device, *model, pose, lens, settings).colour;
     };
   };
-  const std::size_t pixels = static_cast<std::size_t>(size.width) *
-                             static_cast<std::size_t>(size.height);
-  return {fmt::format("splat, figure, {}x{}", size.width, size.height),
-          tuning::cloud_class(pixels), draw(size), draw(small_picture)};
+  const std::size_t pixels =
+      static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  return {fmt::format("splat, figure, {}x{}", size.width, size.height), tuning::cloud_class(pixels),
+          draw(size), draw(small_picture)};
 }
 
 }  // namespace

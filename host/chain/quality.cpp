@@ -1,4 +1,4 @@
-#include "defray/options.h"
+#include "chain/quality.h"
 
 namespace defray {
 
@@ -23,6 +23,15 @@ ChainSettings settings_for(Quality quality) {
     s.pattern_shifts = 48;
   }
   return s;
+}
+
+ChainSettings with_quality(ChainSettings chain, Quality quality) {
+  const ChainSettings said = settings_for(quality);
+  chain.cells_per_side = said.cells_per_side;
+  chain.hidden = said.hidden;
+  chain.pattern_shifts = said.pattern_shifts;
+  chain.half_size = said.half_size;
+  return chain;
 }
 
 }  // namespace defray

@@ -19,6 +19,7 @@ struct Device::State {
   std::unique_ptr<Backend> backend;
   std::vector<tuning::Result> tried = {};
   std::vector<std::string> notes = {};
+  std::optional<Costs> costs = {};
 };
 
 Device::Device(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -96,6 +97,17 @@ void Device::set_work_group(const std::string& kernel, std::size_t x, std::size_
 }
 
 Backend& backend_of(Device& device) { return *device.state_->backend; }
+
+Costs& costs_of(Device& device) {
+  std::optional<Costs>& costs = device.state_->costs;
+  if (costs) return *costs;
+  costs.emplace();
+  if (!device.state_->session) return *costs;
+  costs->key = tuning::key_of(device.state_->session->info());
+  costs->path = tuning::device_path("cost", costs->key);
+  costs->model = tuning::read_costs(costs->path, costs->key, costs->notice);
+  return *costs;
+}
 
 std::vector<std::string> use_tuning(Device& device, const std::string& frame_class) {
   std::vector<std::string> used;

@@ -96,4 +96,11 @@ void note_target(const std::optional<ExpectedError>& expected, const ErrorSettin
                   *wanted.target_db, 100 * *most, about(cause)));
 }
 
+void note_budget(const BudgetChoice& c, std::vector<std::string>& notes) {
+  if (c.expected_ms <= c.budget_ms) return;
+  notes.push_back(
+      fmt::format("{} of {:.4g}: the fastest quality, preview, takes about {:.3g} ms here",
+                  field("budget_ms"), c.budget_ms, c.expected_ms));
+}
+
 }  // namespace defray

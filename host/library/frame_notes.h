@@ -27,4 +27,7 @@ void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int di
 void note_target(const std::optional<ExpectedError>& expected, const ErrorSettings& wanted,
                  std::vector<std::string>& notes);
 
+/// That the fastest quality is not fast enough.
+void note_budget(const BudgetChoice& choice, std::vector<std::string>& notes);
+
 }  // namespace defray

@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "defray/defray.h"
 #include "image/nonfinite.h"
 #include "lens/coc.h"
 #include "lens/depth.h"
 #include "library/backend_of.h"
+#include "library/budget.h"
 #include "library/lens_frame.h"
 #include "methods/method.h"
 #include "methods/tiltshift.h"
@@ -79,6 +81,7 @@ void validate(const Lens& lens, const Options& options) {
   validate(options.depth);
   if (options.method == Method::gather) validate(options.gather);
   validate(options, options.error);
+  if (options.budget_ms) validate_budget(options, options.error, *options.budget_ms);
 }
 
 }  // namespace
@@ -87,12 +90,20 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
                     const Options& options, const Progress& progress) {
   check(picture, options);
   validate(lens, options);
+  const Stopwatch watch;
   RenderResult out;
   Backend& backend = backend_of(device);
   const Frame frame = frame_of(picture, lens, options, backend, out.report);
-  out.report.tuned = use_tuning(device, class_of(frame, out.report));
+  const std::string frame_class = class_of(frame, out.report);
+  out.report.tuned = use_tuning(device, frame_class);
+  std::optional<Budget> budget;
+  if (options.budget_ms) {
+    budget.emplace(device, frame_class, frame.pixels(), *options.budget_ms);
+    out.report.budget = budget->choice();
+  }
+  const MethodSettings method = budget ? budget->settings(options) : MethodSettings(options);
   ResultWithError made =
-      apply_with_error(frame, options, options.error, backend, options.wants_nearest, progress);
+      apply_with_error(frame, method, options.error, backend, options.wants_nearest, progress);
   MethodResult& result = made.result;
   out.report.expected = made.expected(options.error);
   if (made.prediction && options.error.wants_planes) {
@@ -103,6 +114,7 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   out.coc_px = radii_px(frame.coc_quanta.host());
   out.confidence = std::move(result.confidence);
   out.nearest = std::move(result.nearest);
+  if (budget) budget->learn(watch.seconds() - made.predict_seconds, *out.report.chain);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "image/output.h"
 #include "lens/coc.h"
 #include "library/backend_of.h"
+#include "library/budget.h"
 #include "library/check_paths.h"
 #include "library/frame_notes.h"
 #include "library/lens_frame.h"
@@ -108,7 +109,9 @@ void FileRender::read() {
   const std::optional<ChainSettings>& chain = s.settings.method.chain;
   check_paths(s.paths, {s.settings.camera.source, chain ? chain->aperture.image : ""});
   check_outputs(s.paths, s.settings.compression, s.settings.bits);
-  validate(s.settings.method, error_settings(s.settings, s.paths));
+  const ErrorSettings error = error_settings(s.settings, s.paths);
+  validate(s.settings.method, error);
+  if (s.settings.budget_ms) validate_budget(s.settings.method, error, *s.settings.budget_ms);
   Stopwatch watch;
   s.source.emplace(read_source(s.paths, s.settings, s.report));
   s.report.read_seconds = watch.lap();
@@ -120,11 +123,18 @@ void FileRender::render(Device& device, const Progress& progress) {
   Backend& backend = backend_of(device);
   Stopwatch watch;
   const Frame frame = frame_of(*s.source, s.settings, backend, s.report);
-  s.report.tuned = use_tuning(device, class_of(frame, s.report));
+  const std::string frame_class = class_of(frame, s.report);
+  s.report.tuned = use_tuning(device, frame_class);
+  std::optional<Budget> budget;
+  if (s.settings.budget_ms) {
+    budget.emplace(device, frame_class, frame.pixels(), *s.settings.budget_ms);
+    s.report.budget = budget->choice();
+    note_budget(budget->choice(), s.report.notes);
+  }
+  const MethodSettings method = budget ? budget->settings(s.settings.method) : s.settings.method;
   const bool wants_nearest = !s.source->further.data.empty();
   const ErrorSettings error = error_settings(s.settings, s.paths);
-  ResultWithError made =
-      apply_with_error(frame, s.settings.method, error, backend, wants_nearest, progress);
+  ResultWithError made = apply_with_error(frame, method, error, backend, wants_nearest, progress);
   MethodResult& result = made.result;
   s.report.chain = std::move(result.report);
   s.report.expected = made.expected(error);
@@ -140,6 +150,11 @@ void FileRender::render(Device& device, const Progress& progress) {
   s.confidence = std::move(result.confidence);
   s.report.predict_seconds = made.predict_seconds;
   s.report.render_seconds = watch.lap() - made.predict_seconds;
+  if (!budget) return;
+  for (const std::string& note :
+       {budget->take_notice(), budget->learn(s.report.render_seconds, *s.report.chain)}) {
+    if (!note.empty()) s.report.notes.push_back(note);
+  }
 }
 
 FrameResult FileRender::write() {

@@ -2,19 +2,10 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "chain/quality.h"
 
 namespace defray {
 namespace {
-
-/// What a quality says, all else as it is.
-ChainSettings with_quality(ChainSettings chain, Quality quality) {
-  const ChainSettings said = settings_for(quality);
-  chain.cells_per_side = said.cells_per_side;
-  chain.hidden = said.hidden;
-  chain.pattern_shifts = said.pattern_shifts;
-  chain.half_size = said.half_size;
-  return chain;
-}
 
 ResultWithError apply(const Frame& frame, const MethodSettings& settings,
                       const ErrorSettings& error, Backend& backend, bool wants_nearest,

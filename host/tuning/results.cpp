@@ -27,9 +27,7 @@ std::string size_class(std::size_t pixels) {
   return pixels <= most_hd_px ? "hd" : "uhd";
 }
 
-bool is_same(const Result& a, const Result& b) {
-  return a.place == b.place && a.shape == b.shape;
-}
+bool is_same(const Result& a, const Result& b) { return a.place == b.place && a.shape == b.shape; }
 
 /// Keeps the latest pictures of each class: the file is read at every start.
 void forget_old_pictures(std::vector<Result>& results) {
@@ -104,9 +102,8 @@ std::vector<const Result*> tries_at(const std::vector<Result>& results, const Pl
       tries.push_back(&r);
     }
   }
-  std::stable_sort(tries.begin(), tries.end(), [](auto a, auto b) {
-    return median_of(a->run_ms) < median_of(b->run_ms);
-  });
+  std::stable_sort(tries.begin(), tries.end(),
+                   [](auto a, auto b) { return median_of(a->run_ms) < median_of(b->run_ms); });
   return tries;
 }
 

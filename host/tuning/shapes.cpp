@@ -32,7 +32,8 @@ std::vector<Shape> shapes_of(const std::string& kernel, std::size_t most_items) 
   std::vector<Shape> shapes{own};
   for (std::size_t y = 1; y <= tallest; y *= 2) {
     for (std::size_t x = 1; x <= most_x; x *= 2) {
-      if (x * y <= std::min(most_items, most_in_all) && Shape{x, y} != own) shapes.push_back({x, y});
+      if (x * y <= std::min(most_items, most_in_all) && Shape{x, y} != own)
+        shapes.push_back({x, y});
     }
   }
   return shapes;
@@ -63,8 +64,8 @@ std::optional<Shape> next_to_explore(const std::vector<Result>& results, const P
 Shape next_to_confirm(const std::vector<Result>& results, const Place& place) {
   const Shape own = own_shape(place.kernel);
   auto tries = tries_at(results, place);
-  const auto at_own = std::find_if(tries.begin(), tries.end(),
-                                   [&](const Result* r) { return r->shape == own; });
+  const auto at_own =
+      std::find_if(tries.begin(), tries.end(), [&](const Result* r) { return r->shape == own; });
   if (at_own == tries.end()) return own;
   std::rotate(tries.begin(), at_own, at_own + 1);  // own, then the fastest
   tries.resize(std::min(tries.size(), 1 + to_confirm));

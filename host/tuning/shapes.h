@@ -12,8 +12,8 @@ Shape own_shape(const std::string& kernel);
 /// Powers of two, as many work-items as the device allows, the launch table's first.
 std::vector<Shape> shapes_of(const std::string& kernel, std::size_t most_items);
 
-/// The work-group to explore next: the launch table's; then, in turn, one beside the best so far and
-/// one by chance (the same chance in every run); those that were not tried yet. None: all were.
+/// The work-group to explore next: the launch table's; then, in turn, one beside the best so far
+/// and one by chance (the same chance in every run); those that were not tried yet. None: all were.
 std::optional<Shape> next_to_explore(const std::vector<Result>& results, const Place& place,
                                      std::size_t most_items);
 

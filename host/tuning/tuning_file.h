@@ -4,20 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "defray/device.h"
+#include "tuning/device_file.h"
 #include "tuning/results.h"
 
 namespace defray::tuning {
 
-/// What results hold for.
-struct Key {
-  std::string device, platform, driver;
-  std::string kernels;  ///< Hash of their text.
-};
-
-Key key_of(const DeviceProperties& device);
-
-/// In $XDG_CACHE_HOME/defray or ~/.cache/defray; empty where there is neither.
+/// Of the device's results; empty where there is no cache folder.
 std::string path_of(const Key& key);
 
 struct Tuning {
@@ -30,8 +22,8 @@ struct Tuning {
 Tuning read(const std::string& path, const Key& key, std::size_t most_items);
 
 /// Merges with what the file knows meanwhile (another tuner may be at work) and writes it anew,
-/// whole or not at all. What the file held of other drivers or kernels goes. All that is known then.
-/// Throws Error(output).
+/// whole or not at all. What the file held of other drivers or kernels goes. All that is known
+/// then. Throws Error(output).
 std::vector<Result> add(const std::string& path, const Key& key, std::size_t most_items,
                         const std::vector<Result>& results);
 

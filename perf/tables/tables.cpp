@@ -23,6 +23,7 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"papers", {"the papers' claims beside our figures", measure_papers}},
       {"arithmetic", {"relaxed builds of the kernels", measure_arithmetic}},
       {"validate", {"kernels against twins on every device", measure_validation}},
+      {"tuning", {"work-groups: what 'defray tune' found", measure_tuning}},
       {"speed", {"rays a second (defray_benchmark)", measure_speed}}};
   return all;
 }

@@ -47,6 +47,7 @@ Figures measure_splat_speed(TableBench& bench);  ///< The same: time by points a
 Figures measure_papers(TableBench& bench);       ///< The papers' claims beside our figures.
 Figures measure_arithmetic(TableBench& bench);   ///< Other builds of the kernels.
 Figures measure_validation(TableBench& bench);   ///< Kernels against twins, on every device.
+Figures measure_tuning(TableBench& bench);       ///< Work-groups: what `defray tune` found.
 Figures measure_speed(TableBench& bench);        ///< Rays a second, by the benchmark beside us.
 
 struct ReadmeTable {

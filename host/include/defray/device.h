@@ -11,6 +11,7 @@
 namespace defray {
 
 class Backend;
+struct Costs;
 
 /// What matters to defray about an OpenCL device.
 struct DeviceProperties {
@@ -94,6 +95,7 @@ class DEFRAY_API Device {
   explicit Device(std::unique_ptr<State> state);
   State& state_on_device(const char* setting) const;
   friend Backend& backend_of(Device& device);
+  friend Costs& costs_of(Device& device);
   friend std::vector<std::string> use_tuning(Device& device, const std::string& frame_class);
 
   std::unique_ptr<State> state_;

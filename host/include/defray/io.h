@@ -80,6 +80,7 @@ struct RenderSettings {
   Nonfinite nonfinite = Nonfinite::zero;
   ErrorSettings error;                ///< FramePaths::error asks for what is expected, too.
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
+  std::optional<double> budget_ms;    ///< As Options::budget_ms.
   TiltshiftSettings tiltshift;
 };
 

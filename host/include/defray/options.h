@@ -163,6 +163,9 @@ struct Options : MethodSettings {
   DepthSettings depth;
   Nonfinite nonfinite = Nonfinite::zero;
   bool wants_nearest = false;  ///< rdb: RenderResult::nearest.
+  /// rdb with its stages: the best quality that is expected to take so long at the most; the
+  /// qualities' own settings do not count then. The device learns from picture to picture.
+  std::optional<double> budget_ms;
   ErrorSettings error;
 };
 

@@ -70,6 +70,13 @@ struct ExpectedError {
 };
 
 /// Of a render.
+/// What a budget of time chose.
+struct BudgetChoice {
+  Quality quality = Quality::preview;
+  int cells_per_side = 0;                 ///< ChainSettings::cells_per_side with that quality.
+  double expected_ms = 0, budget_ms = 0;  ///< Above the budget: the fastest quality is.
+};
+
 struct RenderReport {
   DepthReport depth;
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.
@@ -79,6 +86,7 @@ struct RenderReport {
   std::optional<ExpectedError> expected;           ///< Of the same, where it was asked for.
   /// Work-groups that `defray tune` found and that were used: "fill=16x1".
   std::vector<std::string> tuned;
+  std::optional<BudgetChoice> budget;  ///< Where one was given.
 };
 
 }  // namespace defray

@@ -16,9 +16,8 @@ class TuneCommand : public testing::Test {
  protected:
   Folder folder;
   /// A cache folder of its own, but for the kernels that are compiled.
-  const std::string own_cache =
-      "env XDG_CACHE_HOME='" + (folder / "cache") +
-      "' POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-$HOME/.cache/pocl/kcache}\"";
+  const std::string own_cache = "env XDG_CACHE_HOME='" + (folder / "cache") +
+                                "' POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-$HOME/.cache/pocl/kcache}\"";
   const std::string linear = "tune in.exr --methods linear --kernel linear_psf" + lens;
 
   void SetUp() override { write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}); }
@@ -114,7 +113,9 @@ TEST_F(TuneCommand, IsUsedByRenderAndSplatUnlessRefused) {
   EXPECT_EQ(parsed(job + "--no-tuning")["tuned"], json::array());
   EXPECT_EQ(file_hash(folder / "out.exr"), tuned);
   EXPECT_EQ(parsed(job + "--work-group fill=8x1")["tuned"], json::array());
-  const std::string cloud = "splat --model plane --model-points 400 -o c.exr --size 32x32 --focus 3 --fstop 0.5 --focal-length 50";
+  const std::string cloud =
+      "splat --model plane --model-points 400 -o c.exr --size 32x32 --focus 3 --fstop 0.5 "
+      "--focal-length 50";
   EXPECT_EQ(parsed(cloud)["tuned"], json{"splat_resolve=2x2"});
   EXPECT_EQ(parsed(cloud + " --no-tuning")["tuned"], json::array());
 }
@@ -125,7 +126,8 @@ TEST_F(TuneCommand, ADamagedFileIsOneNote) {
   const std::string note = "defray: note: " + file() + ": is damaged and not used";
   for (const std::string& job :
        {"render in.exr -o out.exr" + lens,
-        std::string("splat --model plane --model-points 400 -o c.exr --size 32x32 --focus 3 --fstop 0.5 --focal-length 50"),
+        std::string("splat --model plane --model-points 400 -o c.exr --size 32x32 --focus 3 "
+                    "--fstop 0.5 --focal-length 50"),
         std::string("tune --show")}) {
     const Result result = run(job);
     EXPECT_EQ(result.code, 0) << job << result.err;
@@ -141,7 +143,8 @@ TEST_F(TuneCommand, RefusesWhatMeansNothing) {
   expect_refused("tune --budget nan", 2, {"--budget 'nan'"});
   expect_refused("tune --budget 1d", 2, {"--budget '1d'"});
   expect_refused("tune --kernel fil", 2, {"--kernel", "'fil'", "'fill'"});
-  expect_refused("tune --methods tiltshift", 2, {"--methods 'tiltshift'", "rdb gather linear splat"});
+  expect_refused("tune --methods tiltshift", 2,
+                 {"--methods 'tiltshift'", "rdb gather linear splat"});
   expect_refused("tune in.exr --methods splat" + lens, 2, {"splat", "point cloud"});
   expect_refused("tune --sizes huge", 2, {"--sizes 'huge'", "small hd uhd"});
   expect_refused("tune --show --clear", 2, {"--show, --clear and --export: one of them"});
@@ -158,8 +161,8 @@ TEST_F(TuneCommand, RefusesWhatMeansNothing) {
 TEST_F(TuneCommand, NeedsAFolderThatCanBeWritten) {
   std::ofstream(folder / "file") << "no folder";
   const std::string cache = "POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-$HOME/.cache/pocl/kcache}\" ";
-  const Result refused = defray(folder, linear + "--budget 9m",
-                                cache + "XDG_CACHE_HOME='" + (folder / "file") + "'");
+  const Result refused =
+      defray(folder, linear + "--budget 9m", cache + "XDG_CACHE_HOME='" + (folder / "file") + "'");
   expect_refusal(refused, 4, {folder / "file"}, linear);
   const Result homeless = defray(folder, "tune --show", "env -u XDG_CACHE_HOME -u HOME " + cache);
   expect_refusal(homeless, 4, {"set XDG_CACHE_HOME or HOME"}, "tune --show");

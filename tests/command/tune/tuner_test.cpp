@@ -98,8 +98,8 @@ TEST_F(TunerAtWork, TakesKernelsOfTwoPerCentOrMore) {
 }
 
 TEST_F(TunerAtWork, WhatGivesOtherBitsCountsForNothing) {
-  // 1 is what is expected, 2 its timing, 3 and 4 are of the kernels' own shapes; 5 is of another shape
-  // each, and then each alone: 6 of coc's, 7 and 8 of linear_psf's.
+  // 1 is what is expected, 2 its timing, 3 and 4 are of the kernels' own shapes; 5 is of another
+  // shape each, and then each alone: 6 of coc's, 7 and 8 of linear_psf's.
   spoil = [](int n, Drawn& p) {
     if (n == 5 || n == 6) p[0][7] += 1e-6f;
   };

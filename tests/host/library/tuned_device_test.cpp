@@ -41,7 +41,8 @@ class Tuned : public testing::Test {
     return Device::open(info.name, {Math::strict, use_tuning, true});
   }
 
-  RenderResult picture(Device& device, double aperture_mm = 100) const {
+  RenderResult picture(Device& device, double aperture_mm = 100,
+                       const Options& options = {}) const {
     Picture p;
     p.data = {0, 0, 48, 32};
     p.colour = {colour, colour, colour};
@@ -49,11 +50,40 @@ class Tuned : public testing::Test {
     Lens lens;
     lens.focus_distance_units = 3;
     lens.aperture_diameter_mm = aperture_mm;
-    return render(device, p, lens);
+    return render(device, p, lens, options);
   }
 };
 
 using Names = std::vector<std::string>;
+
+TEST_F(Tuned, ABudgetChoosesTheQuality) {
+  Device device = open();
+  Options options;
+  options.budget_ms = 60000;
+  options.error.wants_expected = true;
+  const RenderResult rich = picture(device, 100, options);
+  ASSERT_TRUE(rich.report.budget);
+  EXPECT_EQ(rich.report.budget->quality, Quality::high);
+  EXPECT_EQ(rich.report.budget->cells_per_side, 33);
+  EXPECT_EQ(rich.report.budget->budget_ms, 60000);
+  Options by_hand;
+  by_hand.chain = settings_for(Quality::high);
+  EXPECT_EQ(picture(device, 100, by_hand).colour, rich.colour);
+  // It learns, and keeps that for other processes.
+  EXPECT_NE(picture(device, 100, options).report.budget->expected_ms,
+            rich.report.budget->expected_ms);
+  Device another = open();
+  EXPECT_NE(picture(another, 100, options).report.budget->expected_ms,
+            rich.report.budget->expected_ms);
+  const auto refuses = [&](const std::vector<std::string>& words, const auto& change) {
+    Options changed = options;
+    change(changed);
+    expect_error(ErrorKind::usage, words, [&] { picture(device, 100, changed); });
+  };
+  refuses({"budget_ms", "above 0"}, [](Options& o) { o.budget_ms = -1; });
+  refuses({"budget_ms", "target_db"}, [](Options& o) { o.error.target_db = 40; });
+  refuses({"budget_ms", "stages alone"}, [](Options& o) { o.chain.reset(), o.error = {}; });
+}
 
 TEST_F(Tuned, WorkGroupsAreUsedAndToldAndGiveTheSameBits) {
   Device plain = open();
@@ -117,7 +147,8 @@ TEST_F(Tuned, KernelsTimesAreThoseSinceTheLastCall) {
   EXPECT_GT(seconds.at("coc"), 0);
   EXPECT_TRUE(device.take_kernel_seconds().empty());
   Device reference = Device::reference();
-  expect_error(ErrorKind::usage, {"measures", "reference"}, [&] { reference.take_kernel_seconds(); });
+  expect_error(ErrorKind::usage, {"measures", "reference"},
+               [&] { reference.take_kernel_seconds(); });
   expect_error(ErrorKind::usage, {"properties", "reference"}, [&] { reference.properties(); });
   EXPECT_EQ(device.properties().name, device_under_test().name);
 }

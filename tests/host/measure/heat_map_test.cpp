@@ -22,8 +22,8 @@ class HeatMapPicture : public testing::Test {
   }
   /// R + G + B, 0 to 3, near the left upper corner of a cell, inside its frame.
   static double brightness(const LdrPicture& p, int column, int row) {
-    const std::size_t i = size(top + row * cell_height + 6) * size(p.width) +
-                          size(left + column * cell_width + 6);
+    const std::size_t i =
+        size(top + row * cell_height + 6) * size(p.width) + size(left + column * cell_width + 6);
     return static_cast<double>(p.planes[0][i] + p.planes[1][i] + p.planes[2][i]);
   }
   /// Whether the cell's edge is of the frame's red.
@@ -62,8 +62,7 @@ TEST_F(HeatMapPicture, WritesEachValueIntoItsCell) {
     for (int y = y0 + 5; y < y0 + cell_height - 5; ++y) {
       for (int x = x0 + 5; x < x0 + cell_width - 5; ++x) {
         const std::size_t i = size(y) * size(p.width) + size(x);
-        const double here =
-            static_cast<double>(p.planes[0][i] + p.planes[1][i] + p.planes[2][i]);
+        const double here = static_cast<double>(p.planes[0][i] + p.planes[1][i] + p.planes[2][i]);
         count += std::abs(here - ground) > 0.2 ? 1 : 0;
       }
     }

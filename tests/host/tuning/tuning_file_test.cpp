@@ -58,7 +58,8 @@ TEST_F(TuningFile, KeepsWhatWasFound) {
   EXPECT_EQ(read().notice, "");
   EXPECT_EQ(tuning::add(path, key, most_items, {result({16, 2}, {2.5})}).size(), 1u);
   tuning::add(path, key, most_items, {result({16, 2}, {2.25}), result({8, 1}, {3}, "coc")});
-  tuning::add(path, key, most_items, {{{"hd narrow", "a picture", "split"}, {4, 4}, Validity::runtime, {}}});
+  tuning::add(path, key, most_items,
+              {{{"hd narrow", "a picture", "split"}, {4, 4}, Validity::runtime, {}}});
   const Results all = read().results;
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].place, (tuning::Place{"hd narrow", "a picture", "fill"}));
@@ -70,7 +71,8 @@ TEST_F(TuningFile, KeepsWhatWasFound) {
 
 TEST_F(TuningFile, IsWhatTunersRead) {
   tuning::add(path, key, most_items,
-              {result({16, 2}, {2.5, 3.5, 9}), {{"uhd wide", "p", "coc"}, {8, 1}, Validity::correctness, {}}});
+              {result({16, 2}, {2.5, 3.5, 9}),
+               {{"uhd wide", "p", "coc"}, {8, 1}, Validity::correctness, {}}});
   const json file = text();
   EXPECT_EQ(file["schema_version"], "1.0.0");
   EXPECT_EQ(file["metadata"], (json{{"device", "a device"},
@@ -103,7 +105,7 @@ TEST_F(TuningFile, OfOthersIsNotUsed) {
   expect_unused(with("device"), "is of another device");
   expect_unused(with("platform"), "is of another platform");
   expect_unused(with("driver"), "is of another driver");
-  expect_unused(with("kernels"), "is of another version of the kernels");
+  expect_unused(with("kernels"), "is of another version of the kernels and not used");
 }
 
 TEST_F(TuningFile, ThatIsDamagedIsNotUsed) {
@@ -113,7 +115,8 @@ TEST_F(TuningFile, ThatIsDamagedIsNotUsed) {
   const std::string damaged = "is damaged and not used (";
   expect_unused([](json& file) { file.erase("metadata"); }, damaged);
   expect_unused([](json& file) { file["results"] = 5; }, damaged);
-  expect_unused(with("configuration", "kernel", "none"), "kernel 'none' is not in the launch table");
+  expect_unused(with("configuration", "kernel", "none"),
+                "kernel 'none' is not in the launch table");
   expect_unused(with("configuration", "work_group_x", 0), "work-group 0x1");
   expect_unused(with("configuration", "work_group_y", 0), "work-group 16x0");
   expect_unused(with("configuration", "work_group_x", 257), "work-group 257x1");
@@ -164,8 +167,9 @@ TEST(TuningPath, IsOfTheDeviceInTheCacheFolder) {
       value ? setenv(name, value, 1) : unsetenv(name);
     };
     const char* before[] = {std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")};
-    const std::optional<std::string> kept[] = {before[0] ? std::optional<std::string>(before[0]) : std::nullopt,
-                                               before[1] ? std::optional<std::string>(before[1]) : std::nullopt};
+    const std::optional<std::string> kept[] = {
+        before[0] ? std::optional<std::string>(before[0]) : std::nullopt,
+        before[1] ? std::optional<std::string>(before[1]) : std::nullopt};
     set("XDG_CACHE_HOME", cache);
     set("HOME", home);
     const std::string path = tuning::path_of(key);
