@@ -22,8 +22,7 @@ void validate_budget(const MethodSettings& method, const ErrorSettings& error, d
   }
 }
 
-Budget::Budget(Device& device, const std::string& frame_class, std::size_t pixels,
-               double budget_ms)
+Budget::Budget(Device& device, const std::string& frame_class, std::size_t pixels, double budget_ms)
     : costs_(costs_of(device)),
       frame_class_(frame_class),
       megapixels_(1e-6 * static_cast<double>(pixels)) {

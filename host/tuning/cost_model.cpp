@@ -14,10 +14,14 @@ namespace {
 /// On two cores of an AMD EPYC at 1280x720, CoC up to 23 px (`render --stats` of scene spheres).
 Cost built_in_cost(Quality quality) {
   switch (quality) {
-    case Quality::preview: return {0.07, 0.0003};
-    case Quality::draft: return {0.12, 0.0008};
-    case Quality::normal: return {0.28, 0.0008};
-    case Quality::high: break;
+    case Quality::preview:
+      return {0.07, 0.0003};
+    case Quality::draft:
+      return {0.12, 0.0008};
+    case Quality::normal:
+      return {0.28, 0.0008};
+    case Quality::high:
+      break;
   }
   return {0.33, 0.0008};
 }
@@ -29,8 +33,9 @@ constexpr double near_enough = 0.95;
 constexpr double hope = 0.75;
 constexpr std::size_t most_rise = 2;
 constexpr double share_of_new = 0.5, share_of_healing = 0.02;
-/// Times are believed up to so many times what was expected, or down to that part: something else may
-/// have run meanwhile. The first picture of a quality waits for kernels that are compiled or loaded.
+/// Times are believed up to so many times what was expected, or down to that part: something else
+/// may have run meanwhile. The first picture of a quality waits for kernels that are compiled or
+/// loaded.
 constexpr double most_surprise = 3, most_at_first = 1.25;
 /// Costs beyond so many times the built-in ones are no computer's.
 constexpr double most_ratio = 100;
@@ -67,7 +72,8 @@ Cost CostModel::cost(const std::string& frame_class, Quality quality) const {
   std::vector<double> ratios, of_class;
   for (const auto& [what, known] : costs_) {
     const Cost built_in = built_in_cost(what.second);
-    ratios.push_back(std::sqrt(known.fixed_s / built_in.fixed_s * known.point_s / built_in.point_s));
+    ratios.push_back(
+        std::sqrt(known.fixed_s / built_in.fixed_s * known.point_s / built_in.point_s));
     if (what.first == frame_class) of_class.push_back(ratios.back());
   }
   auto& near = of_class.empty() ? ratios : of_class;

@@ -10,7 +10,8 @@
 
 namespace defray::tuning {
 
-/// A step between fast and right: a quality, with as many lens points as round cells of such a grid.
+/// A step between fast and right: a quality, with as many lens points as round cells of such a
+/// grid.
 struct Rung {
   Quality quality = Quality::preview;
   int cells_per_side = 0;
@@ -36,9 +37,9 @@ class CostModel {
   std::size_t choose(const std::string& frame_class, double megapixels, double budget_s,
                      std::optional<std::size_t> last) const;
 
-  /// What a rung took: half way from what was expected, within limits. `is_first`: of its quality in
-  /// this process. Other qualities of the class come nearer to their ratio to this one: a cost that
-  /// is wrong for once, and so never tried again, heals.
+  /// What a rung took: half way from what was expected, within limits. `is_first`: of its quality
+  /// in this process. Other qualities of the class come nearer to their ratio to this one: a cost
+  /// that is wrong for once, and so never tried again, heals.
   void refine(const std::string& frame_class, const Rung& rung, double megapixels, double fixed_s,
               double rays_s, bool is_first);
 

@@ -28,7 +28,8 @@ std::string device_path(const std::string& kind, const Key& key);
 std::string read_device_file(const std::string& path, const Key& key, const std::string& otherwise,
                              const std::function<void(const Json&)>& take);
 
-/// While it lives no other process of ours changes the file. Makes its folder. Throws Error(output).
+/// While it lives no other process of ours changes the file. Makes its folder. Throws
+/// Error(output).
 class DeviceFileLock {
  public:
   explicit DeviceFileLock(const std::string& path);

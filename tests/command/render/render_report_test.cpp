@@ -56,6 +56,8 @@ FrameOutcome outcome() {
   chain.tiles = {8, 0.5, 0.25, 0.125, 0.0625, 0.03125};
   r.chain = chain;
   r.predict_seconds = 0.0625;
+  r.tuned = {"coc=8x1", "fill=16x2"};
+  r.budget = BudgetChoice{Quality::draft, 11, 1125.5, 1200};
   r.expected = ExpectedError{40.25, 36, 46, {0.5, 0.25, 0.125, 0.125}, {}, false};
   return o;
 }
@@ -85,6 +87,7 @@ TEST(RenderReport, TextHasEveryFigure) {
       "  CoC radius -4.5 to 12.25 px\n"
       "  137 lens points, 75.00 % of their rays determined by the input, 12 px made up behind, "
       "13 px split, 14 highlights\n"
+      "  --quality draft --rdb 11: 1126 ms expected, 1250 taken, of 1200\n"
       "  expected 40.2 dB (36.0 to 46.0); of the error 50 % sampling, 25 % hidden, 12 % edges, "
       "12 % detail\n"
       "  note: a note\n"
@@ -107,6 +110,7 @@ TEST(RenderReport, TextLeavesOutWhatThereIsNot) {
   r.coc_limited = r.nonfinite = 0;
   r.chain = ChainReport{};
   r.expected.reset();
+  r.budget.reset();
   r.chain->lens_points = 9;
   EXPECT_EQ(text_of(o),
             "in.exr -> out.exr\n"
@@ -134,61 +138,65 @@ TEST(RenderReport, TextLeavesOutWhatThereIsNot) {
 }
 
 TEST(RenderReport, JsonHasEveryFigure) {
-  const json expected = {{"status", "ok"},
-                         {"input", "in.exr"},
-                         {"output", "out.exr"},
-                         {"device", "device"},
-                         {"method", "rdb"},
-                         {"colour_channels", {"R", "G", "B"}},
-                         {"light_channels", json{"diffuse.R"}},
-                         {"data_channels", {"id", "N.X"}},
-                         {"data_window", {1, 2, 30, 20}},
-                         {"display_window", {0, 0, 64, 48}},
-                         {"depth_channel", "Z"},
-                         {"focal_length_mm", 50.0},
-                         {"aperture_diameter_mm", 25.0},
-                         {"sensor_width_mm", 36.0},
-                         {"focus_distance_units", 3.0},
-                         {"metres_per_unit", 0.01},
-                         {"nearest_units", 1.5},
-                         {"farthest_units", 9.0},
-                         {"background_px", 7},
-                         {"nan_depth_px", 2},
-                         {"depth_outside_range_px", 3},
-                         {"chain",
-                          {{"lens_points", 137},
-                           {"confidence", 0.75},
-                           {"repaired_px", 11},
-                           {"behind_px", 12},
-                           {"split_px", 13},
-                           {"highlights", 14},
-                           {"border_px", 15},
-                           {"stages_s", {{"lens", 0.25}, {"rays", 0.5}}},
-                           {"stages_bytes", {{"lens", 0}, {"rays", 3 << 19}}},
-                           {"tiles",
-                            {{"count", 8},
-                             {"in_focus", 0.5},
-                             {"smooth", 0.25},
-                             {"mixed", 0.125},
-                             {"hidden", 0.0625},
-                             {"lights", 0.03125}}}}},
-                         {"expected",
-                          {{"psnr_srgb_db", 40.25},
-                           {"low_db", 36.0},
-                           {"high_db", 46.0},
-                           {"sampling", 0.5},
-                           {"hidden", 0.25},
-                           {"edges", 0.125},
-                           {"detail", 0.125}}},
-                         {"nearest_coc_px", -4.5},
-                         {"farthest_coc_px", 12.25},
-                         {"coc_limited_px", 5},
-                         {"nonfinite_values", 6},
-                         {"notes", json{"a note"}},
-                         {"read_s", 0.5},
-                         {"render_s", 1.25},
-                         {"predict_s", 0.0625},
-                         {"write_s", 0.125}};
+  const json expected = {
+      {"status", "ok"},
+      {"input", "in.exr"},
+      {"output", "out.exr"},
+      {"device", "device"},
+      {"method", "rdb"},
+      {"colour_channels", {"R", "G", "B"}},
+      {"light_channels", json{"diffuse.R"}},
+      {"data_channels", {"id", "N.X"}},
+      {"data_window", {1, 2, 30, 20}},
+      {"display_window", {0, 0, 64, 48}},
+      {"depth_channel", "Z"},
+      {"focal_length_mm", 50.0},
+      {"aperture_diameter_mm", 25.0},
+      {"sensor_width_mm", 36.0},
+      {"focus_distance_units", 3.0},
+      {"metres_per_unit", 0.01},
+      {"nearest_units", 1.5},
+      {"farthest_units", 9.0},
+      {"background_px", 7},
+      {"nan_depth_px", 2},
+      {"depth_outside_range_px", 3},
+      {"chain",
+       {{"lens_points", 137},
+        {"confidence", 0.75},
+        {"repaired_px", 11},
+        {"behind_px", 12},
+        {"split_px", 13},
+        {"highlights", 14},
+        {"border_px", 15},
+        {"stages_s", {{"lens", 0.25}, {"rays", 0.5}}},
+        {"stages_bytes", {{"lens", 0}, {"rays", 3 << 19}}},
+        {"tiles",
+         {{"count", 8},
+          {"in_focus", 0.5},
+          {"smooth", 0.25},
+          {"mixed", 0.125},
+          {"hidden", 0.0625},
+          {"lights", 0.03125}}}}},
+      {"expected",
+       {{"psnr_srgb_db", 40.25},
+        {"low_db", 36.0},
+        {"high_db", 46.0},
+        {"sampling", 0.5},
+        {"hidden", 0.25},
+        {"edges", 0.125},
+        {"detail", 0.125}}},
+      {"budget",
+       {{"quality", "draft"}, {"rdb", 11}, {"expected_ms", 1125.5}, {"budget_ms", 1200.0}}},
+      {"tuned", {"coc=8x1", "fill=16x2"}},
+      {"nearest_coc_px", -4.5},
+      {"farthest_coc_px", 12.25},
+      {"coc_limited_px", 5},
+      {"nonfinite_values", 6},
+      {"notes", json{"a note"}},
+      {"read_s", 0.5},
+      {"render_s", 1.25},
+      {"predict_s", 0.0625},
+      {"write_s", 0.125}};
   EXPECT_EQ(json_of(outcome()), expected);
 }
 
@@ -201,7 +209,8 @@ TEST(RenderReport, StatsTellOfStagesAndTiles) {
             "  lens          250.0   33 %      0.0\n"
             "  rays          500.0   67 %      1.5\n"
             "  tiles: 50.0 % in focus, 25.0 % smooth, 12.5 % mixed, 6.2 % with hidden "
-            "surfaces, 3.1 % with lights\n");
+            "surfaces, 3.1 % with lights\n"
+            "  tuned: --work-group coc=8x1,fill=16x2\n");
   FrameOutcome without = outcome();
   without.report.chain.reset();
   testing::internal::CaptureStdout();

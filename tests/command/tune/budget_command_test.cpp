@@ -83,8 +83,8 @@ TEST_F(BudgetCommand, AFileThatCannotBeUsedOrWrittenIsANote) {
   const json read_only = rendered("--budget-ms 60000",
                                   "env " + kernels + "XDG_CACHE_HOME='" + (folder / "file") + "'");
   ASSERT_EQ(read_only["notes"].size(), 1u);
-  EXPECT_EQ(read_only["notes"][0].get<std::string>().rfind("times are not kept for other runs: ", 0),
-            0u);
+  EXPECT_EQ(
+      read_only["notes"][0].get<std::string>().rfind("times are not kept for other runs: ", 0), 0u);
 }
 
 TEST_F(BudgetCommand, RefusesWhatMeansNothing) {

@@ -23,9 +23,7 @@ std::size_t index_of(const Rung& rung) {
                                   rungs().begin());
 }
 
-double points(int cells) {
-  return static_cast<double>(make_lens_grid(cells, false).points.size());
-}
+double points(int cells) { return static_cast<double>(make_lens_grid(cells, false).points.size()); }
 
 /// Every quality costs this, and a tenth of a millisecond a lens point.
 CostModel flat_model(double fixed_s = 0.1) {
