@@ -143,14 +143,6 @@ TEST_F(ShowWindow, KeysAndTheMouseChangeTheLens) {
   EXPECT_NE(result.err.find("keys: click"), std::string::npos) << result.err;
 }
 
-TEST_F(ShowWindow, OfAnotherSizeIsDrawnAnew) {
-  SKIP_UNLESS_FULL();
-  show(lens_,
-       "xdotool windowsize $window 320 240; sleep 1; snap resized\n"
-       "key c; titled CoC; key c; titled 'focus 8,'; snap drawn");
-  EXPECT_EQ(difference(screen("resized"), screen("drawn")), 0) << "not stretched by the toolkit";
-}
-
 TEST_F(ShowWindow, ArrowsMoveFocusAndFNumber) {
   SKIP_UNLESS_FULL();
   const Result result = show(lens_,
