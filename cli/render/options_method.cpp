@@ -21,29 +21,30 @@ std::vector<OptionRow> target_rows(RenderCommand& job) {
     return !given("--quality") && !given("--rdb") && !given("--hidden") && !given("--half-size");
   };
   ErrorSettings& error = job.settings.error;
-  return {{"--target-db",
-           value(error.target_db),
-           "The fastest quality whose expected PSNR against ray-traced truth is at least so many "
-           "dB; high, and a note, where none is",
-           {.field = "target_db",
-            .scope = of_chain,
-            .needs = {is_free,
-                      "goes without --quality, --rdb, --hidden and --half-size: it chooses them"}}},
-          {"--budget-ms",
-           value(job.settings.budget_ms),
-           "The best quality and --rdb that are expected to take so many milliseconds a picture, "
-           "files apart, on this device, which learns from frame to frame",
-           {.field = "budget_ms",
-            .scope = Scope{{Method::rdb}, false, false},
-            .needs = {[is_free](const Given& g) { return is_free(g) && !g("--target-db"); },
-                      "goes without --quality, --rdb, --hidden, --half-size and --target-db: it "
-                      "chooses them"}}},
-          {"--strict-target",
-           flag(job.strict_target),
-           "Exit with 1 where no quality is expected to reach --target-db",
-           {.scope = of_chain,
-            .needs = {[](const Given& given) { return given("--target-db"); },
-                      "goes with --target-db"}}}};
+  return {
+      {"--target-db",
+       value(error.target_db),
+       "The fastest quality and --rdb whose expected PSNR against ray-traced truth is at least so "
+       "many dB; high, and a note, where none is",
+       {.field = "target_db",
+        .scope = of_chain,
+        .needs = {is_free,
+                  "goes without --quality, --rdb, --hidden and --half-size: it chooses them"}}},
+      {"--budget-ms",
+       value(job.settings.budget_ms),
+       "The best quality and --rdb that are expected to take so many milliseconds a picture, "
+       "files apart, on this device, which learns from frame to frame",
+       {.field = "budget_ms",
+        .scope = Scope{{Method::rdb}, false, false},
+        .needs = {[is_free](const Given& g) { return is_free(g) && !g("--target-db"); },
+                  "goes without --quality, --rdb, --hidden, --half-size and --target-db: it "
+                  "chooses them"}}},
+      {"--strict-target",
+       flag(job.strict_target),
+       "Exit with 1 where no quality is expected to reach --target-db",
+       {.scope = of_chain,
+        .needs = {[](const Given& given) { return given("--target-db"); },
+                  "goes with --target-db"}}}};
 }
 
 std::vector<OptionRow> rdb_rows(RenderCommand& job) {

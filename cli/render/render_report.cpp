@@ -49,19 +49,20 @@ std::string chain_line(const ChainReport& d) {
   return line;
 }
 
+/// To be repeated exactly.
+std::string options_of(Quality quality, int cells_per_side) {
+  return fmt::format("--quality {} --rdb {}", to_string(quality), cells_per_side);
+}
+
 std::string expected_line(const ExpectedError& e) {
-  const std::string chosen = e.quality ? fmt::format("--quality {}: ", to_string(*e.quality)) : "";
+  const std::string chosen =
+      e.quality ? options_of(*e.quality, e.cells_per_side) + ": " : std::string();
   if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
       "{:.0f} % edges, {:.0f} % detail",
       chosen, e.psnr_db, e.low_db, e.high_db, 100 * e.shares[0], 100 * e.shares[1],
       100 * e.shares[2], 100 * e.shares[3]);
-}
-
-/// As options, to be repeated exactly.
-std::string options_of(const BudgetChoice& b) {
-  return fmt::format("--quality {} --rdb {}", to_string(b.quality), b.cells_per_side);
 }
 
 nlohmann::ordered_json expected_json(const ExpectedError& e) {
@@ -71,6 +72,7 @@ nlohmann::ordered_json expected_json(const ExpectedError& e) {
                                  {"detail", e.shares[3]}};
   if (e.quality) {
     json["quality"] = to_string(*e.quality);
+    json["rdb"] = e.cells_per_side;
     json["misses_target"] = e.misses_target;
   }
   return json;
@@ -195,8 +197,9 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
   if (r.budget) {
-    fmt::print("  {}: {:.4g} ms expected, {:.4g} taken, of {:.4g}\n", options_of(*r.budget),
-               r.budget->expected_ms, 1000 * r.render_seconds, r.budget->budget_ms);
+    fmt::print("  {}: {:.4g} ms expected, {:.4g} taken, of {:.4g}\n",
+               options_of(r.budget->quality, r.budget->cells_per_side), r.budget->expected_ms,
+               1000 * r.render_seconds, r.budget->budget_ms);
   }
   if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));
   for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);

@@ -25,9 +25,26 @@ ChainSettings settings_for(Quality quality) {
   return s;
 }
 
-ChainSettings with_quality(ChainSettings chain, Quality quality) {
-  const ChainSettings said = settings_for(quality);
-  chain.cells_per_side = said.cells_per_side;
+const std::vector<Rung>& rungs() {
+  static const std::vector<Rung> all = [] {
+    std::vector<Rung> made;
+    const auto add = [&](Quality quality, int first, int last) {
+      for (int n = first; n <= last; ++n) made.push_back({quality, n});
+    };
+    // Draft's lens points up to where patterns cost no more; those gain more than lens points.
+    const auto own = [](Quality quality) { return settings_for(quality).cells_per_side; };
+    add(Quality::preview, own(Quality::preview), own(Quality::preview));
+    add(Quality::draft, own(Quality::draft) - 2, 2 * own(Quality::draft));
+    add(Quality::normal, own(Quality::draft), own(Quality::high) - 1);
+    add(Quality::high, own(Quality::high), own(Quality::high));
+    return made;
+  }();
+  return all;
+}
+
+ChainSettings with_rung(ChainSettings chain, const Rung& rung) {
+  const ChainSettings said = settings_for(rung.quality);
+  chain.cells_per_side = rung.cells_per_side;
   chain.hidden = said.hidden;
   chain.pattern_shifts = said.pattern_shifts;
   chain.half_size = said.half_size;

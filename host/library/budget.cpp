@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "chain/quality.h"
 
 namespace defray {
 
@@ -30,14 +29,13 @@ Budget::Budget(Device& device, const std::string& frame_class, std::size_t pixel
   const auto last = known == costs_.last.end() ? std::nullopt : std::optional(known->second);
   const std::size_t rung = costs_.model.choose(frame_class, megapixels_, budget_ms / 1000, last);
   costs_.last[frame_class] = rung;
-  const tuning::Rung& chosen = tuning::rungs()[rung];
+  const Rung& chosen = rungs()[rung];
   choice_ = {chosen.quality, chosen.cells_per_side,
              1000 * costs_.model.seconds(frame_class, chosen, megapixels_), budget_ms};
 }
 
 MethodSettings Budget::settings(MethodSettings method) const {
-  method.chain = with_quality(*method.chain, choice_.quality);
-  method.chain->cells_per_side = choice_.cells_per_side;
+  method.chain = with_rung(*method.chain, {choice_.quality, choice_.cells_per_side});
   return method;
 }
 

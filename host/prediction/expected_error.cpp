@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "chain/ray_plan.h"
+#include "lens/lens_grid.h"
 
 namespace defray {
 namespace {
@@ -84,7 +84,8 @@ void Prediction::add_rows(const Frame& frame, const MethodResult& result, Rows r
 }
 
 double Prediction::guess_db(const ChainSettings& other) const {
-  const int lens_points = static_cast<int>(ray_plan(other, false).lens.points.size());
+  const int lens_points =
+      static_cast<int>(make_lens_grid(other.cells_per_side, false).points.size());
   const double all = sum(squares_of(means_, weights_of(making_of(other, lens_points))));
   return expected_from(all * frame_factor(all)).psnr_db;
 }

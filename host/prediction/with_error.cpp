@@ -1,5 +1,7 @@
 #include "prediction/with_error.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "chain/quality.h"
@@ -19,11 +21,14 @@ ResultWithError apply(const Frame& frame, const MethodSettings& settings,
   return out;
 }
 
-/// The next quality that is likely to reach the target, the last if none is; past the last from it.
-std::size_t next_rung(std::size_t rung, const Prediction& prediction, const ChainSettings& chain,
-                      double target_db) {
-  for (++rung; rung + 1 < all_qualities.size(); ++rung) {
-    if (prediction.guess_db(with_quality(chain, all_qualities[rung])) >= target_db) break;
+/// The next rung that is likely to reach the target, the last if none is; past the last from it. At
+/// least `step` further: guesses that were a little too high do not cost picture after picture.
+std::size_t next_rung(std::size_t rung, std::size_t step, const Prediction& prediction,
+                      const ChainSettings& chain, double target_db) {
+  const std::size_t last = rungs().size() - 1;
+  if (rung == last) return rung + 1;
+  for (rung = std::min(rung + step, last); rung < last; ++rung) {
+    if (prediction.guess_db(with_rung(chain, rungs()[rung])) >= target_db) break;
   }
   return rung;
 }
@@ -33,7 +38,10 @@ std::size_t next_rung(std::size_t rung, const Prediction& prediction, const Chai
 std::optional<ExpectedError> ResultWithError::expected(const ErrorSettings& wanted) const {
   if (!prediction) return {};
   ExpectedError expected = prediction->of_frame();
-  expected.quality = quality;
+  if (rung) {
+    expected.quality = rung->quality;
+    expected.cells_per_side = rung->cells_per_side;
+  }
   expected.misses_target = wanted.target_db && expected.psnr_db < *wanted.target_db;
   return expected;
 }
@@ -54,7 +62,7 @@ void validate(const MethodSettings& method, const ErrorSettings& error) {
   }
   MethodSettings with_any_quality = method;
   if (error.target_db && method.chain) {
-    with_any_quality.chain = with_quality(*method.chain, Quality::preview);
+    with_any_quality.chain = with_rung(*method.chain, rungs().front());
   }
   if (is_predictable(with_any_quality)) return;
   fail(ErrorKind::usage,
@@ -73,19 +81,21 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
   }
   ResultWithError out;
   double predict_seconds = 0;
-  for (std::size_t rung = 0; rung < all_qualities.size();) {
+  std::size_t step = 1;
+  for (std::size_t rung = 0; rung < rungs().size();) {
     MethodSettings chosen = settings;
-    chosen.chain = with_quality(*settings.chain, all_qualities[rung]);
+    chosen.chain = with_rung(*settings.chain, rungs()[rung]);
     const auto of_all = [&](double share) {
-      progress((static_cast<double>(rung) + share) / all_qualities.size());
+      progress((static_cast<double>(rung) + share) / static_cast<double>(rungs().size()));
     };
     out = {};  // the last one's planes
     out = apply(frame, chosen, error, backend, wants_nearest,
                 progress ? Progress(of_all) : Progress());
     out.predict_seconds = predict_seconds += out.predict_seconds;
-    out.quality = all_qualities[rung];
+    out.rung = rungs()[rung];
     if (out.prediction->of_frame().psnr_db >= *error.target_db) break;
-    rung = next_rung(rung, *out.prediction, *settings.chain, *error.target_db);
+    rung = next_rung(rung, step, *out.prediction, *settings.chain, *error.target_db);
+    step *= 4;
   }
   if (progress) progress(1);
   return out;

@@ -3,6 +3,7 @@
 // meets it for the least work.
 #include <optional>
 
+#include "chain/quality.h"
 #include "methods/method.h"
 #include "prediction/expected_error.h"
 
@@ -13,7 +14,7 @@ struct ResultWithError {
   MethodResult result;
   MethodSettings settings;               ///< As used: with the quality that was chosen.
   std::optional<Prediction> prediction;  ///< Where asked for, of the RDB with its stages.
-  std::optional<Quality> quality;        ///< Where a target chose it.
+  std::optional<Rung> rung;              ///< Where a target chose it.
   double predict_seconds = 0;
 
   /// What is expected, beside what was wanted.
@@ -28,8 +29,8 @@ bool is_predictable(const MethodSettings& method);
 /// not predictable.
 void validate(const MethodSettings& method, const ErrorSettings& error);
 
-/// apply_method. With a target: the fastest quality, then each further one that is likely to meet
-/// it, until one is expected to; the last if none is. What the picture holds decides, nothing else.
+/// apply_method. With a target: the fastest of the rungs, then the next that is likely to meet it,
+/// until one is expected to; the last if none is. What the picture holds decides, nothing else.
 ResultWithError apply_with_error(const Frame& frame, const MethodSettings& settings,
                                  const ErrorSettings& error, Backend& backend, bool wants_nearest,
                                  const Progress& progress);

@@ -48,23 +48,6 @@ double towards(double from, double to, double share) { return from + share * (to
 
 }  // namespace
 
-const std::vector<Rung>& rungs() {
-  static const std::vector<Rung> all = [] {
-    std::vector<Rung> made;
-    const auto add = [&](Quality quality, int first, int last) {
-      for (int n = first; n <= last; ++n) made.push_back({quality, n});
-    };
-    // The qualities' own lens points, and what lies between; patterns gain more than lens points.
-    const auto own = [](Quality quality) { return settings_for(quality).cells_per_side; };
-    add(Quality::preview, own(Quality::preview), own(Quality::preview));
-    add(Quality::draft, own(Quality::draft) - 2, 2 * own(Quality::draft));
-    add(Quality::normal, own(Quality::draft), own(Quality::high) - 1);
-    add(Quality::high, own(Quality::high), own(Quality::high));
-    return made;
-  }();
-  return all;
-}
-
 Cost CostModel::cost(const std::string& frame_class, Quality quality) const {
   const auto found = costs_.find({frame_class, quality});
   if (found != costs_.end()) return found->second;

@@ -5,21 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "defray/options.h"
+#include "chain/quality.h"
 #include "tuning/device_file.h"
 
 namespace defray::tuning {
-
-/// A step between fast and right: a quality, with as many lens points as round cells of such a
-/// grid.
-struct Rung {
-  Quality quality = Quality::preview;
-  int cells_per_side = 0;
-  bool operator==(const Rung&) const = default;
-};
-
-/// From the fastest to the one with the least error.
-const std::vector<Rung>& rungs();
 
 /// Seconds for a million pixels: of all stages but rays, and of the rays through one lens point.
 struct Cost {

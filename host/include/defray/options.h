@@ -150,8 +150,8 @@ enum class Nonfinite {
 struct ErrorSettings {
   bool wants_expected = false;  ///< RenderReport::expected.
   bool wants_planes = false;    ///< RenderResult::expected_error; with wants_expected or a target.
-  /// Expected PSNR, dB: the fastest quality that is expected to reach it makes the picture, the
-  /// highest where none is; the qualities' own settings do not count then.
+  /// Expected PSNR, dB: the fastest quality and number of lens points that are expected to reach it
+  /// make the picture, the highest where none are; the qualities' own settings do not count then.
   std::optional<double> target_db;
 };
 

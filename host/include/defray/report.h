@@ -65,11 +65,11 @@ struct ExpectedError {
   /// Of the squared error: too few lens points; made-up surfaces; edges, and rims of highlights;
   /// the picture's own sampling and what half the size loses.
   std::array<double, 4> shares{};
-  std::optional<Quality> quality;  ///< Where ErrorSettings::target_db chose it.
+  std::optional<Quality> quality;  ///< Where ErrorSettings::target_db chose it, with
+  int cells_per_side = 0;          ///< ChainSettings::cells_per_side.
   bool misses_target = false;      ///< No quality is expected to reach it.
 };
 
-/// Of a render.
 /// What a budget of time chose.
 struct BudgetChoice {
   Quality quality = Quality::preview;
@@ -77,6 +77,7 @@ struct BudgetChoice {
   double expected_ms = 0, budget_ms = 0;  ///< Above the budget: the fastest quality is.
 };
 
+/// Of a render.
 struct RenderReport {
   DepthReport depth;
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Signed radii: smallest and largest.

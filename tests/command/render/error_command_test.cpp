@@ -108,13 +108,14 @@ TEST_F(ErrorCommand, BadFramesAndMissedTargetsAreBothSaid) {
 TEST_F(ErrorCommand, ATargetChoosesTheQuality) {
   const auto low = report("--target-db 5")["expected"];
   EXPECT_EQ(low["quality"], "preview");
+  EXPECT_EQ(low["rdb"], 6);
   EXPECT_EQ(low["misses_target"], false);
   const std::uint64_t chosen = file_hash(folder / "out.exr");
   expect_ok(run("--quality preview"));
   EXPECT_EQ(file_hash(folder / "out.exr"), chosen);
   const Result high = run("--target-db 70");
   EXPECT_EQ(high.code, 0);
-  EXPECT_NE(high.out.find("--quality high: expected"), std::string::npos) << high.out;
+  EXPECT_NE(high.out.find("--quality high --rdb 33: expected"), std::string::npos) << high.out;
   EXPECT_NE(high.out.find("no quality is expected to reach 70 dB: "), std::string::npos);
   EXPECT_NE(high.out.find("% of the error is what was made up behind"), std::string::npos)
       << high.out;

@@ -58,7 +58,7 @@ FrameOutcome outcome() {
   r.predict_seconds = 0.0625;
   r.tuned = {"coc=8x1", "fill=16x2"};
   r.budget = BudgetChoice{Quality::draft, 11, 1125.5, 1200};
-  r.expected = ExpectedError{40.25, 36, 46, {0.5, 0.25, 0.125, 0.125}, {}, false};
+  r.expected = ExpectedError{40.25, 36, 46, {0.5, 0.25, 0.125, 0.125}, {}, 0, false};
   return o;
 }
 

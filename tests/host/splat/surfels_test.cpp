@@ -44,6 +44,19 @@ TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
   EXPECT_LT(area_of(surfels.points[10]), 1.5 * area);
 }
 
+TEST(Surfels, NormalsAreThoseOfTheShapeAtEveryScale) {
+  for (const float scale : {1e-5f, 1.0f, 1e5f}) {
+    PointCloud cloud = slope(9);
+    for (auto& p : cloud.positions) {
+      for (float& v : p) v *= scale;
+    }
+    const Surfels surfels = make_surfels(cloud);
+    const DefraySplatNode& n = middle(surfels);
+    EXPECT_NEAR(n.area_x / n.area_z, -0.5, 1e-3) << scale;
+    EXPECT_NEAR(n.area_y / n.area_z, 0, 1e-3) << scale;
+  }
+}
+
 TEST(Surfels, WhatIsGivenIsTaken) {
   PointCloud cloud = slope(9);
   const std::size_t count = cloud.positions.size();

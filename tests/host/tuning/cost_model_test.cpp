@@ -13,8 +13,6 @@ namespace {
 using tuning::Cost;
 using tuning::CostModel;
 using tuning::Key;
-using tuning::Rung;
-using tuning::rungs;
 
 const std::string hd = "hd narrow";
 

@@ -64,7 +64,11 @@ TEST(ValidationReport, TablesHoldWhatWasFound) {
   const Folder folder;
   const std::vector<Section> sections = to_sections({findings()}, {"a note"}, folder.path());
   ASSERT_EQ(sections.size(), 2u);
+  ASSERT_EQ(sections[0].findings.size(), 2u);
   EXPECT_EQ(sections[0].findings.front(), "a note");
+  for (const char* word : {"'worst'", "'Share of the exact bound'", "'Unstable'", "'Hash'"}) {
+    EXPECT_NE(sections[0].findings[1].find(word), std::string::npos) << "tells what it means";
+  }
   const Table& summary = sections[0].tables.front();
   EXPECT_EQ(summary.columns, (Row{"kernel", "device"}));
   std::string results;

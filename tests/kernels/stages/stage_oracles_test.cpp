@@ -238,5 +238,25 @@ TEST(Fill, BehindAnyRectangleThePlaneGoesOnAsFarAsTheLensSees) {
   EXPECT_GT(hidden, 100);
 }
 
+/// A dim plane with a lamp at the corners and in the middle: everywhere a lamp is found, alike.
+TEST(HighlightsOracle, KeepsOfALampWhatIsAroundIt) {
+  constexpr int width = 23, height = 19;
+  const std::size_t count = size(width) * size(height);
+  const std::size_t lamps[] = {0, size(width) - 1, count / 2, count - size(width), count - 1};
+  Frame f{width, height, Quanta(std::vector<std::int32_t>(count, 640)), Plane(count, 3.0f),
+          Planes{Plane(count, 0.25f)}};
+  Plane colour(count, 0.25f);
+  for (const std::size_t lamp : lamps) colour[lamp] = 50;
+  f.channels = Planes{colour};
+  f.coverage = Words(std::vector<std::uint32_t>(count, DEFRAY_WHOLE));
+  for (Backend* backend : device_and_twins()) {
+    const Values<float> kept = backend->highlights(f, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_lamp = std::find(std::begin(lamps), std::end(lamps), i) != std::end(lamps);
+      EXPECT_FLOAT_EQ(kept[i], is_lamp ? 0.25f / 50 : 1.0f) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace defray::test::stage_oracles_test
