@@ -100,7 +100,7 @@ add_shards(rest_of_command 1 120 full ${preset_run} rest $<TARGET_FILE:command_t
 
 # Ten mutants: that they are still tried and found; a change of a file draws others, and the tenth of a
 # mutant's tests that is nearest keeps one that nothing finds from taking minutes. What each test
-# reaches the sanitized ones noted.
+# reaches the sanitized ones noted, and the long ones.
 add_check(mutants 100 full python3 ${here}/mutation/mutate.py --count 10 --seed 7 --jobs 1 --fresh
           --least 60 --budget 0.1)
 set_tests_properties(

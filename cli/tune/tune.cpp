@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "commands.h"
@@ -48,23 +49,29 @@ OptionGroup of_a_picture(OptionGroup group, const std::string& without) {
 std::vector<OptionGroup> tune_options(TuneCommand& job) {
   OptionGroup device = device_options(job);
   std::erase_if(device.rows, [](const OptionRow& row) {
-    return row.name == "--work-group" || row.name == "--no-tuning";
+    return row.name == "--work-group" || row.name == "--no-tuning" || row.name == "--math";
   });
+  const auto is_tuning = [](const Given& given) {
+    return !given("--show") && !given("--clear") && !given("--export");
+  };
+  const OptionDetails tunes{.needs = {is_tuning, "goes without --show, --clear and --export"}};
   return {
       {"",
        {{"input", value(job.paths.input), "A picture with depth, instead of built-in ones"},
-        {"-o,--output", value(job.folder), "Folder for a report: a heat map a kernel"},
-        {"--budget", value(job.budget), "Time for all of it: 60s, 10m, 1h"},
+        {"-o,--output", value(job.folder), "Folder for a report: a heat map a kernel", tunes},
+        {"--budget", value(job.budget), "Time for all of it: 60s, 10m, 1h", tunes},
         {"--kernel", values(job.kernels),
-         "These kernels; without it, those that take 2 % or more of a picture"},
-        {"--methods", values(job.methods), "rdb, gather, linear, splat (built-in pictures)"},
+         "These kernels; without it, those that take 2 % or more of a picture", tunes},
+        {"--methods", values(job.methods), "rdb, gather, linear, splat (built-in pictures)", tunes},
         {"--sizes",
          values(job.sizes),
          "Of built-in pictures: small (640x480), hd (1920x1080), uhd (3840x2160)",
-         {.needs = {[](const Given& given) { return !given("input"); },
-                    "goes without a picture, which has its own"}}},
+         {.needs = {[is_tuning](const Given& g) { return is_tuning(g) && !g("input"); },
+                    "goes without a picture, which has its own, and without --show, --clear and "
+                    "--export"}}},
         {"--show", flag(job.shows), "Tell what is known of the device, and tune nothing"},
-        {"--clear", flag(job.clears), "Forget what is known of the device"},
+        {"--clear", flag(job.clears),
+         "Forget what is known of the device, times of --budget-ms too"},
         {"--export", value(job.export_to), "Write what is known to this JSON file"},
         {"--depth",
          value(job.paths.depth),
@@ -82,8 +89,8 @@ std::vector<OptionGroup> tune_options(TuneCommand& job) {
 void check(const TuneCommand& job) {
   const int others = int{job.shows} + int{job.clears} + int{!job.export_to.empty()};
   if (others > 1) fail(ErrorKind::usage, "--show, --clear and --export: one of them");
-  if (others == 1 && (!job.paths.input.empty() || !job.folder.empty())) {
-    fail(ErrorKind::usage, "--show, --clear and --export go without a picture and without -o");
+  if (others == 1 && !job.paths.input.empty()) {
+    fail(ErrorKind::usage, "--show, --clear and --export go without a picture");
   }
   if (job.is_on_reference()) {
     fail(ErrorKind::usage, "--device reference has no work-groups");
@@ -113,6 +120,7 @@ std::vector<Workload> own_workloads(const TuneCommand& job, Device& device) {
   for (const std::string& method : job.methods) {
     Options options = options_of(method);
     options.depth = settings.depth;
+    options.nonfinite = settings.nonfinite;
     if (options.chain) options.chain->aperture = job.chain.aperture;
     all.push_back(own_workload(device, file, job.paths.input, report.lens, options));
   }
@@ -156,12 +164,21 @@ std::vector<tuning::Result> tune(const TuneCommand& job, Device& device, const s
   return tuner.results();
 }
 
-void clear(const TuneCommand& job, const std::string& path) {
-  std::error_code error;
-  const bool was_there = std::filesystem::remove(path, error);
-  if (error) fail(ErrorKind::output, "{} cannot be removed: {}", path, error.message());
-  std::filesystem::remove(path + ".lock", error);
-  if (!job.quiet) fmt::print("{}: {}\n", path, was_there ? "removed" : "was not there");
+/// What was tuned, and the times that budgets go by.
+void clear(const TuneCommand& job, const tuning::Key& key) {
+  nlohmann::ordered_json removed = nlohmann::ordered_json::array();
+  for (const char* kind : {"tuning", "cost"}) {
+    const std::string path = tuning::device_path(kind, key);
+    std::error_code error;
+    const bool was_there = std::filesystem::remove(path, error);
+    if (error) fail(ErrorKind::output, "{} cannot be removed: {}", path, error.message());
+    std::filesystem::remove(path + ".lock", error);
+    if (was_there) removed.push_back(path);
+    if (!job.quiet && !job.json) {
+      fmt::print("{}: {}\n", path, was_there ? "removed" : "was not there");
+    }
+  }
+  if (job.json) fmt::print("{}\n", nlohmann::ordered_json{{"removed", removed}}.dump());
 }
 
 int run(const OptionTable& options, TuneCommand& job) {
@@ -174,14 +191,14 @@ int run(const OptionTable& options, TuneCommand& job) {
     create_folder(job.folder);
     check_can_write(job.folder + "/index.html");
   }
-  Device device = Device::open(job.device, {job.math, false, true});
+  Device device = Device::open(job.device, {Math::strict, false, true});
   device.set_memory(job.memory_bytes());
   TuneReport report{tuning::key_of(device.properties()), "", {}};
   report.path = tuning::path_of(report.key);
   if (report.path.empty()) {
     fail(ErrorKind::output, "no folder to keep it in: set XDG_CACHE_HOME or HOME");
   }
-  if (job.clears) return clear(job, report.path), 0;
+  if (job.clears) return clear(job, report.key), 0;
   const bool is_told = job.shows || !job.export_to.empty();
   if (is_told) {
     tuning::Tuning known =

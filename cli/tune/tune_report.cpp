@@ -16,7 +16,7 @@ namespace {
 
 using tuning::Finding;
 
-/// "7 % (5 to 9 %)", what is won and the quartiles.
+/// "7 % (5 to 9 %)", what is won, and the quartiles of pairs of runs.
 std::string gain_of(const Finding& f) {
   if (f.best == f.own) return "-";
   return fmt::format("{:.0f} % ({:.0f} to {:.0f} %)", 100 * f.gain(), 100 * (1 - f.high),
@@ -33,16 +33,20 @@ HeatMap map_of(const TuneReport& report, const Finding& f) {
     xs.insert(r.shape.x);
     ys.insert(r.shape.y);
   }
-  HeatMap map{
-      fmt::format("{}: {}", f.place.kernel, f.place.picture), "x; ms, median", "y", {}, {}, {}};
+  HeatMap map{fmt::format("{}: {}", f.place.kernel, f.place.picture),
+              "x; ms, shortest run",
+              "y",
+              {},
+              {},
+              {}};
   for (const std::size_t x : xs) map.columns.push_back(std::to_string(x));
   for (const std::size_t y : ys) {
     map.rows.push_back(std::to_string(y));
     for (const std::size_t x : xs) {
       const auto is_this = [&](const auto* r) { return r->shape == tuning::Shape{x, y}; };
       const auto found = std::find_if(tries.begin(), tries.end(), is_this);
-      map.values.push_back(
-          found == tries.end() ? std::nullopt : std::optional(tuning::median_of((*found)->run_ms)));
+      map.values.push_back(found == tries.end() ? std::nullopt
+                                                : std::optional(tuning::time_of(**found)));
     }
   }
   return map;
@@ -54,10 +58,10 @@ std::string file_of(std::size_t index, const Finding& f) {
 
 std::string intro_of(const TuneReport& report) {
   return fmt::format(
-      "Work-groups of kernels on {} ({}, {}). Any gives the same bits; times are medians of "
-      "kernels' "
-      "own times. The fastest is used where it was run five times or more beside the kernel's own, "
-      "was 3 % sooner in the median and sooner in three of four pairs.",
+      "Work-groups of kernels on {} ({}, {}). Any gives the same bits; times are those of a "
+      "kernel's shortest run. The fastest is used where it and the kernel's own were run five "
+      "times "
+      "or more, it took 3 % less, and was faster in three of four pairs.",
       report.key.device, report.key.platform, report.key.driver);
 }
 

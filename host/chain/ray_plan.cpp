@@ -9,9 +9,8 @@ namespace defray {
 
 RayPlan ray_plan(const ChainSettings& settings, bool wants_nearest) {
   validate(settings.aperture);
-  const std::size_t points = make_lens_grid(settings.cells_per_side, false).points.size();
   RayPlan plan;
-  plan.lens = make_lens_points(settings.aperture, static_cast<int>(points));
+  plan.lens = make_lens_points(settings.aperture, round_cells(settings.cells_per_side));
   plan.wants_nearest = wants_nearest;
   plan.by = settings.rays;
   return plan;

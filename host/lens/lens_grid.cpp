@@ -35,6 +35,10 @@ LensPoints make_lens_grid(int cells_per_side, bool jitter) {
   return lens;
 }
 
+int round_cells(int cells_per_side) {
+  return static_cast<int>(make_lens_grid(cells_per_side, false).points.size());
+}
+
 float cells_per_side(int lens_points) {
   return static_cast<float>(std::sqrt(lens_points * 4 / std::numbers::pi));
 }

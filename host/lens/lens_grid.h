@@ -9,6 +9,9 @@ namespace defray {
 /// its centre lies in the unit disc; with jitter, if any of its area does.
 LensPoints make_lens_grid(int cells_per_side, bool jitter);
 
+/// How many they are without jitter.
+int round_cells(int cells_per_side);
+
 /// Of a square grid as dense as `lens_points` in a disc: sqrt(4 n / pi).
 float cells_per_side(int lens_points);
 

@@ -25,7 +25,8 @@ class DriverStacks {
   DriverStacks& operator=(const DriverStacks&) = delete;
 
  private:
-  /// Twice what the largest work-group, 4096 work-items, was seen to need with any kernel.
+  /// Enough for the kernels of every method in PoCL's largest work-groups, 4096 work-items; half of
+  /// it was for those of the default.
   static constexpr std::size_t enough_bytes = std::size_t{128} << 20;
   pthread_attr_t before_{};
 };

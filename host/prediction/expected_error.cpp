@@ -84,9 +84,8 @@ void Prediction::add_rows(const Frame& frame, const MethodResult& result, Rows r
 }
 
 double Prediction::guess_db(const ChainSettings& other) const {
-  const int lens_points =
-      static_cast<int>(make_lens_grid(other.cells_per_side, false).points.size());
-  const double all = sum(squares_of(means_, weights_of(making_of(other, lens_points))));
+  const Making making = making_of(other, round_cells(other.cells_per_side));
+  const double all = sum(squares_of(means_, weights_of(making)));
   return expected_from(all * frame_factor(all)).psnr_db;
 }
 

@@ -21,16 +21,22 @@ ResultWithError apply(const Frame& frame, const MethodSettings& settings,
   return out;
 }
 
-/// The next rung that is likely to reach the target, the last if none is; past the last from it. At
-/// least `step` further: guesses that were a little too high do not cost picture after picture.
-std::size_t next_rung(std::size_t rung, std::size_t step, const Prediction& prediction,
-                      const ChainSettings& chain, double target_db) {
-  const std::size_t last = rungs().size() - 1;
-  if (rung == last) return rung + 1;
-  for (rung = std::min(rung + step, last); rung < last; ++rung) {
-    if (prediction.guess_db(with_rung(chain, rungs()[rung])) >= target_db) break;
-  }
-  return rung;
+// What is guessed of other rungs, minus what was found of them, on 17 settings of ten built-in
+// scenes, dB: from preview 0.3 in the median and -0.1 to 0.9 in eight of ten, from a picture of
+// full size -0.03 to 0.03. So the first may be believed up to the default, no further.
+constexpr double preview_margin_db = 0.5, margin_db = 0.05;
+
+/// The next rung that is likely to reach the target, the last if none is; past the last from it.
+std::size_t next_rung(std::size_t rung, const Prediction& prediction, const ChainSettings& chain,
+                      double target_db) {
+  const auto& all = rungs();
+  const Rung normal{Quality::normal, settings_for(Quality::normal).cells_per_side};
+  const bool is_preview = all[rung].quality == Quality::preview;
+  const auto last = is_preview ? std::find(all.begin(), all.end(), normal) : all.end() - 1;
+  const double enough_db = target_db + (is_preview ? preview_margin_db : margin_db);
+  auto next = all.begin() + static_cast<std::ptrdiff_t>(rung) + 1;
+  while (next < last && prediction.guess_db(with_rung(chain, *next)) < enough_db) ++next;
+  return static_cast<std::size_t>(next - all.begin());
 }
 
 }  // namespace
@@ -81,7 +87,6 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
   }
   ResultWithError out;
   double predict_seconds = 0;
-  std::size_t step = 1;
   for (std::size_t rung = 0; rung < rungs().size();) {
     MethodSettings chosen = settings;
     chosen.chain = with_rung(*settings.chain, rungs()[rung]);
@@ -94,8 +99,7 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
     out.predict_seconds = predict_seconds += out.predict_seconds;
     out.rung = rungs()[rung];
     if (out.prediction->of_frame().psnr_db >= *error.target_db) break;
-    rung = next_rung(rung, step, *out.prediction, *settings.chain, *error.target_db);
-    step *= 4;
+    rung = next_rung(rung, *out.prediction, *settings.chain, *error.target_db);
   }
   if (progress) progress(1);
   return out;

@@ -40,10 +40,6 @@ constexpr double most_surprise = 3, most_at_first = 1.25;
 /// Costs beyond so many times the built-in ones are no computer's.
 constexpr double most_ratio = 100;
 
-double points_of(const Rung& rung) {
-  return static_cast<double>(make_lens_grid(rung.cells_per_side, false).points.size());
-}
-
 double towards(double from, double to, double share) { return from + share * (to - from); }
 
 }  // namespace
@@ -69,7 +65,7 @@ Cost CostModel::cost(const std::string& frame_class, Quality quality) const {
 double CostModel::seconds(const std::string& frame_class, const Rung& rung,
                           double megapixels) const {
   const Cost c = cost(frame_class, rung.quality);
-  return megapixels * (c.fixed_s + points_of(rung) * c.point_s);
+  return megapixels * (c.fixed_s + round_cells(rung.cells_per_side) * c.point_s);
 }
 
 std::size_t CostModel::choose(const std::string& frame_class, double megapixels, double budget_s,
@@ -96,8 +92,9 @@ void CostModel::refine(const std::string& frame_class, const Rung& rung, double 
   const auto learnt = [most](double was, double is) {
     return towards(was, std::clamp(is, was / most_surprise, was * most), share_of_new);
   };
-  const Cost learnt_cost{learnt(expected.fixed_s, fixed_s / megapixels),
-                         learnt(expected.point_s, rays_s / megapixels / points_of(rung))};
+  const Cost learnt_cost{
+      learnt(expected.fixed_s, fixed_s / megapixels),
+      learnt(expected.point_s, rays_s / megapixels / round_cells(rung.cells_per_side))};
   costs_[{frame_class, rung.quality}] = learnt_cost;
   const Cost own = built_in_cost(rung.quality);
   for (auto& [what, other] : costs_) {

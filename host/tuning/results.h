@@ -52,7 +52,7 @@ void merge(std::vector<Result>& results, const std::vector<Result>& added);
 /// What is known of a kernel in a picture.
 struct Finding {
   Place place;
-  Shape own, best;  ///< The launch table's, and the one of least median.
+  Shape own, best;  ///< The launch table's, and the fastest.
   double own_ms = 0, best_ms = 0;
   double low = 1, high = 1;  ///< Quartiles of best / own: pairs of runs.
   std::size_t tried = 0;     ///< Work-groups.
@@ -71,6 +71,7 @@ std::vector<Finding> findings(const std::vector<Result>& results);
 std::map<std::string, Shape> adopted(const std::vector<Result>& results,
                                      const std::string& frame_class);
 
-double median_of(std::vector<double> values);
+/// What a try took where nothing got in its way: its shortest run.
+double time_of(const Result& result);
 
 }  // namespace defray::tuning

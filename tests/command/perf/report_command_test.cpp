@@ -4,6 +4,8 @@
 #include <regex>
 
 #include "command/program.h"
+#include "tuning/shapes.h"
+#include "tuning/tuning_file.h"
 
 #ifndef DEFRAY_PERF_PROGRAM
 #define DEFRAY_PERF_PROGRAM ""  // built without the benchmarks
@@ -55,6 +57,30 @@ TEST_F(ReportCommand, RooflineHasAKernelsTimesInEachPicture) {
   const std::regex points("\n\\| `splat_resolve` \\|  \\|  \\| [0-9.]+ \\(× [0-9.]+\\) \\|");
   EXPECT_TRUE(std::regex_search(table, points)) << table;
   EXPECT_NE(table.find(" GB/s."), std::string::npos) << table;
+}
+
+TEST_F(ReportCommand, TuningIsWhatTheDevicesFileHolds) {
+  const std::string cache = folder / "cache";
+  const auto tuned = [&] {
+    write("a.md", marked("tuning"));
+    expect_ok(shell(folder, "XDG_CACHE_HOME='" + cache +
+                                "' POCL_CACHE_DIR=\"${POCL_CACHE_DIR:-$HOME/.cache/pocl/kcache}\" "
+                                "RUSTICL_ENABLE= '" DEFRAY_PERF_PROGRAM
+                                "' report --update a.md --table tuning"));
+    return table_in("a.md", "tuning");
+  };
+  EXPECT_NE(tuned().find("\nNothing is tuned: run `defray tune`.\n"), std::string::npos);
+  const tuning::Key key = tuning::key_of(device_under_test());
+  const std::string file = std::filesystem::path(tuning::path_of(key)).filename();
+  const tuning::Place place{"hd narrow", "a picture", "fill"};
+  tuning::add(cache + "/defray/" + file, key, device_under_test().max_work_group,
+              {{place, tuning::own_shape("fill"), tuning::Validity::correct, {10, 10, 10, 10, 10}},
+               {place, {2, 2}, tuning::Validity::correct, {8, 8, 8, 8, 8}}});
+  const std::string table = tuned();
+  EXPECT_NE(table.find("\n| a picture | `fill` | " + to_string(tuning::own_shape("fill")) +
+                       " | 10.0 | 2x2 | 8.0 | 20 % (20 to 20) | yes |\n"),
+            std::string::npos)
+      << table;
 }
 
 TEST_F(ReportCommand, UpdateChangesOnlyWhatStandsBetweenItsMarkers) {

@@ -81,10 +81,17 @@ TEST_F(TuneCommand, FindsKeepsShowsExportsAndForgets) {
   EXPECT_GE(parsed(linear + "--budget 0.1s")["kernels"][0]["tried"], one["tried"]);
   EXPECT_GT(runs(), before);
 
-  EXPECT_NE(run("tune --clear").out.find("removed"), std::string::npos);
+  // With the times of budgets.
+  expect_ok(run("render in.exr -o out.exr --budget-ms 500" + lens));
+  const json cleared = parsed("tune --clear");
+  ASSERT_EQ(cleared["removed"].size(), 2u);
+  EXPECT_EQ(cleared["removed"][0], file());
+  EXPECT_FALSE(std::filesystem::exists(std::string(cleared["removed"][1])));
   EXPECT_TRUE(parsed("tune --show")["kernels"].empty());
   EXPECT_NE(run("tune --show").out.find("nothing is tuned"), std::string::npos);
   EXPECT_NE(run("tune --clear").out.find("was not there"), std::string::npos);
+  expect_ok(run("render in.exr -o out.exr --budget-ms 500" + lens));
+  EXPECT_NE(run("tune --clear").out.find(": removed"), std::string::npos);
 }
 
 TEST_F(TuneCommand, OfTheBuiltInPicturesTakesTheirNamesAndClasses) {
@@ -149,7 +156,9 @@ TEST_F(TuneCommand, RefusesWhatMeansNothing) {
   expect_refused("tune --sizes huge", 2, {"--sizes 'huge'", "small hd uhd"});
   expect_refused("tune --show --clear", 2, {"--show, --clear and --export: one of them"});
   expect_refused("tune in.exr --show", 2, {"go without a picture"});
-  expect_refused("tune --clear -o report", 2, {"without -o"});
+  expect_refused("tune --clear -o report", 2, {"--output", "goes without --show"});
+  expect_refused("tune --show --kernel fill", 2, {"--kernel", "goes without --show"});
+  expect_refused("tune --export t4.json --budget 5s", 2, {"--budget", "goes without --show"});
   expect_refused("tune --device reference", 2, {"reference", "no work-groups"});
   expect_refused("tune --focus 3", 2, {"--focus", "goes with a picture"});
   expect_refused("tune in.exr --sizes hd" + lens, 2, {"--sizes", "goes without a picture"});

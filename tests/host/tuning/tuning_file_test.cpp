@@ -90,7 +90,7 @@ TEST_F(TuningFile, IsWhatTunersRead) {
   EXPECT_EQ(first["correctness"], 1.0);
   EXPECT_EQ(first["objectives"], json{"time"});
   EXPECT_EQ(first["measurements"],
-            (json::array({{{"name", "time"}, {"value", 3.5}, {"unit", "ms"}}})));
+            (json::array({{{"name", "time"}, {"value", 2.5}, {"unit", "ms"}}})));
   EXPECT_TRUE(std::string(first["timestamp"]).ends_with("Z"));
   const json& second = file["results"][1];
   EXPECT_EQ(second["invalidity"], "correctness");

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "measure/metrics.h"
 #include "prediction/with_error.h"
@@ -209,6 +210,31 @@ TEST(Target, OutOfReachIsSaidOfTheBest) {
   EXPECT_TRUE(result.expected(target(80))->misses_target);
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_EQ(shares.back(), 1.0);
+  // After preview, which tells of no progress, the default, whose word on the others is good; the
+  // best.
+  std::set<std::size_t> tried;
+  for (const double share : shares) {
+    const double rung = share * static_cast<double>(rungs().size());
+    if (rung != std::floor(rung)) tried.insert(static_cast<std::size_t>(rung));
+  }
+  const auto normal = std::find(rungs().begin(), rungs().end(), Rung{Quality::normal, 13});
+  EXPECT_EQ(tried, (std::set<std::size_t>{static_cast<std::size_t>(normal - rungs().begin()),
+                                          rungs().size() - 1}));
+}
+
+TEST(Target, BetweenTheDefaultAndHighTakesWhatLiesBetween) {
+  const Subject s = subject_of("plate2", "f1", 160, 104);
+  const auto expected_db = [&](Quality quality) {
+    return made(s, chain_of(quality), expects).prediction->of_frame().psnr_db;
+  };
+  const double normal = expected_db(Quality::normal), high = expected_db(Quality::high);
+  ASSERT_GT(high, normal + 0.1);
+  const double wanted = normal + 0.3 * (high - normal);
+  const ResultWithError result = made(s, chain_of(Quality::normal), target(wanted));
+  EXPECT_GE(result.prediction->of_frame().psnr_db, wanted);
+  EXPECT_EQ(result.rung->quality, Quality::normal);
+  EXPECT_GT(result.rung->cells_per_side, 13);
+  EXPECT_LT(result.rung->cells_per_side, 25);
 }
 
 TEST(Target, OfNoUseIsRefused) {
