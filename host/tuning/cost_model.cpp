@@ -139,7 +139,7 @@ void write_costs(const std::string& path, const Key& key, const CostModel& model
                      {"point_s", cost.point_s}});
   }
   const DeviceFileLock lock(path);
-  write_text(path, Json{{"metadata", to_json(key)}, {"costs", costs}}.dump(1) + "\n");
+  write_text(path, Json{{"metadata", to_json(key)}, {"costs", costs}}.dump() + "\n");
 }
 
 }  // namespace defray::tuning

@@ -12,7 +12,7 @@ namespace defray::tuning {
 
 /// Seconds for a million pixels: of all stages but rays, and of the rays through one lens point.
 struct Cost {
-  double fixed_s = 0, point_s = 0;
+  double fixed_s, point_s;
 };
 
 /// Costs by class of frames (tuning::frame_class) and quality. What was not measured is as on the

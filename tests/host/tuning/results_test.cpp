@@ -86,6 +86,20 @@ TEST(Exploring, LooksBesideTheBestInEveryOtherTry) {
             own);
 }
 
+TEST(Exploring, TriesAllThatLieBesideTheBestBeforeLong) {
+  Results results;
+  std::set<Shape> tried;
+  while (results.size() < 10) {
+    const Shape next = *tuning::next_to_explore(results, place, 256);
+    tried.insert(next);
+    tuning::merge(results, {result(next, {next == own ? 1.0 : 2.0})});
+  }
+  ASSERT_EQ(own, (Shape{8, 1}));
+  for (const Shape& beside : {Shape{4, 1}, Shape{16, 1}, Shape{8, 2}, Shape{4, 2}}) {
+    EXPECT_TRUE(tried.contains(beside)) << to_string(beside);
+  }
+}
+
 TEST(Exploring, LeavesOutWhatDidNotWork) {
   Results results{result(own, {1})};
   const Shape wrong{16, 2};
