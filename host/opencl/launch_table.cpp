@@ -14,7 +14,7 @@ constexpr std::size_t plane = 4, colour = 4 * plane;
 }  // namespace
 
 const std::vector<Launch>& launch_table() {
-  // Work-groups: as `defray tune` found them on PoCL's CPU device (perf/README.md, Work-groups).
+  // Work-groups: what `defray tune` found no better than on PoCL's CPU device (perf/README.md).
   static const std::vector<Launch> table = {
       {"coc", 64, 0},
       // The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px
@@ -28,7 +28,7 @@ const std::vector<Launch>& launch_table() {
       {"highlights_add", 64, 1},
       {"linear_psf", 16, 1},
       {"mixed", 8, 1, 1, 2 * plane, DEFRAY_RUN},
-      {"patterns_difference", 16, 4},
+      {"patterns_difference", 8, 1},
       // What matches are within reach of, and both surfaces.
       {"patterns_match", 8, 1, 0, 5 * plane + 2 * colour},
       {"rdb_clear", 256, 0},
@@ -43,10 +43,10 @@ const std::vector<Launch>& launch_table() {
       // A ramp's ends are looked for two pixels away, and what is flat one further.
       {"repair", 8, 1, 3, 2 * plane, DEFRAY_RUN},
       {"soften", 2, 1, 1, 2 * plane + 2 * colour, DEFRAY_RUN},
-      {"splat_project", 128, 0},
-      {"splat_resolve", 8, 1},
+      {"splat_project", 64, 0},
+      {"splat_resolve", 1, 4},
       // A square of 7 px around. Two layers are written, the frame and what lies behind read.
-      {"split", 128, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
+      {"split", 64, 1, 3, 3 * plane + colour + (5 * plane + 2 * colour) / 2},
       {"tiltshift", 64, 1},
   };
   return table;
