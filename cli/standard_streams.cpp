@@ -132,7 +132,7 @@ void PictureStreams::finish() {
   std::ifstream stream(output_, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = write(standard_output_, bytes.data() + done, bytes.size() - done);
+    const ssize_t count = ::write(standard_output_, bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       fail(ErrorKind::output, "standard output: cannot write: {}", std::strerror(errno));
