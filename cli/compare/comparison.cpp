@@ -86,7 +86,8 @@ Found compare_pair(const CompareOptions& o, const Pair& pair, const Pair* before
   const int width = a.data.width;
   const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a.data);
   const std::vector<Plane> planes = seen_b(pair, mask);
-  Found found{.comparison = compare(a.planes, planes, width)};
+  Found found;
+  found.comparison = compare(a.planes, planes, width);
   if (!mask.empty()) {
     static_cast<Errors&>(found.comparison) = errors_where(a.planes, b.planes, mask, 1);
   }

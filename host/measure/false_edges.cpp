@@ -56,7 +56,8 @@ Excess excess_of(const Luma& found, const Luma& in_truth) {
   Luma allowed;
   constexpr int side = 2 * truth_within_px + 1;
   cv::dilate(in_truth, allowed, cv::Mat::ones(side, side, CV_8U));
-  const Luma above = cv::max(found - allowed, 0);
+  Luma above;
+  cv::max(found - allowed, 0, above);
   Excess out;
   cv::Point worst;
   cv::minMaxLoc(above, nullptr, &out.worst, nullptr, &worst);
@@ -80,8 +81,10 @@ Excess false_changes(const std::vector<Plane>& result, const std::vector<Plane>&
   for (const auto* picture : {&next_result, &truth, &next_truth}) {
     require_same_size(result, *picture);
   }
-  const auto change = [&](const std::vector<Plane>& from, const std::vector<Plane>& to) -> Luma {
-    return cv::abs(luma(to, width) - luma(from, width));
+  const auto change = [&](const std::vector<Plane>& from, const std::vector<Plane>& to) {
+    Luma out;
+    cv::absdiff(luma(to, width), luma(from, width), out);
+    return out;
   };
   return excess_of(change(result, next_result), change(truth, next_truth));
 }
