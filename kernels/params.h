@@ -56,7 +56,9 @@
 #define DEFRAY_HIGHLIGHT_TILE 16
 /// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens point.
 #define DEFRAY_WIDE_QUANTA 1024
-/// Below this CoC (half a pixel) a fragment's rays stay in its pixel.
+/// Below this CoC (1 px) rays may land as those of another radius do.
+#define DEFRAY_SMALL_QUANTA 256
+/// Below this CoC (half a pixel) a fragment's rays stay in its pixel, but for a few.
 #define DEFRAY_SHARP_QUANTA 128
 /// Side of the square tiles that highlights are sorted into, in pixels.
 #define DEFRAY_LIGHT_TILE 32
@@ -131,9 +133,10 @@ typedef struct {
   DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
-  DEFRAY_UINT has_rim;      ///< 1: the lens's rim cuts off cells, see rim.clh.
-  DEFRAY_UINT all_cells;    ///< Lens points of all passes.
-  DEFRAY_UINT has_data_of;  ///< 0: every fragment has data of its own (`rdb_nearest`).
+  DEFRAY_UINT has_rim;            ///< 1: the lens's rim cuts off cells, see rim.clh.
+  DEFRAY_UINT all_cells;          ///< Lens points of all passes.
+  DEFRAY_UINT has_data_of;        ///< 0: every fragment has data of its own (`rdb_nearest`).
+  DEFRAY_UINT has_landing_radii;  ///< 0: rays of all radii land as their own (`rdb_scatter`).
 } DefrayRdbParams;
 
 /// The rays of a window's pixels, from where they end: `rdb_pad`, `rdb_tiles`, `rdb_reach`,
@@ -292,7 +295,7 @@ static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
-static_assert(sizeof(DefrayRdbParams) == 76);
+static_assert(sizeof(DefrayRdbParams) == 80);
 static_assert(sizeof(DefrayRaysParams) == 104);
 #endif
 

@@ -2,6 +2,7 @@
 
 #include "lens/aperture.h"
 #include "lens/cats_eye.h"
+#include "lens/landing_radii.h"
 #include "lens/lens_grid.h"
 #include "lens/lens_points.h"
 
@@ -11,6 +12,7 @@ RayPlan ray_plan(const ChainSettings& settings, bool wants_nearest) {
   validate(settings.aperture);
   RayPlan plan;
   plan.lens = make_lens_points(settings.aperture, round_cells(settings.cells_per_side));
+  plan.lens.landing_radii = landing_radii(plan.lens);
   plan.wants_nearest = wants_nearest;
   plan.by = settings.rays;
   return plan;

@@ -10,6 +10,7 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
                        const LightSources* lights, std::size_t pixels, std::size_t winner_cells,
                        KeptBuffer& winners)
     : lens(session.view(plan.lens.points)),
+      landing_radii(plan.lens.landing_radii.empty() ? lens : session.view(plan.lens.landing_radii)),
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
       winner(winners.take(session,
@@ -41,6 +42,7 @@ DefrayRdbParams RayBuffers::params() const {
   p.origin_x = plan_.origin_x;
   p.origin_y = plan_.origin_y;
   p.has_rim = !plan_.rim_x.empty();
+  p.has_landing_radii = !plan_.lens.landing_radii.empty();
   p.all_cells = static_cast<std::uint32_t>(plan_.lens.points.size());
   p.has_data_of = !frame_.data_of.empty();
   return p;

@@ -51,7 +51,7 @@ class RayBuffers {
   /// Copies a band's part of the result.
   void read(const DefrayRdbParams& p, RayResult& out);
 
-  cl::Buffer lens, rim_x, rim_y, winner, seen;
+  cl::Buffer lens, landing_radii, rim_x, rim_y, winner, seen;
   std::array<cl::Buffer, 4> means;  ///< Planes; kernels write missing channels too.
   cl::Buffer light_first;           ///< LightSources::first; anything without lights.
 

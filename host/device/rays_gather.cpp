@@ -41,7 +41,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_,
                winners),
       window_(session, frame, plan, bins_),
-      sharp_(sharp_bins(bins_)),
+      sharp_(sharp_bins(bins_, lens_)),
       filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
   DefrayRaysParams& p = window_.params;

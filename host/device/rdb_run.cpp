@@ -64,7 +64,8 @@ void RdbRun::scatter(const RdbPass& pass) {
     p.is_index_pass = i == 1;
     session_.launch_from({0, first_row, 0}, "rdb_scatter",
                          {p.width, size(pass.window_rows) * p.layers, p.cell_count}, p, window_.coc,
-                         window_.depth, window_.coverage, buffers_.lens, buffers_.winner);
+                         window_.depth, window_.coverage, buffers_.lens, buffers_.landing_radii,
+                         buffers_.winner);
   }
 }
 

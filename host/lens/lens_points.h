@@ -13,6 +13,9 @@ struct LensPoints {
   std::vector<std::array<std::int32_t, 2>> points;  ///< (u, v)
   /// How far each pixel moves each of them at most: half a cell of a grid; 0 without jitter.
   std::int32_t jitter = 0;
+  /// Of CoC radii below 1 px, the ones as which their rays land (landing_radii.h), in quanta.
+  /// Empty: their own, as with jitter.
+  std::vector<std::int32_t> landing_radii = {};
 };
 
 inline constexpr int most_lens_points = 4096;

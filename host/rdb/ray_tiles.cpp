@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lens/landing_radii.h"
+
 namespace defray {
 namespace {
 
@@ -37,8 +39,9 @@ std::vector<BinSet> bins_by_distance(const RadiusBins& bins, int tiles) {
   return near;
 }
 
-BinSet sharp_bins(const RadiusBins& bins) {
-  return bins_that([&](int b) { return bins.largest_of(b) < DEFRAY_SHARP_QUANTA; });
+BinSet sharp_bins(const RadiusBins& bins, const LensPoints& lens) {
+  return bins_that(
+      [&](int b) { return landing_radius(lens, bins.largest_of(b)) < DEFRAY_SHARP_QUANTA; });
 }
 
 }  // namespace defray

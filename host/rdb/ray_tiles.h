@@ -44,6 +44,6 @@ int padded_stride(int width);
 std::vector<BinSet> bins_by_distance(const RadiusBins& bins, int tiles);
 
 /// Bins whose rays end where they begin, whatever the lens point.
-BinSet sharp_bins(const RadiusBins& bins);
+BinSet sharp_bins(const RadiusBins& bins, const LensPoints& lens);
 
 }  // namespace defray

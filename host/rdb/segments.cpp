@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/plane.h"
+#include "lens/landing_radii.h"
 
 namespace defray {
 namespace {
@@ -40,14 +41,15 @@ struct Axis {
   }
 };
 
-void add_cell(const Axis& x, const Axis& y, std::int64_t least, std::int64_t largest, int width,
-              int height, std::vector<Segment>& segments) {
+void add_cell(const LensPoints& lens, const Axis& x, const Axis& y, std::int64_t least,
+              std::int64_t largest, int width, int height, std::vector<Segment>& segments) {
   const std::int64_t limit = std::min(x.limit(width), y.limit(height));
   const std::int64_t end = limit == never ? largest : std::min(largest, limit);
   std::int64_t r = limit == never ? least : std::max(least, -limit);
   while (r <= end) {
-    const std::int64_t dx = x.landing(r), dy = y.landing(r);
-    const std::int64_t last = std::min({x.next(r), y.next(r), largest + 1}) - 1;
+    const std::int64_t as = landing_radius(lens, r), dx = x.landing(as), dy = y.landing(as);
+    const std::int64_t next = first_landing_as(lens, std::min(x.next(as), y.next(as)));
+    const std::int64_t last = std::min(next, largest + 1) - 1;
     if (std::abs(dx) < width && std::abs(dy) < height) {
       segments.push_back({static_cast<std::int32_t>(dx), static_cast<std::int32_t>(dy),
                           static_cast<std::int32_t>(r), static_cast<std::int32_t>(last - r)});
@@ -84,7 +86,7 @@ SegmentTable::SegmentTable(const LensPoints& lens, int first_cell, const RadiusB
   for (std::size_t cell = size(first_cell); cell < lens.points.size(); ++cell) {
     const auto [u, v] = lens.points[cell];
     std::size_t at = segments.size();
-    add_cell({u}, {v}, bins.least, bins.largest, width, height, segments);
+    add_cell(lens, {u}, {v}, bins.least, bins.largest, width, height, segments);
     const std::size_t runs = first.size() / 2;
     if (segments.size() + runs > most && !first.empty()) {
       segments.resize(at);

@@ -31,6 +31,14 @@ Offset jitter_offset(std::uint32_t x, std::uint32_t y, std::uint32_t seed, std::
 /// A ray displaced by `ray` pixels arrives at a pixel `step` away if the step is in its square.
 bool arrives(double step, double ray) { return step - ray >= -0.5 && step - ray < 0.5; }
 
+/// Rays of a radius below 1 px may land as those of another, quanta.
+double lands_as(const LensPoints& lens, std::int32_t radius) {
+  const auto& radii = lens.landing_radii;
+  const double own = radius;
+  if (!(std::fabs(own) < static_cast<double>(radii.size()))) return own;
+  return std::copysign(radii[static_cast<std::size_t>(std::fabs(own))], own);
+}
+
 /// One lens point's scatter over a frame.
 class CellScatter {
  public:
@@ -109,7 +117,7 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
     if (!coverage.empty() && !scatter.sends(x, y, (coverage[source] & 0x7fffffffu) / 65536.0)) {
       continue;
     }
-    const double r = std::ldexp(static_cast<double>(coc[source]), -DEFRAY_COC_FRACTION_BITS);
+    const double r = std::ldexp(lands_as(plan.lens, coc[source]), -DEFRAY_COC_FRACTION_BITS);
     scatter.for_each_target(x, y, r, [&](std::size_t target) {
       // Sources come in index order: an equal radius never replaces an earlier one.
       const std::int64_t held = winner[target];

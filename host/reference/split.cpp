@@ -109,6 +109,20 @@ Colour rest_of(const Colour& c, const Colour& other, float others_share) {
   return rest;
 }
 
+/// No farther from C than the colour that is known.
+Colour plausible(Colour rest, const Colour& c, const Colour& known) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool rises = c[i] < known[i];
+    const float low = rises ? c[i] : known[i], high = rises ? known[i] : c[i];
+    if (rest[i] < low) {
+      rest[i] = low;
+    } else if (rest[i] > high) {
+      rest[i] = high;
+    }
+  }
+  return rest;
+}
+
 /// Coverages in 2^-16; the colours are made for the stored share.
 std::uint32_t stored(float share) {
   return static_cast<std::uint32_t>(std::nearbyint(share * DEFRAY_WHOLE));
@@ -200,7 +214,7 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
       behind.inverse[pixel] = f.inverse[pixel];
       behind.coverage[pixel] = DEFRAY_WHOLE;
       set_colour(behind.channels, pixel,
-                 rest_of(c, found->colour, share_of(front.coverage[pixel])));
+                 plausible(rest_of(c, found->colour, share_of(front.coverage[pixel])), c, b));
     }
   });
   return layered(f.without_planes(), front, behind);

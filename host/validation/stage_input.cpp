@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "lens/aperture_mask.h"
+#include "lens/landing_radii.h"
 #include "methods/linear.h"
 #include "methods/tiltshift.h"
 #include "reference/twin_backend.h"
@@ -112,6 +113,7 @@ const ApertureTable& lopsided_aperture() {
 
 RayPlan ray_plan(const Case& c) {
   RayPlan plan = plan_rays({c.cells, c.jitter, c.seed});
+  if (c.seed % 2 == 0 && !c.jitter) plan.lens.landing_radii = landing_radii(plan.lens);
   plan.origin_x = static_cast<int>(c.seed % 5) - 2;
   plan.origin_y = static_cast<int>(c.seed % 3);
   if (c.seed % 4 == 1) {

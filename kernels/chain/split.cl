@@ -4,8 +4,9 @@
 // With F the colour of the surface in front (pure pixels nearby), B that behind it (from `fill`, or
 // from pure pixels if the depth sample saw another one), the pixel's colour C = a F + (1 - a) B has
 // the coverage a nearest to it (least squares; alpha counts like a colour). What the two colours do
-// not explain goes to the surface that the depth sample saw, so that both together still give C.
-// The edge pixels of what is in focus stay as they are.
+// not explain goes to the surface that the depth sample saw, so that both together still give C;
+// but what lies behind gets no colour beyond C and what is known of it. The edge pixels of what is
+// in focus stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -116,6 +117,13 @@ float4 rest_of(const float4 c, const float4 other, const float others_share) {
   return rest < least ? least : rest;
 }
 
+// No farther from C than the colour that is known of that surface: taken apart wrongly, a pixel
+// would get colours that nothing around it has.
+float4 plausible(const float4 rest, const float4 c, const float4 known) {
+  const float4 low = c < known ? c : known, high = c < known ? known : c;
+  return rest < low ? low : rest > high ? high : rest;
+}
+
 // A mixed pixel: both surfaces with their shares of it, where it can be taken apart.
 void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
           __global const float* restrict inverse, __global const uint* restrict mixed,
@@ -156,7 +164,7 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   } else {
     const uint kept = stored(fmin(share, MOST_OF_BEHIND));
     const Surface seen = {front->coc, front->inverse, DEFRAY_WHOLE,
-                          rest_of(c, f.colour, (float)kept * 0x1p-16f)};
+                          plausible(rest_of(c, f.colour, (float)kept * 0x1p-16f), c, b)};
     const Surface before = {coc_quanta[f.source], inverse[f.source], kept, f.colour};
     *behind = seen;
     *front = before;

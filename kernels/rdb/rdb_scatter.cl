@@ -14,6 +14,10 @@
 // depth_bits  [window_rows][layers][width]      all ones where there is no fragment
 // coverage    [window_rows][layers][width]      2^-16 of the pixel, bit 31 apart; if has_coverage
 // lens        [cells]                           u_k, 2^-16 of the aperture radius
+// landing_radii [DEFRAY_SMALL_QUANTA]           of radii below 1 px, those as which rays land,
+// 1/256
+//                                               px (host/lens/landing_radii.h); if
+//                                               has_landing_radii
 // winner      [cell_count][band_rows][width]    (x: source index in the window, y: key, the
 //                                               radius + 2^31),
 //                                               all ones where no ray has arrived
@@ -38,6 +42,14 @@
 
 // The one d with d - offset in [-1/2, 1/2): where a ray with this offset lands, in whole pixels.
 int landing(const long offset) { return (int)((offset + HALF_PIXEL - 1) >> RAY_FRACTION_BITS); }
+
+// The radius as which rays of this one land.
+int landing_radius(const DefrayRdbParams p, __global const int* restrict landing_radii,
+                   const int radius) {
+  const uint size = abs(radius);
+  if (!p.has_landing_radii || size >= DEFRAY_SMALL_QUANTA) return radius;
+  return radius < 0 ? -landing_radii[size] : landing_radii[size];
+}
 
 // Jitter of a target pixel's lens points, in [-largest, largest)^2: a hash of absolute frame
 // coordinates, so that no tile or band shows.
@@ -87,7 +99,8 @@ __kernel void rdb_clear(const DefrayRdbParams p, __global uint2* winner) {
 __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict coc_quanta,
                           __global const uint* restrict depth_bits,
                           __global const uint* restrict coverage,
-                          __global const int2* restrict lens, __global uint2* winner) {
+                          __global const int2* restrict lens,
+                          __global const int* restrict landing_radii, __global uint2* winner) {
   const uint sx = get_global_id(0);
   const uint row = get_global_id(1);
   const uint cell = get_global_id(2);
@@ -97,7 +110,7 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   if (depth_bits[source] == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
   const uint key = as_uint(radius) ^ 0x80000000u;
-  const long r = radius;
+  const long r = landing_radius(p, landing_radii, radius);
   const long2 u = convert_long2(lens[p.first_cell + cell]);
   const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
   const int2 from = (int2)((int)sx, (int)(p.window_y + row / p.layers));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "lens/landing_radii.h"
 #include "lens/lens_points.h"
 
 namespace defray::test::segments_test {
@@ -14,9 +15,16 @@ namespace {
 
 constexpr std::size_t plenty = std::size_t{1} << 30;
 
+/// As which radius a small one's rays land.
+std::int64_t lands_as(const LensPoints& lens, std::int64_t radius) {
+  if (lens.landing_radii.empty() || std::abs(radius) >= 256) return radius;
+  const std::int64_t as = lens.landing_radii[static_cast<std::size_t>(std::abs(radius))];
+  return radius < 0 ? -as : as;
+}
+
 /// The definition: the one d with d - r u in [-1/2, 1/2), px.
-int landing(std::int64_t radius, std::int32_t u) {
-  const double ray = std::ldexp(static_cast<double>(radius * u), -24);  // exact
+int landing(const LensPoints& lens, std::int64_t radius, std::int32_t u) {
+  const double ray = std::ldexp(static_cast<double>(lands_as(lens, radius) * u), -24);  // exact
   return static_cast<int>(std::ceil(ray - 0.5));
 }
 
@@ -36,11 +44,11 @@ struct Range {
   std::int32_t least, largest;
 };
 
-TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
-  const LensPoints lens = make_lens_points(Aperture{}, 37);
+/// Radii of a range, of all sizes.
+void expect_segments_to_say_where_rays_land(const LensPoints& lens) {
   std::mt19937 random(3);
-  for (const Range range :
-       {Range{-900, 2000}, Range{0, 0}, Range{-70000, -300}, Range{-(1 << 30), 1 << 30}}) {
+  for (const Range range : {Range{-900, 2000}, Range{-256, 256}, Range{0, 0}, Range{-130, -1},
+                            Range{70, 255}, Range{-70000, -300}, Range{-(1 << 30), 1 << 30}}) {
     const RadiusBins bins(range.least, range.largest, 40);
     const SegmentTable table(lens, 0, bins, 40, 23, plenty);
     std::uniform_int_distribution<std::int32_t> any(range.least, range.largest);
@@ -49,8 +57,8 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
     for (int i = 0; i < 4000; ++i) {
       const auto cell = static_cast<std::size_t>(i) % lens.points.size();
       const std::int32_t radius = i % 2 ? any(random) : near.min() <= near.max() ? near(random) : 0;
-      const int dx = landing(radius, lens.points[cell][0]);
-      const int dy = landing(radius, lens.points[cell][1]);
+      const int dx = landing(lens, radius, lens.points[cell][0]);
+      const int dy = landing(lens, radius, lens.points[cell][1]);
       const Segment* s = find(table, cell, radius);
       const bool stays = std::abs(dx) < 40 && std::abs(dy) < 23;
       ASSERT_EQ(s != nullptr, stays) << radius << " of cell " << cell;
@@ -61,8 +69,21 @@ TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
   }
 }
 
+TEST(Segments, EveryRadiusLandsWhereItsSegmentSays) {
+  expect_segments_to_say_where_rays_land(make_lens_points(Aperture{}, 37));
+}
+
+TEST(Segments, SmallRadiiLandAsOthersDo) {
+  for (const int points : {1, 2, 37, 137}) {
+    LensPoints lens = make_lens_points(Aperture{}, points);
+    lens.landing_radii = landing_radii(lens);
+    expect_segments_to_say_where_rays_land(lens);
+  }
+}
+
 TEST(Segments, AscendWithoutGapsAndBeginWhereTheirBinDoes) {
-  const LensPoints lens = make_lens_points(Aperture{}, 21);
+  LensPoints lens = make_lens_points(Aperture{}, 21);
+  lens.landing_radii = landing_radii(lens);
   const RadiusBins bins(-3000, 5000, 1000);
   const SegmentTable table(lens, 0, bins, 1000, 1000, plenty);
   for (std::size_t cell = 0; cell < lens.points.size(); ++cell) {

@@ -2,6 +2,7 @@
 #include "base/random.h"
 #include "chain/chain.h"
 #include "lens/aperture_table.h"
+#include "lens/landing_radii.h"
 #include "lens/lens_points.h"
 #include "rdb/rdb.h"
 #include "support.h"
@@ -35,6 +36,7 @@ Frame random_frame(Size size, double coc_px, std::uint32_t seed) {
 RayPlan plan_of(int points, bool wants_nearest = false) {
   RayPlan plan;
   plan.lens = make_lens_points(Aperture{}, points);
+  if (points % 3 == 1) plan.lens.landing_radii = landing_radii(plan.lens);
   plan.wants_nearest = wants_nearest;
   return plan;
 }

@@ -146,9 +146,15 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
     return;
   }
   (saw_front ? counts.fronts : counts.behinds) += 1;
-  // What is left for the surface that was seen, once the other has its part; never below 0.
+  // What is left for the surface that was seen, once the other has its part; never below 0 nor,
+  // behind, beyond what is known there.
   Colour rest = mixture(1 / (saw_front ? coverage : 1 - coverage), c, saw_front ? behind : front);
-  for (double& v : rest) v = std::max(v, 0.0);
+  const Colour known = colour_of(filled.channels, i);
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    rest[k] = std::max(rest[k], 0.0);
+    if (!saw_front)
+      rest[k] = std::min(std::max(rest[k], std::min(c[k], known[k])), std::max(c[k], known[k]));
+  }
   EXPECT_LT(distance2(saw_front ? front : behind, rest), 1e-9);
 }
 
