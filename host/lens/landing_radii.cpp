@@ -84,7 +84,8 @@ std::int64_t landing_radius(const LensPoints& lens, std::int64_t radius) {
 
 std::int64_t first_landing_as(const LensPoints& lens, std::int64_t landing) {
   const auto& radii = lens.landing_radii;
-  if (static_cast<std::size_t>(std::abs(landing)) >= radii.size()) return landing;
+  const auto size = static_cast<std::int64_t>(radii.size());  // which a radius may land as
+  if (landing > size || landing <= -size) return landing;
   if (landing > 0) return std::lower_bound(radii.begin(), radii.end(), landing) - radii.begin();
   return radii.begin() - std::upper_bound(radii.begin(), radii.end(), -landing) + 1;
 }

@@ -82,11 +82,15 @@ TEST(LandingRadii, AreTheirOwnFromAPixelOnAndWithoutATable) {
 }
 
 TEST(LandingRadii, FirstOfAll) {
-  const LensPoints lens = round_lens(37);
-  for (std::int64_t landing = -300; landing <= 300; ++landing) {
-    const std::int64_t first = first_landing_as(lens, landing);
-    EXPECT_GE(landing_radius(lens, first), landing);
-    EXPECT_LT(landing_radius(lens, first - 1), landing) << landing;
+  // Of four lens points, half way to the rim, small radii land as one of 1 px.
+  const LensPoints lenses[] = {round_lens(37), with_radii(make_lens_grid(2, false))};
+  EXPECT_EQ(lenses[1].landing_radii.back(), 256);
+  for (const LensPoints& lens : lenses) {
+    for (std::int64_t landing = -300; landing <= 300; ++landing) {
+      const std::int64_t first = first_landing_as(lens, landing);
+      EXPECT_GE(landing_radius(lens, first), landing);
+      EXPECT_LT(landing_radius(lens, first - 1), landing) << landing;
+    }
   }
 }
 
