@@ -1,4 +1,5 @@
 // Twin of kernels/chain/split.cl.
+#include <limits>
 #include <optional>
 
 #include "reference/stage_frame.h"
@@ -6,10 +7,28 @@
 namespace defray::reference {
 namespace {
 
+/// Of colours, channel by channel; one that is not a number does not count.
+struct Hull {
+  Colour low, high;
+
+  Hull() {
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+  }
+
+  void add(const Colour& colour) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (colour[i] < low[i]) low[i] = colour[i];
+      if (colour[i] > high[i]) high[i] = colour[i];
+    }
+  }
+};
+
 /// A surface, from the pixels around.
 struct Nearby {
   Colour colour;
   std::size_t source;  ///< Whose depth it has.
+  Hull hull;           ///< Of the colours that it is the mean of.
 };
 
 /// a . b, added in channel order.
@@ -49,6 +68,7 @@ class Splitter {
       const int distance2 = d.x * d.x + d.y * d.y;
       const float weight = 1.0f / static_cast<float>(distance2 * distance2);
       add(found.colour, weight, colour_at(channels_, q));
+      found.hull.add(colour_at(channels_, q));
       weights += weight;
       if (weight > largest) found.source = q;
       largest = std::max(largest, weight);
@@ -68,7 +88,7 @@ class Splitter {
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(dot(d, d) > farthest)) return;
       farthest = dot(d, d);
-      front = {colour, q};
+      front = {colour, q, {}};
     });
     return front;
   }
@@ -109,16 +129,15 @@ Colour rest_of(const Colour& c, const Colour& other, float others_share) {
   return rest;
 }
 
-/// No farther from C than the colour that is known.
-Colour plausible(Colour rest, const Colour& c, const Colour& known) {
+/// Within C, B and the colours that were seen of B's surface.
+Colour plausible(const std::optional<Nearby>& seen, const Colour& b, const Colour& c, Colour rest) {
+  Hull hull;
+  hull.add(c);
+  hull.add(b);
+  if (seen) hull.add(seen->hull.low), hull.add(seen->hull.high);
   for (std::size_t i = 0; i < 4; ++i) {
-    const bool rises = c[i] < known[i];
-    const float low = rises ? c[i] : known[i], high = rises ? known[i] : c[i];
-    if (rest[i] < low) {
-      rest[i] = low;
-    } else if (rest[i] > high) {
-      rest[i] = high;
-    }
+    if (rest[i] < hull.low[i]) rest[i] = hull.low[i];
+    if (rest[i] > hull.high[i]) rest[i] = hull.high[i];
   }
   return rest;
 }
@@ -193,10 +212,9 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     auto found = splitter.pure(at, -DEFRAY_TAME_QUANTA, middle - 1);
     if (!found) found = splitter.thin_front(at, middle, b);
     const int own = frame.coc(at);
-    if (!saw_front && std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA) {
-      const auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
-      if (seen) b = seen->colour;
-    }
+    const auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
+    const bool is_third = std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA;
+    if (!saw_front && is_third && seen) b = seen->colour;
     const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
     if (saw_front) {
       if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;
@@ -214,7 +232,7 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
       behind.inverse[pixel] = f.inverse[pixel];
       behind.coverage[pixel] = DEFRAY_WHOLE;
       set_colour(behind.channels, pixel,
-                 plausible(rest_of(c, found->colour, share_of(front.coverage[pixel])), c, b));
+                 plausible(seen, b, c, rest_of(c, found->colour, share_of(front.coverage[pixel]))));
     }
   });
   return layered(f.without_planes(), front, behind);

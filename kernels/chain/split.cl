@@ -5,8 +5,8 @@
 // from pure pixels if the depth sample saw another one), the pixel's colour C = a F + (1 - a) B has
 // the coverage a nearest to it (least squares; alpha counts like a colour). What the two colours do
 // not explain goes to the surface that the depth sample saw, so that both together still give C;
-// but what lies behind gets no colour beyond C and what is known of it. The edge pixels of what is
-// in focus stay as they are.
+// but what lies behind gets no colour beyond C, B and those of its pure pixels nearby. The edge
+// pixels of what is in focus stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -37,16 +37,20 @@ typedef struct {
 // A surface, from the pixels around.
 typedef struct {
   float4 colour;
-  uint source;  // whose depth it has
+  float4 low, high;  // of the colours that it is the mean of, channel by channel
+  uint source;       // whose depth it has
   bool is_found;
 } Nearby;
+
+float4 lower_of(const float4 a, const float4 b) { return a < b ? a : b; }
+float4 higher_of(const float4 a, const float4 b) { return a > b ? a : b; }
 
 // Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
 // depth.
 Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_quanta,
                    __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
                    const int low, const int high) {
-  Nearby found = {0.0f, 0u, false};
+  Nearby found = {0.0f, INFINITY, -INFINITY, 0u, false};
   float weights = 0.0f, nearest = 0.0f;
   for (int i = 0; i < 49; ++i) {
     const int2 d = (int2)(i % 7 - 3, i / 7 - 3);
@@ -54,7 +58,10 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
     const int coc = coc_of(coc_quanta, q);
     if (mixed[q] || coc < low || coc > high) continue;
     const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
-    found.colour += weight * colour_at(CHANNELS(channel), q);
+    const float4 colour = colour_at(CHANNELS(channel), q);
+    found.colour += weight * colour;
+    found.low = lower_of(colour, found.low);
+    found.high = higher_of(colour, found.high);
     weights += weight;
     if (weight > nearest) found.source = q;
     nearest = fmax(nearest, weight);
@@ -68,7 +75,7 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
 Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
                   CHANNEL_PARAMETERS(channel), const int2 at, const int middle,
                   const float4 behind) {
-  Nearby front = {0.0f, 0u, false};
+  Nearby front = {0.0f, INFINITY, -INFINITY, 0u, false};
   float farthest_colour = -1.0f;
   for (int i = 0; i < 49; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
@@ -117,10 +124,11 @@ float4 rest_of(const float4 c, const float4 other, const float others_share) {
   return rest < least ? least : rest;
 }
 
-// No farther from C than the colour that is known of that surface: taken apart wrongly, a pixel
-// would get colours that nothing around it has.
-float4 plausible(const float4 rest, const float4 c, const float4 known) {
-  const float4 low = c < known ? c : known, high = c < known ? known : c;
+// Within what is known of that surface, and C: taken apart wrongly, a pixel would get colours that
+// nothing around it has.
+float4 plausible(const Nearby seen, const float4 b, const float4 c, const float4 rest) {
+  const float4 low = lower_of(seen.low, lower_of(b, c));
+  const float4 high = higher_of(seen.high, higher_of(b, c));
   return rest < low ? low : rest > high ? high : rest;
 }
 
@@ -146,11 +154,13 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   if (!f.is_found) {
     f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b);
   }
-  // Where `fill` found another surface than the one that was seen there are three.
-  if (!saw_front && abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA) {
-    const Nearby seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
-                                    own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
-    if (seen.is_found) b = seen.colour;
+  Nearby seen = f;
+  if (!saw_front) {
+    seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, own - DEFRAY_JUMP_QUANTA,
+                       own + DEFRAY_JUMP_QUANTA);
+    // Where `fill` found another surface than the one that was seen there are three.
+    const bool is_third = abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA;
+    if (is_third && seen.is_found) b = seen.colour;
   }
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
@@ -163,10 +173,10 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
     behind->inverse = -1.0f;
   } else {
     const uint kept = stored(fmin(share, MOST_OF_BEHIND));
-    const Surface seen = {front->coc, front->inverse, DEFRAY_WHOLE,
-                          plausible(rest_of(c, f.colour, (float)kept * 0x1p-16f), c, b)};
+    const float4 rest = rest_of(c, f.colour, (float)kept * 0x1p-16f);
+    const Surface left = {front->coc, front->inverse, DEFRAY_WHOLE, plausible(seen, b, c, rest)};
     const Surface before = {coc_quanta[f.source], inverse[f.source], kept, f.colour};
-    *behind = seen;
+    *behind = left;
     *front = before;
   }
 }

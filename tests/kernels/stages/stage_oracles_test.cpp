@@ -118,6 +118,22 @@ double sought_share(const Colour& c, const Colour& front, const Colour& behind, 
   return saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
 }
 
+/// Colours of the surface that a mixed pixel's depth saw: of pure pixels around, what `fill` found,
+/// and the pixel's own.
+std::vector<Colour> known_behind(const Canvas& f, const Words& mixed, const Frame& filled, int x,
+                                 int y) {
+  const std::size_t own = f.at(x, y);
+  std::vector<Colour> known{colour_of(filled.channels, own), colour_of(f.view().channels, own)};
+  for (int j = std::max(y - 3, 0); j <= std::min(y + 3, f.height - 1); ++j) {
+    for (int i = std::max(x - 3, 0); i <= std::min(x + 3, f.width - 1); ++i) {
+      const std::size_t at = f.at(i, j);
+      if (mixed[at] || std::abs(f.coc[at] - f.coc[own]) > 256) continue;
+      known.push_back(colour_of(f.view().channels, at));
+    }
+  }
+  return known;
+}
+
 /// What became of mixed pixels.
 struct Counts {
   int fronts = 0, behinds = 0, wholes = 0;
@@ -147,13 +163,16 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
   }
   (saw_front ? counts.fronts : counts.behinds) += 1;
   // What is left for the surface that was seen, once the other has its part; never below 0 nor,
-  // behind, beyond what is known there.
+  // behind, beyond the colours that are known of it.
   Colour rest = mixture(1 / (saw_front ? coverage : 1 - coverage), c, saw_front ? behind : front);
-  const Colour known = colour_of(filled.channels, i);
-  for (std::size_t k = 0; k < rest.size(); ++k) {
-    rest[k] = std::max(rest[k], 0.0);
-    if (!saw_front)
-      rest[k] = std::min(std::max(rest[k], std::min(c[k], known[k])), std::max(c[k], known[k]));
+  for (double& v : rest) v = std::max(v, 0.0);
+  if (!saw_front) {
+    const std::vector<Colour> known = known_behind(f, mixed, filled, x, y);
+    for (std::size_t k = 0; k < rest.size(); ++k) {
+      const auto by_channel = [&](const Colour& one, const Colour& two) { return one[k] < two[k]; };
+      const auto [low, high] = std::minmax_element(known.begin(), known.end(), by_channel);
+      rest[k] = std::clamp(rest[k], (*low)[k], (*high)[k]);
+    }
   }
   EXPECT_LT(distance2(saw_front ? front : behind, rest), 1e-9);
 }
