@@ -86,23 +86,6 @@
 /// Angles of the rotated sample set: a table, so that no device's sine matters.
 #define DEFRAY_GATHER_ROTATIONS 64
 
-/// What a pixel's word holds for `patterns` beside its 8-bit colour (r | g << 8 | b << 16).
-#define DEFRAY_PATTERN_KNOWN (1u << 24)   ///< May be matched and copied.
-#define DEFRAY_PATTERN_BEHIND (1u << 25)  ///< Has a synthesised fragment behind it.
-/// Pairs are compared in cells of so many pixels a side, whose words hold their sum of squared
-/// differences, at most 3 x 255^2 x 16 < 2^22, below KNOWN's bit and the number of pairs from it
-/// on.
-#define DEFRAY_PATTERN_CELL 4
-/// Side n of the box whose square, convolved, weighs the cells of a window: weights add up to n^4
-/// and 3 x 255^2 x 16 x 6^4 < 2^32.
-#define DEFRAY_PATTERN_LARGEST_WINDOW 6
-/// Cells that a work-item takes at once: those of a run of pixels. The plane of cells has so many
-/// units more on each side: a unit's windows read 16 cells from up to 5 before its first on.
-#define DEFRAY_PATTERN_UNIT (DEFRAY_RUN / DEFRAY_PATTERN_CELL)
-#define DEFRAY_PATTERN_MARGIN 3
-/// Closer pixels resemble each other on any smooth surface: no shift is shorter, px.
-#define DEFRAY_PATTERN_LEAST 8
-
 /// Thin-lens constants of `coc`.
 typedef struct {
   DEFRAY_UINT pixel_count;
@@ -261,26 +244,6 @@ typedef struct {
   DEFRAY_UINT along_y;     ///< gather_reach: 0 looks along x, 1 along y.
 } DefrayTileParams;
 
-/// A shift of the picture for `patterns`.
-typedef struct {
-  DEFRAY_INT x;  ///< From a pixel to its match, px; if parallel, the longest.
-  DEFRAY_INT y;
-  float parallel;  ///< Not 0: through the scene along the picture, px where 1/depth is 1.
-} DefrayPatternShift;
-
-/// Rows of cells of a window of the frame, and all shifts: `patterns`.
-typedef struct {
-  DEFRAY_UINT width;      ///< Pixels in a row of the frame.
-  DEFRAY_UINT height;     ///< Rows of the window.
-  DEFRAY_INT first_row;   ///< First row of pixels of these cells, in the window.
-  DEFRAY_UINT cell_rows;  ///< Rows of cells: those of matches and what windows reach.
-  DEFRAY_UINT shift_count;
-  DEFRAY_INT window_cells;       ///< Side n of the box whose square, convolved, weighs cells.
-  DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
-  DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
-  DEFRAY_UINT channels;          ///< 1 to 4.
-} DefrayPatternsParams;
-
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
@@ -288,8 +251,6 @@ static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefraySplitParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
-static_assert(sizeof(DefrayPatternShift) == 12);
-static_assert(sizeof(DefrayPatternsParams) == 36);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 32);

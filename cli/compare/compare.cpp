@@ -195,7 +195,7 @@ Run add_compare(CLI::App& app) {
                                     "Write A, B and their difference side by side, PNG or JPEG");
   command->add_option("--amplify", o->amplify, "The sheet's difference is this many times as dark")
       ->needs(sheet);
-  command->add_flag("--json", o->json, "Print one JSON object");
+  command->add_flag("--json", o->json, "Print one JSON object a line, one a frame");
   command->footer(
       "The edge band: pixels within the CoC radius (of the more blurred surface) plus 1 px of a "
       "depth edge.\n"

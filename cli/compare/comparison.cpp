@@ -45,20 +45,38 @@ Mask read_mask(const CompareOptions& o, const Window& data) {
   return mask;
 }
 
-/// `b`, but `a` where the mask is not: outside, both pictures are alike.
-std::vector<Plane> masked(const Pair& pair, const Mask& mask) {
-  std::vector<Plane> planes = pair.b.planes;
-  for (std::size_t c = 0; c < planes.size(); ++c) {
+/// With a's colours in b where a mask is not: outside, both pictures are alike.
+Pair masked(Pair pair, const Mask& mask) {
+  for (std::size_t c = 0; c < pair.b.planes.size(); ++c) {
     for (std::size_t i = 0; i < mask.size(); ++i) {
-      if (!mask[i]) planes[c][i] = pair.a.planes[c][i];
+      if (!mask[i]) pair.b.planes[c][i] = pair.a.planes[c][i];
     }
   }
-  return planes;
+  return pair;
 }
 
-/// What is looked at: b without what the mask leaves out.
-std::vector<Plane> seen_b(const Pair& pair, const Mask& mask) {
-  return mask.empty() ? pair.b.planes : masked(pair, mask);
+/// Of all pixels; places are of the pictures.
+Found compare_all(const CompareOptions& o, const Pair& pair, const Pair* before) {
+  const std::vector<Plane>&a = pair.a.planes, &b = pair.b.planes;
+  const int width = pair.a.data.width;
+  Found found;
+  found.comparison = compare(a, b, width);
+  if (!o.false_edges) return found;
+  found.false_edges = false_edges(a, b, width);
+  if (!before) return found;
+  require_same_size(before->a, pair.a);
+  found.false_changes = false_changes(before->a.planes, a, before->b.planes, b, width);
+  return found;
+}
+
+/// The same of a mask's pixels.
+Found compare_masked(const CompareOptions& o, const Pair& pair, const Pair* before) {
+  const Mask mask = read_mask(o, pair.a.data);
+  std::optional<Pair> seen_before;
+  if (before) seen_before = masked(*before, mask);
+  Found found = compare_all(o, masked(pair, mask), seen_before ? &*seen_before : nullptr);
+  static_cast<Errors&>(found.comparison) = errors_where(pair.a.planes, pair.b.planes, mask, 1);
+  return found;
 }
 
 }  // namespace
@@ -81,26 +99,12 @@ Pair read_pair(const CompareOptions& o) {
 }
 
 Found compare_pair(const CompareOptions& o, const Pair& pair, const Pair* before) {
+  Found found = o.mask.empty() ? compare_all(o, pair, before) : compare_masked(o, pair, before);
   const ColourFile& a = pair.a;
-  const ColourFile& b = pair.b;
-  const int width = a.data.width;
-  const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a.data);
-  const std::vector<Plane> planes = seen_b(pair, mask);
-  Found found;
-  found.comparison = compare(a.planes, planes, width);
-  if (!mask.empty()) {
-    static_cast<Errors&>(found.comparison) = errors_where(a.planes, b.planes, mask, 1);
-  }
   if (!o.depth.empty()) {
     const Mask band = read_band(o, a);
-    found.band = {errors_where(a.planes, b.planes, band, 1),
-                  errors_where(a.planes, b.planes, band, 0)};
-  }
-  if (o.false_edges) found.false_edges = false_edges(a.planes, planes, width);
-  if (o.false_edges && before) {
-    require_same_size(before->a, a);
-    found.false_changes =
-        false_changes(before->a.planes, a.planes, seen_b(*before, mask), planes, width);
+    found.band = {errors_where(a.planes, pair.b.planes, band, 1),
+                  errors_where(a.planes, pair.b.planes, band, 0)};
   }
   const auto place = [&](int& x, int& y) {
     x += a.data.x - a.display.x;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "frame/backend.h"
-#include "kernels/params.h"
+#include "kernels/patterns_params.h"
 
 namespace defray {
 

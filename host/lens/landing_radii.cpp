@@ -23,7 +23,7 @@ void add(double x, Moments& sums) {
 
 /// Sum of 1 - cos(k r x) over the numbers x: by its series, with the same bits everywhere.
 double faded(double r, const Moments& moments) {
-  constexpr double k = 2 * 3.14159265358979323846 * 0.4;  // cycles a pixel
+  constexpr double cycles_a_px = 0.4, k = 2 * 3.14159265358979323846 * cycles_a_px;
   double term = 1, sum = 0, n = 0;
   for (const double moment : moments) {
     term *= -(k * r) * (k * r) / ((n + 1) * (n + 2));

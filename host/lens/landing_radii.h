@@ -16,8 +16,8 @@ namespace defray {
 /// is nearest to what the lens points leave of them unrounded, of all radii up to 1 px.
 ///
 /// 0.4 was chosen on built-in scenes of 640x400 (slanted, spheres, blocks-forest, lines, drift):
-/// between 0.3 and 0.45 results differ by less than 0.15 dB but for `slanted` (0.11 less at 0.45);
-/// lower, textures look sharper than the truth's, higher, lines of a pixel fade.
+/// 0.3 loses up to 0.1 dB, and textures look sharper than the truth's (false edges of `slanted` 0.9
+/// instead of 0.4); 0.45 loses up to 0.13 dB, 0.5 0.5 dB on blocks-forest and 0.36 on lines.
 std::vector<std::int32_t> landing_radii(const LensPoints& lens);
 
 /// A signed radius' own, in quanta, if it has none.

@@ -1,11 +1,11 @@
 // rdb_scatter: sends every source pixel's rays into the ray distribution buffers (RDBs).
 //
 // Source pixel p with signed CoC radius r reaches cell k of target pixel x exactly when
-// x - p - r u_k lies in [-1/2, 1/2)^2 (Shinya 1994, section 4, step 4 and figure 6: the square is
-// the quadrilateral s0..s3, seen from the lens). The cell keeps the nearest source, that of the
-// smallest signed radius: it grows with depth. Equal radii go to the smaller source index (without
-// jitter only those of one pixel meet), so the result does not depend on the order of arrival.
-// All arithmetic is on integers: the same cells win on every device.
+// x - p - r u_k lies in [-1/2, 1/2)^2, r as landing_radii has it (Shinya 1994, section 4, step 4
+// and figure 6: the square is the quadrilateral s0..s3, seen from the lens). The cell keeps the
+// nearest source, that of the smallest signed radius: it grows with depth. Equal radii go to the
+// smaller source index (without jitter only those of one pixel meet), so the result does not depend
+// on the order of arrival. All arithmetic is on integers: the same cells win on every device.
 //
 // A pixel may hold several fragments. One that covers only a share of its pixel sends that share of
 // its rays, spread evenly over the lens.
@@ -14,10 +14,8 @@
 // depth_bits  [window_rows][layers][width]      all ones where there is no fragment
 // coverage    [window_rows][layers][width]      2^-16 of the pixel, bit 31 apart; if has_coverage
 // lens        [cells]                           u_k, 2^-16 of the aperture radius
-// landing_radii [DEFRAY_SMALL_QUANTA]           of radii below 1 px, those as which rays land,
-// 1/256
-//                                               px (host/lens/landing_radii.h); if
-//                                               has_landing_radii
+// landing_radii [DEFRAY_SMALL_QUANTA]  of radii below 1 px the ones as which rays land, 1/256 px
+//                                      (host/lens/landing_radii.h); if has_landing_radii
 // winner      [cell_count][band_rows][width]    (x: source index in the window, y: key, the
 //                                               radius + 2^31),
 //                                               all ones where no ray has arrived

@@ -1,13 +1,12 @@
 // defray compare as a user runs it.
+#include "command/measure/compare_command.h"
+
 #include <OpenImageIO/imagebuf.h>
 
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "base/srgb.h"
-#include "command/program.h"
 #include "image/ldr.h"
 
 namespace defray::test::compare_command_test {
@@ -15,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-class Compare : public testing::Test {
+class Compare : public CompareCommand {
  protected:
   Compare() {
     write_picture_file(folder_, "a.exr", {"R", "G", "B"});
@@ -49,14 +48,6 @@ class Compare : public testing::Test {
     EXPECT_EQ(result.code, 0) << result.err;
     return json::parse(result.out);
   }
-
-  int code(const std::string& arguments) { return defray(folder_, "compare " + arguments).code; }
-
-  void refuse(const std::string& arguments, int code, const std::vector<std::string>& words) {
-    expect_refusal(defray(folder_, "compare " + arguments), code, words, arguments);
-  }
-
-  Folder folder_;
 };
 
 TEST_F(Compare, JsonHoldsEveryMetric) {
@@ -296,114 +287,6 @@ TEST_F(Compare, SheetsShowAPartLargeAndBright) {
   refused("--zoom 0", "--zoom is 0: allowed are 1 to 64");
   refused("--zoom 65", "--zoom is 65");
   refused("--exposure nan", "--exposure is nan");
-}
-
-/// Sequences of two frames: a dot in b's first, another place in its second, none in a.
-class CompareSequences : public Compare {
- protected:
-  CompareSequences() {
-    write("a.0001.exr", -1);
-    write("a.0002.exr", -1);
-    write("b.0001.exr", 10);
-    write("b.0002.exr", 30);
-  }
-
-  void write(const std::string& name, int dot_x) {
-    Plane plane(48 * 32, 0.2f);
-    if (dot_x >= 0) plane[static_cast<std::size_t>(9 * 48 + dot_x)] = 0.8f;
-    ImageFile::from_planes({"R", "G", "B"}, {plane, plane, plane}, 48, 32, Sample::single_float)
-        .write(folder_ / name);
-  }
-
-  std::vector<json> frames(const std::string& arguments) {
-    const Result result = defray(folder_, "compare --json " + arguments);
-    EXPECT_EQ(result.code, 0) << result.err;
-    std::vector<json> lines;
-    std::istringstream text(result.out);
-    for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
-    return lines;
-  }
-};
-
-TEST_F(CompareSequences, FrameByFrame) {
-  const std::vector<json> lines = frames("b.####.exr a.####.exr --false-edges");
-  ASSERT_EQ(lines.size(), 2U);
-  EXPECT_EQ(lines[0]["frame"], 1);
-  EXPECT_EQ(lines[1]["frame"], 2);
-  EXPECT_EQ(lines[0]["worst_x"], 10);
-  EXPECT_EQ(lines[1]["worst_x"], 30);
-  EXPECT_FALSE(lines[0].contains("false_changes")) << "nothing comes before";
-  const double dot = 255 * (shown_value(0.8f) - shown_value(0.2f));
-  EXPECT_NEAR(lines[1]["false_edges"]["worst"], dot / 2, 1e-3);
-  EXPECT_NEAR(lines[1]["false_changes"]["worst"], dot, 1e-3);
-  EXPECT_NEAR(lines[1]["false_changes"]["rms"], dot * std::sqrt(2.0 / (48 * 32)), 1e-3);
-  EXPECT_EQ(frames("b.####.exr a.####.exr --frames 2").size(), 1U);
-  EXPECT_EQ(frames("b.####.exr a.####.exr --frames 2")[0]["frame"], 2);
-  EXPECT_FALSE(frames("b.####.exr a.####.exr")[1].contains("false_edges"));
-}
-
-TEST_F(CompareSequences, PlacesAreTheDisplayWindows) {
-  const std::vector<json> part = frames("b.####.exr a.####.exr --false-edges --crop 44x20+4+5");
-  EXPECT_NEAR(part[1]["false_edges"]["worst_y"], 9, 1);
-  EXPECT_NEAR(part[1]["false_edges"]["worst_x"], 30, 1);
-  EXPECT_EQ(part[1]["false_changes"]["worst_y"], 9);
-}
-
-TEST_F(CompareSequences, TextEndsInASummary) {
-  const Result result = defray(folder_, "compare b.####.exr a.####.exr --false-edges");
-  for (const char* part :
-       {"frame 1\nPSNR ", "frame 2\nPSNR ", "\nedges that B has not (255ths): RMS ",
-        "\nchanges that B has not (255ths): RMS ",
-        "99.9th percentile 107.56, worst 107.6 at pixel (10, 9)", "\n2 frames: PSNR ",
-        " dB (frame 1)\n", "\n  edges that B has not: RMS ", "\n  changes that B has not: RMS "}) {
-    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
-  }
-}
-
-TEST_F(CompareSequences, BoundsHoldForEveryFrame) {
-  const std::string base = "b.####.exr a.####.exr --false-edges --crop 20x20+0+0";
-  EXPECT_EQ(code(base + " --max-false-edges 60 --max-false-changes 120"), 0);
-  const Result missed = defray(folder_, "compare " + base +
-                                            " --max-false-edges 1 --max-false-changes 1"
-                                            " --min-psnr 99");
-  EXPECT_EQ(missed.code, 1);
-  EXPECT_NE(missed.err.find("frame 1: --max-false-edges 1 is missed: "), std::string::npos);
-  EXPECT_NE(missed.err.find("frame 2: --max-false-changes 1 is missed: "), std::string::npos);
-  EXPECT_NE(missed.err.find("frame 1: --min-psnr 99 is missed: "), std::string::npos);
-  EXPECT_EQ(missed.err.find("frame 2: --min-psnr"), std::string::npos) << "there it is equal";
-}
-
-TEST_F(CompareSequences, ASheetAFrame) {
-  expect_ok(defray(folder_, "compare b.####.exr a.####.exr --sheet s.####.png"));
-  EXPECT_GT(read_ldr(folder_ / "s.0001.png", Content::data).width, 0);
-  EXPECT_GT(read_ldr(folder_ / "s.0002.png", Content::data).width, 0);
-  refuse("b.####.exr a.####.exr --sheet s.png", 2, {"--sheet s.png", "frame pattern"});
-}
-
-TEST_F(CompareSequences, Mistakes) {
-  refuse("b.####.exr a.0001.exr", 2, {"b.####.exr is a sequence, a.0001.exr one picture"});
-  refuse("b.0001.exr a.####.exr", 2, {"a.####.exr is a sequence, b.0001.exr one picture"});
-  refuse("b.0001.exr a.0001.exr --frames 1-2", 2, {"--frames without a sequence"});
-  refuse("b.####.exr a.####.exr --frames 7", 3, {"b.0007.exr", "no such file"});
-  refuse("none.####.exr a.####.exr", 3, {"none.####.exr", "no file matches"});
-  const std::string edges = "b.0001.exr a.0001.exr --false-edges ";
-  refuse(edges + "--max-false-edges nan", 2, {"--max-false-edges is not a number"});
-  refuse(edges + "--max-false-edges -1", 2, {"--max-false-edges is -1"});
-  refuse("b.####.exr a.####.exr --false-edges --max-false-changes -1", 2,
-         {"--max-false-changes is -1"});
-  refuse("b.####.exr a.####.exr --false-edges --max-false-changes nan", 2,
-         {"--max-false-changes is not a number"});
-  refuse(edges + "--max-false-changes 1", 2, {"--max-false-changes without a sequence"});
-  refuse("b.0001.exr a.0001.exr --max-false-edges 1", 2, {"--max-false-edges requires"});
-  refuse("b.####.exr a.####.exr --max-false-changes 1", 2, {"--max-false-changes requires"});
-  write("c.0001.exr", -1);
-  ImageFile::from_planes({"R", "G", "B"}, {Plane(9), Plane(9), Plane(9)}, 3, 3)
-      .write(folder_ / "c.0002.exr");
-  const Result resized = defray(folder_, "compare c.####.exr c.####.exr --false-edges");
-  EXPECT_EQ(resized.code, 3);
-  EXPECT_NE(resized.err.find("c.0001.exr has data window 48x32+0+0, c.0002.exr has 3x3+0+0"),
-            std::string::npos)
-      << resized.err;
 }
 
 }  // namespace

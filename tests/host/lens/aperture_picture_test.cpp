@@ -100,14 +100,15 @@ TEST(AperturePicture, IsReadAsLinearLuminance) {
   EXPECT_NEAR(rasterise(picture(png)).at(500, side / 2), 127.5, 1.2);
 }
 
-TEST(AperturePicture, ShowsItsDisplayWindow) {
+/// Whose data window lies 2 px right of and 1 px below its display window, which begins at `at`.
+void expect_display_window(int at_x, int at_y) {
   const Folder folder;
   const std::string path = folder / "cropped.exr";
   OIIO::ImageSpec spec(2, 4, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
-  spec.x = 2, spec.y = 1;
+  spec.x = at_x + 2, spec.y = at_y + 1;
   spec.full_width = spec.full_height = 4;
-  spec.full_x = spec.full_y = 0;
+  spec.full_x = at_x, spec.full_y = at_y;
   const auto out = OIIO::ImageOutput::create(path);
   ASSERT_TRUE(out && out->open(path, spec));
   const float pixels[8] = {0, 1, 0, 0, 0, 0, 1, 1};  // the last row is below the window
@@ -119,6 +120,11 @@ TEST(AperturePicture, ShowsItsDisplayWindow) {
       ASSERT_EQ(mask.at(column, row), is_lit ? 255 : 0) << column << "," << row;
     }
   }
+}
+
+TEST(AperturePicture, ShowsItsDisplayWindow) {
+  expect_display_window(0, 0);
+  expect_display_window(7, -5);
 }
 
 TEST(AperturePicture, SamplesFollowItsLight) {

@@ -1,6 +1,7 @@
 // Kernel rdb_gather against rdb_scatter and rdb_merge: the same bits, whatever the frame.
 #include "base/random.h"
 #include "chain/chain.h"
+#include "device/ray_window.h"
 #include "lens/aperture_table.h"
 #include "lens/landing_radii.h"
 #include "lens/lens_points.h"
@@ -65,6 +66,23 @@ TEST(RdbGather, GivesTheSameBitsInBandsOfAnyHeightOnCopies) {
       const InBands bands(session(), kib << 10);
       expect_equal(rays(device(), f, plan, RaysBy::gather), whole, fmt::format("{} KiB", kib));
     }
+  }
+}
+
+TEST(RdbGather, WindowsOfPaddedPlanesFitTheMemory) {
+  const Frame f = random_frame({45, 900}, 3, 4);
+  ASSERT_EQ(f.layers, 2);
+  ASSERT_FALSE(f.coverage.empty());
+  const RayPlan plan = plan_of(5);
+  RayTileWindow window(session(), f, plan, bins_of(f));
+  constexpr std::size_t words = 1 + 2 + 4;  // key; sending and coverage; channels
+  const std::size_t row_bytes = std::size_t{window.params.stride} * 2 * words * 4;
+  for (const std::size_t rows : {200, 400}) {
+    const InBands bands(session(), 2 * rows * row_bytes);  // frames take the other half
+    int most = 0;
+    for (const BandRows& band : window.windows()) most = std::max(most, band.window_rows);
+    EXPECT_LE(most, static_cast<int>(rows));
+    EXPECT_GT(most, static_cast<int>(rows) / 2);
   }
 }
 
