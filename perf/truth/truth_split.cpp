@@ -1,8 +1,7 @@
 // What is left of the error: the default chain with more and more of what it must guess given to
 // it, from the scene.
 #include "chain/highlights.h"
-#include "lens/lens_grid.h"
-#include "lens/lens_points.h"
+#include "chain/ray_plan.h"
 #include "truth/truth_exact.h"
 
 namespace defray::perf {
@@ -23,9 +22,10 @@ std::vector<Plane> cropped(const Wide& w, const std::vector<Plane>& planes) {
 
 /// The rest of the chain.
 std::vector<Plane> distributed(const Bench& bench, Frame f, int cells_per_side) {
-  const int points = static_cast<int>(make_lens_grid(cells_per_side, false).points.size());
-  RayPlan plan;
-  plan.lens = make_lens_points({}, points);
+  ChainSettings settings;
+  settings.cells_per_side = cells_per_side;
+  const RayPlan plan = ray_plan(settings, false);
+  const int points = static_cast<int>(plan.lens.points.size());
   const LightSources lights = take_light(f, bench.backend.highlights(f, 3), 3,
                                          make_aperture_table(rasterise({})), plan.lens);
   f.channels = bench.backend.soften(f, points);
