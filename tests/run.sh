@@ -30,10 +30,10 @@ step() { echo "[$((SECONDS - begin)) s] $1"; }
 step "Building"
 build "$folder" -C "$project/tests/presets/tests.cmake" -DDEFRAY_SANITIZED_TESTS=${full:+ON}
 
-# Kernels are compiled anew for each build, and leave the user's cache alone.
-export POCL_CACHE_DIR=$folder/kernel-cache
-rm -rf "$folder/results" "$POCL_CACHE_DIR" "$folder"/reached/*/*
-mkdir -p "$POCL_CACHE_DIR"
+# Kernels are compiled anew for each build, and the user's cache is left alone.
+export POCL_CACHE_DIR=$folder/kernel-cache XDG_CACHE_HOME=$folder/cache
+rm -rf "$folder/results" "$POCL_CACHE_DIR" "$XDG_CACHE_HOME" "$folder"/reached/*/*
+mkdir -p "$POCL_CACHE_DIR" "$XDG_CACHE_HOME"
 if [ -n "$name" ]; then
   export GTEST_FILTER="*$name*"
   which+=(-L gtest)

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "reference/twin_backend.h"
@@ -38,6 +39,26 @@ Sessions& sessions() {
 
 // Registered before the tests run: gtest ignores an environment that comes later.
 [[maybe_unused]] const Sessions& registered = sessions();
+
+/// What the user keeps in the cache folder, work-groups and costs, tests neither see nor change.
+/// Kernels that were compiled are found where they are. Before main, which may fork.
+class CacheFolder : public testing::Environment {
+ public:
+  CacheFolder() {
+    const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    const std::string users = cache ? cache : std::string(home ? home : "/tmp") + "/.cache";
+    setenv("POCL_CACHE_DIR", (users + "/pocl/kcache").c_str(), 0);
+    setenv("MESA_SHADER_CACHE_DIR", users.c_str(), 0);
+    folder_.emplace();
+    setenv("XDG_CACHE_HOME", folder_->path().c_str(), 1);
+  }
+  void TearDown() override { folder_.reset(); }
+
+ private:
+  std::optional<Folder> folder_;
+};
+
+[[maybe_unused]] const auto* const own_cache = testing::AddGlobalTestEnvironment(new CacheFolder);
 
 }  // namespace
 

@@ -42,7 +42,7 @@ class TuneCommand : public testing::Test {
   }
   void expect_refused(const std::string& arguments, int code,
                       const std::vector<std::string>& words) {
-    expect_refusal(defray(folder, arguments), code, words, arguments);
+    expect_refusal(run(arguments), code, words, arguments);
   }
 };
 

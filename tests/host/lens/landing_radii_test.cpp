@@ -39,7 +39,7 @@ TEST(LandingRadii, LeaveOfDetailWhatTheLensDoes) {
         return std::fabs(left_of_cosines(lens, as / 256.0, true) - wanted);
       };
       const int as = lens.landing_radii[static_cast<std::size_t>(r)];
-      for (int other = 0; other <= 256; other += 3) {
+      for (int other = 0; other <= 256; other += 8) {
         EXPECT_LE(apart(as), apart(other) + 1e-4) << other << " for " << r << " of " << points;
       }
     }
