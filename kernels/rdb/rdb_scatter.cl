@@ -41,9 +41,8 @@
 // The one d with d - offset in [-1/2, 1/2): where a ray with this offset lands, in whole pixels.
 int landing(const long offset) { return (int)((offset + HALF_PIXEL - 1) >> RAY_FRACTION_BITS); }
 
-// The radius as which rays of this one land.
-int landing_radius(const DefrayRdbParams p, __global const int* restrict landing_radii,
-                   const int radius) {
+// The radius as which rays of this one land. (A restrict here is inlined into what Oclgrind lacks.)
+int landing_radius(const DefrayRdbParams p, __global const int* landing_radii, const int radius) {
   const uint size = abs(radius);
   if (!p.has_landing_radii || size >= DEFRAY_SMALL_QUANTA) return radius;
   return radius < 0 ? -landing_radii[size] : landing_radii[size];
