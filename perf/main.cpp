@@ -117,6 +117,7 @@ const std::map<std::string, Experiment>& experiments() {
       {"figure7", {"Shinya's figure 7: time against cells a side", figure7}},
       {"eye", {"Glatzel & Wilhelm: miniatures, artefacts, the effect's cost", eye}},
       {"tradeoff", {"Error against time for every method on three scenes", tradeoff}},
+      {"layered", {"The default beside the other methods on random layers", layered}},
       {"prediction", {"Errors that renders expect beside their true ones", prediction}},
       {"splat-table1",
        {"Krivanek & Zara's table 1: point clouds, time against aperture", splat_table1}},

@@ -2,8 +2,15 @@
 #include "base/error.h"
 #include "device/device_backend.h"
 #include "lens/lens.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+const LaunchRow coc_launch({"coc", WorkGroup{64, 0}});
+const LaunchRow tiltshift_launch({"tiltshift", WorkGroup{64, 1}});
+
+}  // namespace
 
 void DeviceBackend::require_memory(const Frame& f, std::size_t bytes) {
   // Of host memory only a device that shares it tells how much there is.

@@ -3,8 +3,17 @@
 #include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+// The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px further on;
+// 1 for rounding.
+const LaunchRow fill_launch({"fill", WorkGroup{8, 1}, 3 + 16 + 1,
+                             5 * Launch::plane + 2 * Launch::colour, DEFRAY_RUN});
+
+}  // namespace
 
 Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions, Frame into) {
   const Quanta farthest_met = farthest_to_fill(f, mixed);

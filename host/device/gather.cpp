@@ -7,9 +7,15 @@
 #include "base/parallel.h"
 #include "device/device_backend.h"
 #include "lens/coc.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow gather_aware_launch({"gather_aware", WorkGroup{8, 1}});
+const LaunchRow gather_literal_launch({"gather_literal", WorkGroup{8, 1}});
+const LaunchRow gather_reach_launch({"gather_reach", WorkGroup{16, 1}});
+const LaunchRow gather_tiles_launch({"gather_tiles", WorkGroup{16, 1}});
 
 /// Rows of a launch: enough work to fill a device, few enough for a progress bar to move.
 constexpr std::uint32_t gather_rows_per_launch = 128;

@@ -3,8 +3,15 @@
 #include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+const LaunchRow highlights_launch({"highlights", WorkGroup{64, 1}, 0,
+                                   3 * Launch::plane + Launch::colour});
+
+}  // namespace
 
 Values<float> DeviceBackend::highlights(const Frame& f, int light_channels, Values<float> into) {
   const Values<float> darkest = darkest_around(f, light_channels);

@@ -6,9 +6,12 @@
 
 #include "device/device_backend.h"
 #include "methods/linear_band.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow linear_psf_launch({"linear_psf", WorkGroup{16, 1}});
 
 /// Rows of a launch: few enough that a progress bar moves.
 constexpr std::uint32_t linear_rows_per_launch = 16;

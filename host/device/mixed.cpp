@@ -1,9 +1,14 @@
 // Kernels `repair` and `mixed`.
 #include "device/device_backend.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow mixed_launch({"mixed", WorkGroup{8, 1}, 1, 2 * Launch::plane, DEFRAY_RUN});
+// A ramp's ends are looked for two pixels away, and what is flat one further.
+const LaunchRow repair_launch({"repair", WorkGroup{8, 1}, 3, 2 * Launch::plane, DEFRAY_RUN});
 
 DefrayFrameParams window_of(const Frame& f, const Band& band) {
   return {word(f.width), word(band.rows().window_rows)};

@@ -5,9 +5,15 @@
 #include "chain/patterns_cells.h"
 #include "device/device_backend.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow patterns_difference_launch({"patterns_difference", WorkGroup{8, 1}});
+// What matches are within reach of, and both surfaces.
+const LaunchRow patterns_match_launch({"patterns_match", WorkGroup{8, 1}, 0,
+                                       5 * Launch::plane + 2 * Launch::colour});
 
 /// Rows of cells at once, if the memory holds their differences: those of all shifts stay in the
 /// cache from one kernel to the next.

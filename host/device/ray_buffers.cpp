@@ -2,9 +2,16 @@
 
 #include <algorithm>
 
+#include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
+namespace {
+
+const LaunchRow highlights_add_launch({"highlights_add", WorkGroup{64, 1}});
+const LaunchRow rdb_nearest_launch({"rdb_nearest", WorkGroup{64, 1}});
+
+}  // namespace
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
                        const LightSources* lights, std::size_t pixels, std::size_t winner_cells,

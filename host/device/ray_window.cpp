@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}});
+const LaunchRow rdb_reach_launch({"rdb_reach", WorkGroup{16, 1}});
+const LaunchRow rdb_tiles_launch({"rdb_tiles", WorkGroup{16, 1}});
 
 int reach_of(const Frame& frame, const RadiusBins& bins) {
   const std::int32_t largest = std::max(std::abs(bins.least), std::abs(bins.largest));

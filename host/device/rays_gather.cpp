@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow rdb_gather_launch({"rdb_gather", WorkGroup{1, 1}});
 
 constexpr int rows_at_once = 64;  ///< Of a launch, for the progress bar.
 

@@ -8,6 +8,15 @@
 #include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+const LaunchRow rdb_clear_launch({"rdb_clear", WorkGroup{256, 0}});
+// Cells take the most (rdb/rdb_plan.h); this says whether the frame stays on the device.
+const LaunchRow rdb_merge_launch({"rdb_merge", WorkGroup{64, 1}, 1,
+                                  3 * Launch::plane + 2 * Launch::colour});
+const LaunchRow rdb_scatter_launch({"rdb_scatter", WorkGroup{64, 1}});
+
+}  // namespace
 
 RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
                const LightSources* lights)

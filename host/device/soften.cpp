@@ -3,8 +3,15 @@
 #include "lens/coc.h"
 #include "lens/lens_grid.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+const LaunchRow soften_launch({"soften", WorkGroup{2, 1}, 1, 2 * Launch::plane + 2 * Launch::colour,
+                               DEFRAY_RUN});
+
+}  // namespace
 
 Planes DeviceBackend::soften(const Frame& f, int lens_points, Planes into) {
   const Words whole(f.coverage.empty() ? f.surfaces() : 0, DEFRAY_WHOLE);

@@ -1,9 +1,13 @@
 // Kernels `splat_*`.
 #include "device/device_backend.h"
+#include "opencl/launch_table.h"
 #include "splat/splats.h"
 
 namespace defray {
 namespace {
+
+const LaunchRow splat_project_launch({"splat_project", WorkGroup{64, 0}});
+const LaunchRow splat_resolve_launch({"splat_resolve", WorkGroup{1, 4}});
 
 /// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
 constexpr std::size_t list_bytes = std::size_t{64} << 20;

@@ -1,8 +1,17 @@
 // Kernel `split`.
 #include "device/device_backend.h"
 #include "opencl/bands.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
+namespace {
+
+// A square of 7 px around. Two layers are written, the frame and what lies behind read.
+const LaunchRow split_launch({"split", WorkGroup{64, 1}, 3,
+                              3 * Launch::plane + Launch::colour +
+                                  (5 * Launch::plane + 2 * Launch::colour) / 2});
+
+}  // namespace
 
 Frame DeviceBackend::split(const Frame& f, const Words& mixed, const Frame& behind, Frame into) {
   Frame layers = into.width > 0 ? std::move(into) : f.without_planes();

@@ -1,15 +1,24 @@
 #pragma once
-// What a launch of each kernel needs: the only place that says so.
+// What a launch of each kernel needs. Each kernel's row stands where it is launched, and nowhere
+// else (`device/`); here they are found by name.
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace defray {
 
+/// Work-items of a group; any other gives the same bits. `y` 0: a kernel of one dimension. What
+/// `defray tune` found no better than on PoCL's CPU device (perf/README.md).
+struct WorkGroup {
+  std::size_t x, y;
+};
+
 struct Launch {
+  /// Bytes of one plane, and of four channels, a surface.
+  static constexpr std::size_t plane = 4, colour = 4 * plane;
+
   const char* kernel;
-  /// Work-group; any other gives the same bits. `group_y` 0: a kernel of one dimension.
-  std::size_t group_x, group_y;
+  WorkGroup group;
   /// Rows around its own that a work-item looks at beyond what the CoC says.
   int reach_px = 0;
   /// Of planes that a kernel reads and writes, a surface, on a device with memory of its own: of
@@ -19,10 +28,15 @@ struct Launch {
   std::size_t run_px = 1;
 };
 
+/// Puts a kernel's row into the table, before main: one for each kernel, of the file's own.
+struct LaunchRow {
+  explicit LaunchRow(const Launch& launch);
+};
+
 /// Of all kernels, by name.
 const std::vector<Launch>& launch_table();
 
-/// Throws Error(device) for a kernel that there is not.
+/// Throws Error(internal) for a kernel that there is not.
 const Launch& launch_of(const std::string& kernel);
 
 }  // namespace defray

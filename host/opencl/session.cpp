@@ -78,7 +78,7 @@ std::array<std::size_t, 2> Session::group_of(const std::string& name) const {
     if (const auto found = groups->find(name); found != groups->end()) return found->second;
   }
   const Launch& launch = launch_of(name);
-  return {launch.group_x, launch.group_y};
+  return {launch.group.x, launch.group.y};
 }
 
 cl::Buffer Session::buffer(std::size_t bytes) {

@@ -23,12 +23,12 @@ bool is_beside(const Shape& a, const Shape& b) {
 
 Shape own_shape(const std::string& kernel) {
   const Launch& launch = launch_of(kernel);
-  return {launch.group_x, std::max<std::size_t>(launch.group_y, 1)};
+  return {launch.group.x, std::max<std::size_t>(launch.group.y, 1)};
 }
 
 std::vector<Shape> shapes_of(const std::string& kernel, std::size_t most_items) {
   const Shape own = own_shape(kernel);
-  const std::size_t tallest = launch_of(kernel).group_y == 0 ? 1 : most_y;
+  const std::size_t tallest = launch_of(kernel).group.y == 0 ? 1 : most_y;
   std::vector<Shape> shapes{own};
   for (std::size_t y = 1; y <= tallest; y *= 2) {
     for (std::size_t x = 1; x <= most_x; x *= 2) {

@@ -4,25 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/srgb.h"
-#include "prediction/random_scene.h"
+#include "random/random_scene.h"
 #include "truth/truth.h"
 
 namespace defray::perf {
 namespace {
-
-/// Mean over R, G and B of the products of a picture's differences to two truths, a pixel each.
-Plane square_errors(const std::vector<Plane>& picture, const TwoTruths& truths) {
-  Plane out(picture[0].size());
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double value = shown_value(picture[c][i]);
-      out[i] += static_cast<float>((value - shown_value(truths.first[c][i])) *
-                                   (value - shown_value(truths.second[c][i])) / 3);
-    }
-  }
-  return out;
-}
 
 /// Places in ascending order, 0 to count - 1.
 std::vector<double> ranks(const Plane& values) {
@@ -73,8 +59,7 @@ void add_renders(const Bench& bench, Scene scene, const std::string& name, bool 
   bench.step(fmt::format("{} {}, {} px wide", name, setting, scene.width));
   const Subject s = make_antialiased(bench.backend, std::move(scene), setting);
   const int rays = bench.is_quick ? 4 : 64;
-  const TwoTruths truths{render_truth(s.scene, s.lens, rays, 1).colour,
-                         render_truth(s.scene, s.lens, rays, 2).colour};
+  const TwoTruths truths = make_two_truths(s, rays);
   for (PredictedRender& render : predicted_renders(bench.backend, s, truths)) {
     render.scene = name + " " + setting;
     render.sets_model = sets_model;
@@ -105,7 +90,7 @@ void add_random_scenes(const Bench& bench, const SceneSize& size, std::uint32_t 
 
 }  // namespace
 
-double PredictedRender::true_db() const { return -10 * std::log10(std::max(true_square, 1e-9)); }
+double PredictedRender::true_db() const { return psnr_of(true_square); }
 
 std::vector<PredictedRender> predicted_renders(Backend& backend, const Subject& subject,
                                                const TwoTruths& truths) {
@@ -119,8 +104,7 @@ std::vector<PredictedRender> predicted_renders(Backend& backend, const Subject& 
     PredictedRender render;
     render.width = frame.width;
     render.quality = quality;
-    render.true_square =
-        std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
+    render.true_square = mean_of(squares);
     render.expected = prediction.of_frame();
     render.signs = prediction.mean_signs();
     render.rank_correlation = rank_correlation(prediction.planes()[0], squares);

@@ -6,6 +6,7 @@
 
 #include "bench.h"
 #include "prediction/expected_error.h"
+#include "truth/two_truths.h"
 
 namespace defray::perf {
 
@@ -23,12 +24,6 @@ struct PredictedRender {
   /// Expected less true PSNR.
   double off_db() const { return expected.psnr_db - true_db(); }
   bool is_within() const { return true_db() >= expected.low_db && true_db() <= expected.high_db; }
-};
-
-/// Two pictures of one scene through the lens whose noise has nothing in common: the mean product
-/// of a render's differences to them is its squared error, without theirs. May be the same twice.
-struct TwoTruths {
-  std::vector<Plane> first, second;
 };
 
 /// All four qualities.

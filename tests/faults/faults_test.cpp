@@ -1,11 +1,10 @@
 // 'defray validate' can fail: every fault put into a kernel must be found.
-#include "faults.h"
-
 #include <algorithm>
 #include <cctype>
 #include <map>
 #include <set>
 
+#include "fault.h"
 #include "kernel_files.h"
 #include "support.h"
 #include "validation/oclgrind_log.h"
@@ -112,7 +111,7 @@ TEST_P(Faults, IsFound) { expect_found(GetParam()); }
 
 std::vector<Fault> without_races() {
   std::vector<Fault> found;
-  std::copy_if(faults().begin(), faults().end(), std::back_inserter(found),
+  std::copy_if(all_faults().begin(), all_faults().end(), std::back_inserter(found),
                [](const Fault& fault) { return !fault.is_race; });
   return found;
 }
@@ -132,23 +131,23 @@ TEST(NoFault, IsFoundByAnyCheckOnTheFilesThatItNeeds) {
 
 TEST(RaceFaults, RacesAreFoundOnTheSimulator) {
   if (!is_simulator(device_under_test())) GTEST_SKIP() << "needs Oclgrind: races show by chance";
-  for (const Fault& fault : faults()) {
+  for (const Fault& fault : all_faults()) {
     if (fault.is_race) expect_found(fault);
   }
 }
 
 TEST(RaceFaults, RacesAreFoundAfterAThousandOthersOnTheSimulator) {
   if (!is_simulator(device_under_test())) GTEST_SKIP() << "needs Oclgrind: races show by chance";
-  for (const Fault& fault : faults()) {
+  for (const Fault& fault : all_faults()) {
     if (fault.is_race) expect_found(fault, "37x11,converging,coc=1.7,cells=2,group=1x1,seed=31");
   }
 }
 
 TEST(FaultTable, HasAFaultForEveryCheck) {
   for (const KernelCheck& check : kernel_checks()) {
-    const bool has_fault = std::any_of(faults().begin(), faults().end(), [&](const Fault& fault) {
-      return std::string(fault.kernel) == check.name;
-    });
+    const bool has_fault =
+        std::any_of(all_faults().begin(), all_faults().end(),
+                    [&](const Fault& fault) { return std::string(fault.kernel) == check.name; });
     EXPECT_TRUE(has_fault) << check.name;
   }
 }

@@ -89,7 +89,7 @@ def launchers(kernel_file):
     for _ in texts:
         wanted |= {f for f, text in texts.items() for w in wanted if f'#include "{w}"' in text or f'#include "kernels/{w}"' in text}
     kernels = sorted({k for f in wanted if f.endswith(".cl") for k in re.findall(r"__kernel void (\w+)\(", texts[f])})
-    files = [f for f in sources("host") if f.endswith(".cpp") and "launch_table" not in f and "validation" not in f
+    files = [f for f in sources("host") if f.endswith(".cpp") and "validation" not in f
              and any(f'"{k}"' in text_of(f) for k in kernels)]
     return kernels, files
 

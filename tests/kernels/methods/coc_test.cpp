@@ -3,6 +3,7 @@
 #include <limits>
 #include <random>
 
+#include "faults/fault.h"
 #include "numbers.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -169,6 +170,23 @@ TEST(Lens, RefusesWhatNoLensHas) {
   expect_error(ErrorKind::usage, {"inside the focal length", "metres_per_unit"},
                with([](Lens& l) { l.focus_distance_units = 0.05; }));
 }
+
+const FaultRows faults{
+    {"coc", "sign of the CoC", {"(z - p.focus_hi_units)", "(p.focus_hi_units - z)"}},
+    {"coc", "focus distance cut to a float", {") - p.focus_lo_units", ")"}},
+    {"coc",
+     "background blurred with focus at infinity",
+     {"? 0.0f : p.scale_quanta", "? p.infinite_focus_scale : p.scale_quanta"}},
+    {"coc",
+     "background takes the near sign",
+     {"? 0.0f : p.scale_quanta", "? 0.0f : -p.scale_quanta"}},
+    {"coc",
+     "limit without the near side",
+     {"clamp(radius, -p.limit_quanta, p.limit_quanta)",
+      "clamp(radius, -0.5f * p.limit_quanta, p.limit_quanta)"}},
+    {"coc", "rounded towards zero", {"convert_int_rte(clamp", "convert_int_rtz(clamp"}},
+    {"coc", "last pixel dropped", {"if (i >= p.pixel_count)", "if (i + 1 >= p.pixel_count)"}},
+};
 
 }  // namespace
 }  // namespace defray::test::coc_test

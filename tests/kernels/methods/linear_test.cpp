@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "faults/fault.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -161,6 +162,23 @@ TEST(Linear, RefusesWhatItCannotReach) {
     render({2, 2}, some, {Plane(4)});
   });
 }
+
+const FaultRows faults{
+    {"linear_psf",
+     "radius a tenth of a pixel too large",
+     {"2.0f * clamp(radius + 0.5f", "2.0f * clamp(radius + 0.6f"}},
+    {"linear_psf", "chord one pixel short", {"beyond - 1);", "beyond - 2);"}},
+    {"linear_psf",
+     "row reach one pixel short",
+     {"abs(dy) >= (uint)beyond", "abs(dy) >= (uint)beyond - 1u"}},
+    {"linear_psf",
+     "one column off",
+     {"p.source_stride + x + (uint)p.reach", "p.source_stride + x + (uint)p.reach + 1u"}},
+    {"linear_psf",
+     "0 x Inf reaches what the disc does not",
+     {"select((float16)(-0.0f), weight * colour, weight > 0.0f)", "weight * colour"}},
+    {"linear_psf", "last source row dropped", {"dy <= p.reach; ++dy", "dy < p.reach; ++dy"}},
+};
 
 }  // namespace
 }  // namespace defray::test::linear_test

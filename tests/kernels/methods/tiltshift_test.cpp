@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "faults/fault.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -71,6 +72,13 @@ TEST(Tiltshift, RefusesBandsOutsideTheFrame) {
     validate(TiltshiftSettings{0.5, 0.1, 1e6});
   });
 }
+
+const FaultRows faults{
+    {"tiltshift", "off by half a pixel", {"(float)row + 0.5f", "(float)row"}},
+    {"tiltshift",
+     "limit forgotten",
+     {"fmin(p.slope_quanta_per_px * beyond, p.limit_quanta)", "p.slope_quanta_per_px * beyond"}},
+};
 
 }  // namespace
 }  // namespace defray::test::tiltshift_test

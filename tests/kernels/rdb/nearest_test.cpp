@@ -4,6 +4,7 @@
 #include <set>
 
 #include "chain/chain.h"
+#include "faults/fault.h"
 #include "methods/method.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
@@ -175,6 +176,30 @@ TEST(NearestPicture, BordersGiveTheEdgesData) {
     }
   }
 }
+
+const FaultRows faults{
+    {"rdb_nearest", "the farthest", {"w.y < best.y ||", "w.y > best.y ||"}},
+    {"rdb_nearest", "ties to the larger index", {"w.x < best.x);", "w.x > best.x);"}},
+    {"rdb_nearest",
+     "made-up fragments count",
+     {"(p.has_data_of && data_of[w.x] == DEFRAY_EMPTY)", "false"}},
+    {"rdb_nearest",
+     "minimum begun anew with each pass",
+     {"uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) :",
+      "uint2 best = 1 ? (uint2)(DEFRAY_EMPTY) :"}},
+    {"rdb_nearest",
+     "stale minimum of the band before",
+     {"uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) :",
+      "uint2 best = p.is_first_pass && p.band_y == 0 ? (uint2)(DEFRAY_EMPTY) :"}},
+    {"rdb_nearest",
+     "rim's row in the band",
+     {"passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[p.band_y + row])) {\n      "
+      "continue;\n    "
+      "}\n    best",
+      "passes_rim(lens[p.first_cell + k], rim_x[x], rim_y[row])) {\n      continue;\n    }\n  "
+      "  "
+      "best"}},
+};
 
 }  // namespace
 }  // namespace defray::test::nearest_test

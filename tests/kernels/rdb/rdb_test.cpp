@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "faults/fault.h"
 #include "lens/lens_grid.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
@@ -183,6 +184,41 @@ TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
         << "rows from " << first;
   }
 }
+
+const FaultRows faults{
+    {"rdb_merge", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},
+    {"rdb_merge", "count begun anew with each pass", {"? 0u : seen[target]", "? 0u : 0u"}},
+    {"rdb_merge",
+     "stale sums from the band before",
+     {"p.is_first_pass ? (float4)(0.0f) : colour_at(CHANNELS(sum), target)",
+      "colour_at(CHANNELS(sum), target)"}},
+    {"rdb_merge",
+     "sums not begun at zero, without bands",
+     {"p.is_first_pass ? (float4)(0.0f) : colour_at(CHANNELS(sum), target)",
+      "p.is_first_pass && !p.is_last_pass ? (float4)(0.0f) : colour_at(CHANNELS(sum), target)"}},
+    {"rdb_merge",
+     "truncated sum: last cell of a pass",
+     {"cell < p.cell_count; ++cell", "cell + 1 < p.cell_count; ++cell"}},
+    {"rdb_merge",
+     "mean over empty cells too",
+     {"total / (float)max(count, 1u)", "total / (float)p.cell_count"}},
+    {"rdb_merge",
+     "differences forgotten between passes",
+     {"bool differs = state != count;", "bool differs = false;"}},
+    {"rdb_merge",
+     "own pixel from the wrong row",
+     {"(size_t)(p.band_y - p.window_y + row)", "(size_t)(row)"}},
+    {"rdb_merge",
+     "-0 becomes +0",
+     {"differs ? total / (float)max(count, 1u) : own", "total / (float)max(count, 1u)"}},
+    {"rdb_merge", "nothing shows through", {"held == DEFRAY_EMPTY ? behind : held", "held"}},
+    {"rdb_merge",
+     "what has no share shows through",
+     {"(coverage[i] & ~DEFRAY_SYNTHESISED) == 0u", "false"}},
+    {"rdb_merge",
+     "the nearest behind",
+     {"coc_quanta[i] > coc_quanta[found]", "coc_quanta[i] < coc_quanta[found]"}},
+};
 
 }  // namespace
 }  // namespace defray::test::rdb_test

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "faults/fault.h"
 #include "splat_support.h"
 
 namespace defray::test::splat_project_test {
@@ -168,6 +169,52 @@ TEST(SplatProject, AHeadlightShadesBySlant) {
   EXPECT_NEAR(s.g, slanted, 1e-5);
   EXPECT_EQ(s.a, 1);
 }
+
+const FaultRows faults{
+    {"splat_project",
+     "places from the cloud's origin, not the eye",
+     {"(float3)(n->x, n->y, n->z) - FRAME_VECTOR(p, eye)", "(float3)(n->x, n->y, n->z)"}},
+    {"splat_project",
+     "the CoC of infinite focus everywhere",
+     {"p.focus_is_infinite ? -p.infinite_focus_scale / z", "true ? -p.infinite_focus_scale / z"}},
+    {"splat_project",
+     "no limit of the CoC",
+     {"return clamp(radius, -p.limit_px, p.limit_px);", "return radius;"}},
+    {"splat_project",
+     "no prefilter",
+     {"- tilt_x * tilt_x) + 1.0f + added.x", "- tilt_x * tilt_x) + added.x"}},
+    {"splat_project",
+     "basis functions round in the picture",
+     {"(product(row_x, row_y) - tilt_x * tilt_y)", "product(row_x, row_y)"}},
+    {"splat_project",
+     "the smaller of blur and low-pass",
+     {"fmax(mean - spread, circle)", "fmin(mean - spread, circle)"}},
+    {"splat_project", "circumellipse turned the other way", {"stretch * m.y,", "-stretch * m.y,"}},
+    {"splat_project",
+     "the low-pass of a circle forgotten",
+     {"if (mean + spread <= circle)", "if (mean - spread <= circle)"}},
+    {"splat_project", "slanted surfaces cover as much", {"(fabs(towards) / z)", "size"}},
+    {"splat_project",
+     "surfaces seen from behind",
+     {"p.one_sided && !(towards < 0.0f)", "p.one_sided && towards < 0.0f"}},
+    {"splat_project",
+     "nearer than the near plane",
+     {"z - half_depth > p.near_units", "z > p.near_units"}},
+    {"splat_project", "thin basis functions", {"fmax(depth, sqrt(n->variance))", "depth"}},
+    {"splat_project",
+     "variance of a disc half its square radius",
+     {"is_disc ? 0.25f * (coc * coc)", "is_disc ? 0.5f * (coc * coc)"}},
+    {"splat_project",
+     "the whole of a Gaussian within the cut-off",
+     {"6.28318531f * root * p.gaussian_share", "6.28318531f * root"}},
+    {"splat_project",
+     "an exponent without its half",
+     {"is_disc ? 0.25f : 0.5f", "is_disc ? 0.25f : 1.0f"}},
+    {"splat_project", "the last pixel left out", {"floor(to - 0.5f) + 1.0f", "floor(to - 0.5f)"}},
+    {"splat_project",
+     "light from the side",
+     {"0.333333343f + 0.666666687f * facing", "0.333333343f + 0.666666687f * slant"}},
+};
 
 }  // namespace
 }  // namespace defray::test::splat_project_test

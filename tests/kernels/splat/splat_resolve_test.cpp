@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "faults/fault.h"
 #include "splat_support.h"
 
 namespace defray::test::splat_resolve_test {
@@ -172,6 +173,41 @@ TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
   EXPECT_EQ(planes.depth, Plane(15, INFINITY));
   EXPECT_TRUE(device().splat_project({}, picture(5, 3)).empty());
 }
+
+const FaultRows faults{
+    {"splat_resolve",
+     "surfaces never end",
+     {"hits & (s->z_near > r->far)", "hits & (s->z_near > INFINITY)"}},
+    {"splat_resolve",
+     "a surface's depth is its first splat's",
+     {"fmax(r->far, s->z_far)", "s->z_far"}},
+    {"splat_resolve", "more than a whole", {"fmin(weight, 1.0f - r->weight)", "weight"}},
+    {"splat_resolve", "sums that are not divided", {"left / fmax(r->weight, 1.0f)", "left"}},
+    {"splat_resolve",
+     "surfaces that hide nothing",
+     {"const float16 left = 1.0f - r->sum3;", "const float16 left = 1.0f;"}},
+    {"splat_resolve",
+     "the last surface forgotten",
+     {"end_layer(&r, ~r.opaque, p.averages);\n\n", "\n"}},
+    {"splat_resolve", "no cut-off", {"form < p.cutoff);", "form < 80.0f);"}},
+    {"splat_resolve",
+     "discs without an edge",
+     {"* s->disc_px + 0.5f, 0.0f, 1.0f)", "* s->disc_px + 1.0f, 0.0f, 1.0f)"}},
+    {"splat_resolve",
+     "pixels beside the splat's",
+     {"(column >= s->first_x) & (column < s->end_x)", "(column >= s->first_x)"}},
+    {"splat_resolve", "the farthest depth", {"fmin(r->depth, s->z)", "fmax(r->depth, s->z)"}},
+    {"splat_resolve",
+     "pixels' corners",
+     {"convert_float16(column) + 0.5f", "convert_float16(column)"}},
+    {"splat_resolve",
+     "a run's tile one row high",
+     {"tile / p.tiles_x * DEFRAY_SPLAT_TILE + (uint)get_global_id(1)",
+      "tile / p.tiles_x * DEFRAY_SPLAT_TILE"}},
+    {"splat_resolve",
+     "opaque pixels go on",
+     {"r->opaque |= where & (1.0f - r->sum3 < DEFRAY_SPLAT_OPAQUE);", ""}},
+};
 
 }  // namespace
 }  // namespace defray::test::splat_resolve_test

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "chain/chain.h"
+#include "faults/fault.h"
 #include "scenes/subject.h"
 #include "stages_support.h"
 
@@ -124,6 +125,69 @@ TEST(Mixed, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
   for (std::int32_t& c : f.coc) c = c == 0 ? 1536 - 256 : c;
   for (const std::uint32_t m : f.mixed()) EXPECT_EQ(m, 0u);
 }
+
+const FaultRows faults{
+    {"repair", "the other end of the ramp", {"side < 0 ? low : high", "side < 0 ? high : low"}},
+    {"repair", "ties to the far end", {"<= abs(to_high) ? -1", "< abs(to_high) ? -1"}},
+    {"repair",
+     "falling ramps forgotten",
+     {"abs(rise) > 2 * DEFRAY_JUMP", "rise > 2 * DEFRAY_JUMP"}},
+    {"repair",
+     "slopes taken for ramps",
+     {"if (!is_steep || !is_between || !is_flat)", "if (!is_steep || !is_between)"}},
+    {"repair",
+     "as good as on a surface, and moved to it",
+     {"abs(from_low) > abs(rise) / 8", "abs(from_low) > abs(rise) / 16"}},
+    {"repair",
+     "ramps of three jumps are level",
+     {"largest <= (int16)(DEFRAY_JUMP_QUANTA)", "largest <= (int16)(3 * DEFRAY_JUMP_QUANTA)"}},
+    {"repair",
+     "CoC without its limit",
+     {"return tame(coc_quanta[pixel]);", "return coc_quanta[pixel];"}},
+    {"repair", "only ramps of one pixel", {"i < 16 && !done", "i < 4 && !done"}},
+    {"repair", "last ramp found counts", {"i < 16 && !done", "i < 16"}},
+    {"repair", "diagonal along x alone", {"(int2)(1, -1)}", "(int2)(1, 0)}"}},
+    {"repair", "anti-diagonal the wrong way", {"(int2)(1, -1)}", "(int2)(1, 1)}"}},
+    {"repair", "flatness beyond one end only", {"&& abs(after - high) < abs(rise) / 8", ""}},
+    {"repair",
+     "without a frame's edge pixels beyond it",
+     {"clamp(at.y, 0, (int)height - 1)",
+      "clamp(at.y, 0, (int)height - 2 > 0 ? (int)height - 2 : 0)"}},
+    {"mixed",
+     "sign: only towards the far side",
+     {"largest = max(largest, apart(coc, own));\n    }\n  }\n  // The sign's",
+      "largest = max(largest, max(coc - own, (int16)(0)));\n    }\n  }\n  // The sign's"}},
+    {"mixed",
+     "threshold counts",
+     {"as_uint16(DEFRAY_JUMP_QUANTA - largest)", "as_uint16(DEFRAY_JUMP_QUANTA - 1 - largest)"}},
+    {"mixed",
+     "threshold of half a pixel",
+     {"as_uint16(DEFRAY_JUMP_QUANTA - largest)", "as_uint16(DEFRAY_JUMP_QUANTA / 2 - largest)"}},
+    {"mixed",
+     "last neighbour in a row forgotten",
+     {"for (int i = -1; i <= 1; ++i)", "for (int i = -1; i < 1; ++i)"}},
+    {"mixed",
+     "row below forgotten",
+     {"for (int j = -1; j <= 1; ++j)", "for (int j = -1; j < 1; ++j)"}},
+    {"mixed",
+     "neighbour's x and y swapped, twice the same",
+     {"start + (int2)(i, j)", "start + (int2)(i, i)"}},
+    {"mixed",
+     "CoC without its limit",
+     {"return clamp(ints_of_run(width, height, coc_quanta, at), (int16)(-DEFRAY_TAME_QUANTA),\n"
+      "               (int16)(DEFRAY_TAME_QUANTA));",
+      "return ints_of_run(width, height, coc_quanta, at);"}},
+    {"mixed",
+     "a run's last pixel from the next row",
+     {"at.x + RUN > (int)width)", "at.x + RUN > (int)width + 1)"}},
+    {"mixed",
+     "a run beyond the frame not written",
+     {"i < count; ++i) to[i] = lanes[i];", "i < count - 1; ++i) to[i] = lanes[i];"}},
+    {"mixed",
+     "stale output: only runs with mixed pixels written",
+     {"  store_ints(p.width, (__global int*)mixed",
+      "  if (any_lane(as_int16(is_mixed << 31u))) store_ints(p.width, (__global int*)mixed"}},
+};
 
 }  // namespace
 }  // namespace defray::test::mixed_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "faults/fault.h"
 #include "lens/lens_grid.h"
 #include "numbers.h"
 #include "reference/twin_backend.h"
@@ -140,6 +141,41 @@ TEST(Stages, SmallFramesHugeCocAndOddColoursEqualTheTwins) {
     }
   }
 }
+
+const FaultRows faults{
+    {"soften", "radius for diameter", {"(2.0f / 256.0f) / p.cells", "(1.0f / 256.0f) / p.cells"}},
+    {"soften",
+     "near side forgotten",
+     {"fabs(convert_float16(own_coc)) * (2.0f", "convert_float16(own_coc) * (2.0f"}},
+    {"soften", "layers mixed up", {"* (int)p.layers + layer;", "* (int)p.layers;"}},
+    {"soften", "row of a layer for a row of the frame", {"* (int)p.layers + layer;", "+ layer;"}},
+    {"soften", "other surfaces too", {" & (apart <= s.alike)", ""}},
+    {"soften", "a whole cell apart", {"s.alike = 128.0f", "s.alike = 256.0f"}},
+    {"soften",
+     "square's soft border",
+     {"half_side + 0.5f - convert_float16", "half_side + 1.0f - convert_float16"}},
+    {"soften", "coverage ignored", {"inside(s.half_side, dy) * share", "inside(s.half_side, dy)"}},
+    {"soften", "coverage's flag taken for a share", {"from) & (int)~DEFRAY_SYNTHESISED", "from)"}},
+    {"soften",
+     "last column of the square",
+     {"for (int i = -most; i <= most; ++i)", "for (int i = -most; i < most; ++i)"}},
+    {"soften",
+     "a tap beyond the frame counts",
+     {"(x + dx < (int)p.width)", "(x + dx <= (int)p.width)"}},
+    {"soften",
+     "fragments of a run with other strides read beside each other",
+     {"places.is_line = all_lanes(", "places.is_line = any_lane("}},
+    {"soften",
+     "wide squares without a stride",
+     {"dx = s.stride * i, dy = s.stride * j", "dx = i, dy = j"}},
+    {"soften", "-0 becomes +0", {"(difference == 0.0f) | ~isfinite", "~isfinite"}},
+    {"soften",
+     "Inf becomes NaN",
+     {"(difference == 0.0f) | ~isfinite(own)", "(difference == 0.0f)"}},
+    {"soften",
+     "stale output: sharp fragments",
+     {"  write_mean(out0", "  if (any_lane(s.is_active)) write_mean(out0"}},
+};
 
 }  // namespace
 }  // namespace defray::test::soften_test

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "faults/fault.h"
 #include "numbers.h"
 #include "stages_support.h"
 
@@ -130,6 +131,75 @@ TEST(Split, WhatIsNotFiniteStaysWhole) {
     }
   }
 }
+
+const FaultRows faults{
+    {"split", "what is in front behind too", {"set_layer(behind, is", "set_layer(front, is"}},
+    {"split",
+     "background at a depth",
+     {"s.inverse == 0.0f ? INFINITY", "s.inverse == 0.0f ? 1e9f"}},
+    {"split", "depth where there is nothing", {"is_nothing ? as_float(DEFRAY_EMPTY) : z", "z"}},
+    {"split", "coverage where there is nothing", {"is_nothing ? 0u : s.coverage", "s.coverage"}},
+    {"split", "the margin was seen", {"is_in_margin ? DEFRAY_SYNTHESISED : 0u", "0u"}},
+    {"split",
+     "margin without its last column",
+     {"x + p.margin >= p.width", "x + p.margin > p.width"}},
+    {"split", "margin of a band, not of the frame", {"y = p.first_row + at.y", "y = at.y"}},
+    {"split", "middle counts as front", {"own < middle", "own <= middle"}},
+    {"split",
+     "whole pixels as seen behind",
+     {"DEFRAY_WHOLE | DEFRAY_SYNTHESISED,", "DEFRAY_WHOLE,"}},
+    {"split",
+     "far surface taken for the front",
+     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc < low"}},
+    {"split",
+     "mixed pixels taken for pure",
+     {"mixed[q] || coc < low || coc > high", "(d.x == 0 && d.y == 0) || coc < low || coc > high"}},
+    {"split",
+     "nearer surface taken for the one that was seen",
+     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc > high"}},
+    {"split",
+     "three surfaces taken for two",
+     {"abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA", "false"}},
+    {"split",
+     "own pixel taken for the surface that was seen",
+     {"own + DEFRAY_JUMP_QUANTA", "own - 1"}},
+    {"split",
+     "last row of the neighbourhood",
+     {"for (int i = 0; i < 49; ++i) {\n    const int2 d",
+      "for (int i = 0; i < 42; ++i) {\n    const int2 d"}},
+    {"split",
+     "ties to the last in front",
+     {"if (weight > nearest) found.source", "if (weight >= nearest) found.source"}},
+    {"split",
+     "thin things: the first for the least like",
+     {"if (!(far > farthest_colour)) continue;", "if (front.is_found) continue;"}},
+    {"split",
+     "alpha forgotten",
+     {"products.x + products.y + products.z + products.w", "products.x + products.y + products.z"}},
+    {"split", "coverage beyond one", {"clamp(along / length2, 0.0f, 1.0f)", "along / length2"}},
+    {"split",
+     "depth sample's side forgotten",
+     {"const float likely = saw_front ? 0.75f : 0.25f;", "const float likely = 0.75f;"}},
+    {"split", "colours below 0", {"return rest < least ? least : rest;", "return rest;"}},
+    {"split",
+     "Inf and NaN taken apart",
+     {"if (!isfinite(along) || !isfinite(length2 + unsure)) return saw_front ? 1.0f : 0.0f;", ""}},
+    {"split",
+     "seen fragment behind marked as made up",
+     {"front->inverse, DEFRAY_WHOLE,", "front->inverse, behind->coverage,"}},
+    {"split", "front keeps the far CoC", {"{coc_quanta[f.source], inverse", "{own, inverse"}},
+    {"split",
+     "any colour is plausible",
+     {"return rest < low ? low : rest > high ? high : rest;", "return rest;"}},
+    {"split",
+     "pixels nearby say nothing of plausible colours",
+     {"lower_of(seen.low, lower_of(b, c))", "lower_of(b, c)"}},
+    {"split", "as high as the lowest", {"higher_of(colour, found.high)", "found.high"}},
+    {"split", "stale fragment behind a pure pixel", {"behind->inverse = -1.0f;", ""}},
+    {"split",
+     "coverage rounded down",
+     {"convert_uint_rte(share * 65536.0f)", "convert_uint_rtz(share * 65536.0f)"}},
+};
 
 }  // namespace
 }  // namespace defray::test::split_test

@@ -1,26 +1,18 @@
-#include "prediction/random_scene.h"
+#include "random/random_scene.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "base/random.h"
+#include "random/scene_maker.h"
 #include "scenes/geometry/flat_shapes.h"
 #include "scenes/geometry/primitives.h"
-#include "scenes/geometry/texture.h"
 
 namespace defray::perf {
 namespace {
 
-constexpr double focal_length_mm = 50, sensor_width_mm = 36;
-
-class Maker {
+class Maker : SceneMaker {
  public:
-  Maker(int width, int height, std::uint32_t seed) : random_(0, 0, seed), seed_(seed) {
-    scene_.name = "random";
-    scene_.width = width;
-    scene_.height = height;
-    scene_.focal_length_mm = focal_length_mm;
-    scene_.sensor_width_mm = sensor_width_mm;
+  Maker(int width, int height, std::uint32_t seed) : SceneMaker("random", width, height, seed) {
     scene_.light = {
         normalized({-0.5, -0.8, -0.45}), {0.85, 0.8, 0.7}, {0.22, 0.26, 0.34}, {0.1, 0.09, 0.08}};
   }
@@ -31,52 +23,11 @@ class Maker {
     const int groups = 1 + count(3);
     for (int i = 0; i < groups; ++i) add_group(log_between(1, 0.8 * far_));
     if (chance(0.3)) add_lamps();
-    set_focus();
+    set_focus("random");
     return std::move(scene_);
   }
 
  private:
-  double between(double low, double high) { return low + (high - low) * random_.next(); }
-  double log_between(double low, double high) {
-    return std::exp(between(std::log(low), std::log(high)));
-  }
-  bool chance(double share) { return random_.next() < share; }
-  int count(int limit) { return static_cast<int>(random_.next() * limit); }
-  Vec3 colour() {
-    const Vec3 hue{random_.next(), random_.next(), random_.next()};
-    return mix({0.5, 0.5, 0.5}, hue, between(0.2, 1)) * log_between(0.1, 1);
-  }
-
-  /// Features of so many shares of the picture's width, at this depth.
-  double width_at(double depth) const { return depth * sensor_width_mm / focal_length_mm; }
-
-  Texture texture(double depth) {
-    const Vec3 a = colour(), b = colour();
-    const double size = width_at(depth) * log_between(0.01, 0.15);
-    const std::int64_t seed = seed_ * 16 + static_cast<std::uint32_t>(count(16));
-    switch (count(5)) {
-      case 0:
-        return plain(a);
-      case 1:
-        return [=](const Vec3& p) { return checker(p.x + 50, p.y + 50, size, a, b); };
-      case 2:
-        return [=](const Vec3& p) { return bricks(p.x + 50, p.y + 50, 2 * size, size) * a * 2; };
-      case 3:
-        return [=](const Vec3& p) {
-          return mix(a, b, value_noise((p.x + 50) / size, (p.y + 50) / size, seed));
-        };
-      default:
-        return [=](const Vec3& p) {
-          const double wave = std::sin((p.x + 0.5 * p.y) / size * std::numbers::pi);
-          return mix(a, b, 0.5 + 0.5 * wave);
-        };
-    }
-  }
-
-  void add(std::unique_ptr<Primitive> primitive) {
-    scene_.primitives.push_back(std::move(primitive));
-  }
-
   /// A wall, and a floor before it in half of the scenes.
   void add_surroundings() {
     const double w = width_at(far_) * 2;
@@ -108,14 +59,6 @@ class Maker {
   Vec3 place(double depth) {
     const double w = width_at(depth);
     return {w * between(-0.5, 0.5), w * between(-0.32, 0.32), depth};
-  }
-
-  void add_bar(const Vec3& middle, double half_width, double half_length, double angle,
-               const Texture& texture) {
-    const Vec3 along{std::sin(angle), std::cos(angle), 0}, across{along.y, -along.x, 0};
-    add(std::make_unique<Quad>(middle - along * half_length - across * half_width,
-                               across * (2 * half_width), along * (2 * half_length), texture,
-                               Quad::Kind::unlit));
   }
 
   void add_bars(double depth) {
@@ -189,24 +132,7 @@ class Maker {
     }
   }
 
-  /// On one of the things; the aperture by the largest CoC, that of the nearest or farthest.
-  void set_focus() {
-    const double focus = depths_[static_cast<std::size_t>(count(static_cast<int>(depths_.size())))];
-    const double share = log_between(0.005, 0.05), f = focal_length_mm / 1000;
-    double most = 0;  // CoC radius over the picture's width, of an aperture of 1 m
-    for (const double z : depths_) {
-      const double off = std::fabs(z - focus) / z * f / (focus - f) / 2;
-      most = std::fmax(most, off * 1000 / sensor_width_mm);
-    }
-    const double aperture_m = most > 0 ? share / most : 0.02;
-    scene_.settings = {{"random", focus, 1000 * std::fmin(aperture_m, 0.2)}};
-  }
-
-  Random random_;
-  std::uint32_t seed_;
-  Scene scene_;
   double far_ = 0;
-  std::vector<double> depths_;
 };
 
 }  // namespace
