@@ -17,6 +17,16 @@ bool has_optics(const Given& given) {
           given("--pixel-scale"));
 }
 
+void set_lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
+                    const std::string& name, const std::string& text) {
+  Curve curve(name, text);
+  if (curve.is_constant()) {
+    camera.*field = curve.at(0);
+  } else {
+    animated->push_back({field, name, std::move(curve)});
+  }
+}
+
 OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
                        std::string default_text) {
   if (!animated) return value(camera.*field, std::move(default_text));
@@ -25,12 +35,7 @@ OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* an
             return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
           },
           [read, &camera, field, animated](const std::string& name) {
-            Curve curve(name, *read);
-            if (curve.is_constant()) {
-              camera.*field = curve.at(0);
-            } else {
-              animated->push_back({field, name, std::move(curve)});
-            }
+            set_lens_value(camera, field, animated, name, *read);
           },
           std::move(default_text)};
 }

@@ -12,6 +12,11 @@ namespace defray::cli {
 /// What --camera is for the image's own metadata; no file is called so.
 inline const std::string from_metadata = "from-metadata";
 
+/// What was typed for a value of the lens; one that changes over a sequence goes to `animated`.
+/// Throws Error(usage) that begins with the option's name.
+void set_lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
+                    const std::string& name, const std::string& text);
+
 /// A value of the lens; one that changes over a sequence goes to `animated` instead. Null: none
 /// may.
 OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,

@@ -75,21 +75,29 @@ std::vector<OptionRow> sensor_rows(RenderCommand& job) {
   };
 }
 
-/// "2,4.5" -> what is kept sharp.
-void set_range(CameraValues& camera, const std::string& text) {
-  const std::vector<std::string> ends = split(text, ',');
-  if (ends.size() != 2) {
-    fail(ErrorKind::usage, "--focus-range '{}': write its two ends as 2,4.5", text);
-  }
-  const Curve near("--focus-range", ends[0]), far("--focus-range", ends[1]);
-  if (!near.is_constant() || !far.is_constant()) {
+/// "2,4.5", or "2,4.5:1,3,6:24": what is kept sharp, of all frames or from frame to frame.
+void set_range(RenderCommand& job, const std::string& text) {
+  std::vector<std::string> parts = split(text, ',');
+  const bool is_smooth = parts.size() > 2 && parts.back() == "smooth";
+  if (is_smooth) parts.pop_back();
+  if (parts.size() % 2 != 0) {
     fail(ErrorKind::usage,
-         "--focus-range '{}': takes no frames, its ends are those of all: write them as 2,4.5; "
-         "--focus may change",
+         "--focus-range '{}': write its two ends as 2,4.5, or as 2,4.5:1,3,6:24 for 2 to 4.5 at "
+         "frame 1 and 3 to 6 at frame 24",
          text);
   }
-  camera.focus_distance_units = near.at(0);
-  camera.focus_end_units = far.at(0);
+  std::vector<std::string> near, far;
+  for (std::size_t i = 0; i < parts.size(); i += 2) {
+    const std::size_t colon = parts[i + 1].find(':');
+    near.push_back(parts[i] + (colon == std::string::npos ? "" : parts[i + 1].substr(colon)));
+    far.push_back(parts[i + 1]);
+  }
+  const std::string ending = is_smooth ? ",smooth" : "";
+  CameraValues& camera = job.settings.camera;
+  set_lens_value(camera, &CameraValues::focus_distance_units, &job.animated, "--focus-range",
+                 join(near, ",") + ending);
+  set_lens_value(camera, &CameraValues::focus_end_units, &job.animated, "--focus-range",
+                 join(far, ",") + ending);
 }
 
 std::vector<OptionRow> focus_rows(RenderCommand& job) {
@@ -111,9 +119,9 @@ std::vector<OptionRow> focus_rows(RenderCommand& job) {
        "Take --focus-at's depth from this frame, for all",
        {.needs = {[](const Given& given) { return given("--focus-at"); }, "goes with --focus-at"}}},
       {"--focus-range",
-       parsed<std::string>(
-           [&job](const std::string& text) { set_range(job.settings.camera, text); }),
-       "near,far, scene units: what is kept sharp; outside, the blur of a focus on the nearer end",
+       parsed<std::string>([&job](const std::string& text) { set_range(job, text); }),
+       "near,far[:FRAME,...], scene units: what is kept sharp; outside, the blur of a focus on the "
+       "nearer end",
        {.field = "focus_range", .needs = no_other}},
   };
 }

@@ -1,0 +1,164 @@
+// defray render: lenses that change over a sequence, focus on a place.
+#include <fstream>
+#include <sstream>
+
+#include "command/render/camera_fixture.h"
+
+namespace defray::test::animated_lens_test {
+namespace {
+
+using nlohmann::json;
+
+class Sequences : public Camera {
+ protected:
+  Sequences() {
+    for (int i = 1; i <= 3; ++i) {
+      write_picture_file(folder_, fmt::format("s.000{}.exr", i), {"R", "G", "B", "Z"});
+    }
+  }
+  std::vector<json> frames(const std::string& options) const {
+    const Result result = defray(folder_, "render s.####.exr -o o.####.exr --json " + options);
+    expect_ok(result);
+    std::istringstream lines(result.out);
+    std::vector<json> all;
+    for (std::string line; std::getline(lines, line);) all.push_back(json::parse(line));
+    EXPECT_EQ(all.size(), 3u);
+    all.resize(3);
+    return all;
+  }
+};
+
+TEST_F(Sequences, LensNumbersChange) {
+  const auto linear =
+      frames("--focus 3:1,2:3 --fstop 2 --focal-length 50:2,60:3 --sensor-width 36:1,24:3");
+  EXPECT_DOUBLE_EQ(linear[0]["focus_distance_units"], 3);
+  EXPECT_DOUBLE_EQ(linear[1]["focus_distance_units"], 2.5);
+  EXPECT_DOUBLE_EQ(linear[2]["focus_distance_units"], 2);
+  EXPECT_DOUBLE_EQ(linear[0]["focal_length_mm"], 50);
+  EXPECT_DOUBLE_EQ(linear[2]["focal_length_mm"], 60);
+  EXPECT_DOUBLE_EQ(linear[1]["sensor_width_mm"], 30);
+  const auto smooth = frames("--focus 3:1,2:5,smooth --fstop 2:1,4:3 --focal-length 50");
+  EXPECT_DOUBLE_EQ(smooth[1]["focus_distance_units"], 3 - 0.15625);
+  EXPECT_DOUBLE_EQ(smooth[1]["aperture_diameter_mm"], 50.0 / 3);
+  expect_ok(defray(folder_,
+                   "render s.0002.exr -o b.exr --focus 2.5 --fstop 2 --focal-length 50 "
+                   "--sensor-width 30"));
+  frames("--focus 3:1,2:3 --fstop 2 --focal-length 50 --sensor-width 36:1,24:3");
+  EXPECT_EQ(file_hash(folder_ / "o.0002.exr"), file_hash(folder_ / "b.exr"));
+}
+
+TEST_F(Sequences, PerceivedSizesChange) {
+  const std::string lens = "--focus 2.5 --fstop 2 --focal-length 50 ";
+  const double aperture = frames(lens)[0]["aperture_diameter_mm"];
+  const auto scaled = frames(lens + "--scale 0.5:1,0.25:3");
+  EXPECT_DOUBLE_EQ(scaled[0]["aperture_diameter_mm"], aperture / 0.5);
+  EXPECT_DOUBLE_EQ(scaled[1]["aperture_diameter_mm"], aperture / 0.375);
+  const auto near = frames(lens + "--perceived-distance 1:1,2:3");
+  EXPECT_DOUBLE_EQ(near[0]["aperture_diameter_mm"], aperture * 2.5);
+  EXPECT_DOUBLE_EQ(near[2]["aperture_diameter_mm"], aperture * 2.5 / 2);
+}
+
+TEST_F(Sequences, ARangeChanges) {
+  const auto second = [&](const std::string& input, const std::string& output,
+                          const std::string& range) {
+    expect_ok(defray(folder_, "render " + input + " -o " + output +
+                                  " --fstop 1 --focal-length 50 " + "--focus-range " + range));
+    return file_hash(folder_ / "o.0002.exr");
+  };
+  const auto moved = second("s.####.exr", "o.####.exr", "1,2:1,1.5,4:3");
+  EXPECT_EQ(moved, second("s.0002.exr", "o.0002.exr", "1.25,3"));
+  EXPECT_NE(moved, second("s.0002.exr", "o.0002.exr", "1.25,3.5"));
+  const auto smooth = second("s.####.exr", "o.####.exr", "1,2:1,1.5,4:5,smooth");
+  EXPECT_EQ(smooth, second("s.0002.exr", "o.0002.exr", "1.078125,2.3125"));
+  expect_refused("s.####.exr -o o.####.exr --fstop 1 --focal-length 50 --focus-range 1,2:1,3,2:3",
+                 2, {"--focus-range goes from 3 to 2"});
+}
+
+TEST_F(Sequences, CurvesAreReadStrictly) {
+  const auto refused = [&](const std::string& focus, const std::string& words) {
+    expect_refused("s.####.exr -o o.####.exr --fstop 2 --focal-length 50 --focus " + focus, 2,
+                   {"--focus", words});
+  };
+  refused("3:1,2", "'2' has no frame");
+  refused("3,smooth", "'3' has no frame");
+  refused("3:a", "'3:a' has no frame number");
+  refused("x", "'x' cannot be read as a number; write a number, or 3:1,2.2:24");
+  refused("3:1,4:1", "has a frame twice");
+  refused("inf:1,3:2", "'inf:1' cannot be animated");
+  expect_refused("wide.exr -o o.exr --focus 3:1,2:9 --fstop 2 --focal-length 50", 2,
+                 {"--focus changes over frames, the input wide.exr has none"});
+  // The third frame's lens, before the first is rendered.
+  expect_refused("s.####.exr -o o.####.exr --fstop 2 --focal-length 50 --focus 3:1,0:3", 2,
+                 {"focus distance is 0"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "o.0001.exr"));
+}
+
+TEST_F(Sequences, ACameraFileAFrame) {
+  for (int i = 1; i <= 3; ++i) {
+    std::ofstream(folder_ / fmt::format("camera.000{}.json", i))
+        << R"({"focal_length_mm": 50, "f_stop": 2, "focus_distance_m": )" << i + 1 << "}";
+  }
+  const auto all = frames("--camera camera.####.json");
+  for (int i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(all[i]["focus_distance_units"], i + 2);
+  std::filesystem::remove(folder_ / "camera.0002.json");
+  const Result result = defray(folder_,
+                               "render s.####.exr -o o.####.exr --camera camera.####.json "
+                               "--skip-bad-frames");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("camera.0002.json: cannot open"), std::string::npos) << result.err;
+}
+
+TEST_F(Sequences, FocusOnAPlace) {
+  const std::string optics = " --fstop 2 --focal-length 50 ";
+  for (int i = 1; i <= 3; ++i) {
+    Plane z(1536, 9.0f);
+    for (int y = 8; y < 13; ++y) {
+      for (int x = 18; x < 23; ++x) z[static_cast<std::size_t>(y * 48 + x)] = 2.0f + 0.5f * i;
+    }
+    z[10 * 48 + 20] = 1;  // a speck
+    z[11 * 48 + 20] = std::numeric_limits<float>::infinity();
+    const Plane grey(1536, 0.5f);
+    ImageFile::from_planes({"R", "G", "B", "Z"}, {grey, grey, grey, z}, 48, 32,
+                           Sample::single_float)
+        .write(folder_ / fmt::format("s.000{}.exr", i));
+  }
+  const auto each = frames("--focus-at 20,10" + optics);
+  const auto first = frames("--focus-at 20,10 --focus-frame 2" + optics);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_DOUBLE_EQ(each[i]["focus_distance_units"], 2.5 + 0.5 * i);
+    EXPECT_DOUBLE_EQ(first[i]["focus_distance_units"], 3);
+  }
+  // The patch is as wide on each side: three columns of five, and rows, decide.
+  for (const auto& [place, focus] : {std::pair{"16,10", 9.0},
+                                     {"17,10", 9.0},
+                                     {"18,10", 2.5},
+                                     {"22,10", 2.5},
+                                     {"23,10", 9.0},
+                                     {"20,8", 2.5},
+                                     {"20,7", 9.0},
+                                     {"20,12", 2.5},
+                                     {"20,13", 9.0}}) {
+    const Result result = defray(
+        folder_, std::string("render s.0001.exr -o o.exr --json --focus-at ") + place + optics);
+    expect_ok(result);
+    EXPECT_EQ(json::parse(result.out)["focus_distance_units"], focus) << place;
+  }
+  expect_refused("s.0001.exr -o o.exr --focus-at 48,10" + optics, 2,
+                 {"--focus-at 48,10: s.0001.exr has pixels from 0,0 to 47,31"});
+  expect_refused("s.0001.exr -o o.exr --focus-at 4" + optics, 2, {"--focus-at '4'", "640,360"});
+  expect_refused("s.0001.exr -o o.exr --focus-at 4,4 --focus 3" + optics, 2,
+                 {"give one of --focus, --focus-at, --focus-range"});
+  expect_refused("s.0001.exr -o o.exr --focus-frame 2 --focus 3" + optics, 2,
+                 {"--focus-frame needs a pattern"});
+  expect_refused("s.####.exr -o o.####.exr --focus-frame 2 --focus 3" + optics, 2,
+                 {"--focus-frame goes with --focus-at"});
+  const Plane nothing(1536, 1e10f), grey(1536, 0.5f);
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {grey, grey, grey, nothing}, 48, 32,
+                         Sample::single_float)
+      .write(folder_ / "sky.exr");
+  expect_refused("sky.exr -o o.exr --focus-at 4,4" + optics, 3,
+                 {"sky.exr: --focus-at 4,4 is background"});
+}
+
+}  // namespace
+}  // namespace defray::test::animated_lens_test
