@@ -108,6 +108,16 @@ TEST(FalseEdges, OneByOne) {
   EXPECT_EQ(false_edges(one, one, 1).worst, 0);
 }
 
+TEST(FalseEdges, AColumnOfPixelsHasEdgesAlongItAlone) {
+  const float low = static_cast<float>(srgb_decode(100 / 255.0));
+  const Plane even(6, low);
+  Plane stepped = even;
+  for (int i = 3; i < 6; ++i) stepped[size(i)] = static_cast<float>(srgb_decode(140 / 255.0));
+  const Excess found = false_edges(Picture(3, stepped), Picture(3, even), 1);
+  EXPECT_NEAR(found.worst, 20, 1e-4);
+  EXPECT_NEAR(found.rms, 20 * std::sqrt(2.0 / 6), 1e-4);
+}
+
 TEST(FalseEdges, NeedPicturesOfOneSize) {
   expect_error(ErrorKind::usage, {"differ in size"},
                [] { false_edges(flat(), Picture(3, Plane(4)), width); });
