@@ -24,7 +24,8 @@
 typedef struct {
   DEFRAY_INT x;  ///< From a pixel to its match, px; if parallel, the longest.
   DEFRAY_INT y;
-  float parallel;  ///< Not 0: through the scene along the picture, px where 1/depth is 1.
+  float parallel;      ///< Not 0: through the scene along the picture, px where 1/depth is 1.
+  float frame_square;  ///< Mean squared difference of the frame's pairs, (1/255)^2.
 } DefrayPatternShift;
 
 /// Rows of cells of a window of the frame, and all shifts: `patterns`.
@@ -36,12 +37,12 @@ typedef struct {
   DEFRAY_UINT shift_count;
   DEFRAY_INT window_cells;       ///< Side n of the box whose square, convolved, weighs cells.
   DEFRAY_UINT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
-  DEFRAY_UINT least_pairs;       ///< Weight of the pairs that a match needs.
   DEFRAY_UINT channels;          ///< 1 to 4.
+  float frame_pairs;             ///< What the frame's mean counts beside a window's pairs.
 } DefrayPatternsParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefrayPatternShift) == 12);
+static_assert(sizeof(DefrayPatternShift) == 16);
 static_assert(sizeof(DefrayPatternsParams) == 36);
 #endif
 

@@ -10,9 +10,13 @@
 
 namespace defray {
 
-std::uint32_t least_pairs(int window_cells) {
-  const auto n = static_cast<std::uint32_t>(window_cells);
-  return (n * n * n * n * DEFRAY_PATTERN_CELL * DEFRAY_PATTERN_CELL + 9) / 10;
+float frame_pairs(int window_cells) {
+  const float n2 = static_cast<float>(window_cells * window_cells);
+  // PSNR by shares of 0.5 to 20 % (built-in scenes, 640x400): plate1, whose texture has no
+  // period, 41.19, 41.38 (1 %), 41.43 (1.5 %), 41.48 dB; plate2, whose checkers have, falls from
+  // 0.02 dB at 1.5 % to 0.3. 10 % of a window's pairs as the least, and no mean: plate1 41.05,
+  // floors behind balls 0.2 dB less.
+  return 0.015f * n2 * n2 * (DEFRAY_PATTERN_CELL * DEFRAY_PATTERN_CELL);
 }
 
 namespace {

@@ -35,6 +35,8 @@ struct PatternShift {
   /// Not 0: a way through the scene parallel to the picture, px where 1/depth is 1. Floors and
   /// walls that slant repeat themselves along it, the shorter in the picture the farther away.
   float parallel = 0;
+  /// Mean squared difference of the frame's pairs, (1/255)^2, somewhat more where few have one.
+  float frame_square = 0;
   bool operator==(const PatternShift&) const = default;
 };
 
@@ -90,7 +92,8 @@ void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixe
                          const std::vector<PatternShift>& shifts, const PatternSettings& settings,
                          Frame& behind);
 
-/// Weight of the pairs that a match needs: a tenth of a whole window's.
-std::uint32_t least_pairs(int window_cells);
+/// How many pairs a shift's mean over the frame counts as beside those of a window, by weight: 1.5
+/// % of a whole window's. Without it, few pairs that agree by chance count for much.
+float frame_pairs(int window_cells);
 
 }  // namespace defray

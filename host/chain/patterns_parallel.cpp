@@ -162,7 +162,8 @@ std::vector<PatternShift> find_parallel_shifts(const Frame& frame, const Words& 
   for (const PatternShift longest : {PatternShift{settings.parallel_reach_x_px, 0},
                                      PatternShift{0, settings.parallel_reach_y_px}}) {
     for (const Length& l : ParallelSearch(frame, pixels, settings, longest).find()) {
-      found.push_back({l.cost, {longest.x, longest.y, l.parallel}});
+      found.push_back(
+          {l.cost, {longest.x, longest.y, l.parallel, static_cast<float>(l.cost) / 256}});
     }
   }
   std::stable_sort(found.begin(), found.end(),
@@ -171,7 +172,7 @@ std::vector<PatternShift> find_parallel_shifts(const Frame& frame, const Words& 
   std::vector<PatternShift> shifts;
   for (const Found& f : found) {
     shifts.push_back(f.shift);
-    shifts.push_back({-f.shift.x, -f.shift.y, f.shift.parallel});
+    shifts.push_back({-f.shift.x, -f.shift.y, f.shift.parallel, f.shift.frame_square});
   }
   return shifts;
 }

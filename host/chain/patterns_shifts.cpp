@@ -223,10 +223,11 @@ std::vector<PatternShift> find_pattern_shifts(const Frame& frame, const Words& p
   sort_candidates(found);
   std::vector<PatternShift> shifts;
   for (const Candidate& c : found) {
-    const PatternShift opposite{-c.shift.x, -c.shift.y};
-    if (std::find(shifts.begin(), shifts.end(), c.shift) != shifts.end()) continue;
-    shifts.push_back(c.shift);
-    shifts.push_back(opposite);
+    const float frame_square = static_cast<float>(c.cost) / 256;
+    const PatternShift shift{c.shift.x, c.shift.y, 0, frame_square};
+    if (std::find(shifts.begin(), shifts.end(), shift) != shifts.end()) continue;
+    shifts.push_back(shift);
+    shifts.push_back({-shift.x, -shift.y, 0, frame_square});
   }
   return shifts;
 }

@@ -27,14 +27,14 @@ DefrayPatternsParams params_of(const Frame& f, const std::vector<PatternShift>& 
   p.shift_count = word(static_cast<int>(shifts.size()));
   p.window_cells = s.window_cells;
   p.tolerance_quanta = static_cast<std::uint32_t>(s.tolerance_quanta);
-  p.least_pairs = least_pairs(s.window_cells);
+  p.frame_pairs = frame_pairs(s.window_cells);
   p.channels = word(static_cast<int>(f.channels.size()));
   return p;
 }
 
 std::vector<DefrayPatternShift> on_device(const std::vector<PatternShift>& shifts) {
   std::vector<DefrayPatternShift> all;
-  for (const PatternShift& s : shifts) all.push_back({s.x, s.y, s.parallel});
+  for (const PatternShift& s : shifts) all.push_back({s.x, s.y, s.parallel, s.frame_square});
   return all;
 }
 

@@ -54,8 +54,10 @@ std::uint32_t squared_difference(std::uint32_t a, std::uint32_t b) {
 
 /// One shift around one cell: the squared difference, and its weight.
 struct Weight {
-  Weight(std::uint32_t squares, std::uint32_t pairs) {
-    const float mean = static_cast<float>(squares) / static_cast<float>(pairs) + 0.65025f;
+  Weight(std::uint32_t squares, std::uint32_t pairs, float frame_square, float frame_pairs) {
+    const float mean = (static_cast<float>(squares) + frame_pairs * frame_square) /
+                           (static_cast<float>(pairs) + frame_pairs) +
+                       0.65025f;
     const float ratio = 650.25f / mean, square = ratio * ratio;
     w = square * square * square;
     square_w = w * mean;
@@ -74,13 +76,14 @@ struct Sums {
 /// Cells of one shift.
 class CellPlane {
  public:
-  CellPlane(const Frame& frame, const std::vector<std::uint32_t>& cells, int n)
+  CellPlane(const Frame& frame, const std::vector<std::uint32_t>& cells, float frame_square, int n)
       : row_words_(static_cast<int>(pattern_row_words(frame.width))),
         rows_(pattern_rows(frame.height)),
         cells_(cells),
+        frame_square_(frame_square),
         n_(n) {}
 
-  /// The window around a pixel's cell; none with too few pairs.
+  /// The window around a pixel's cell; none without a pair.
   std::optional<Weight> weight(int x, int y) const {
     std::uint32_t squares = 0, pairs = 0;
     for (int j = 1 - n_; j < n_; ++j) {
@@ -93,13 +96,14 @@ class CellPlane {
         pairs += times * (cell >> count_bit);
       }
     }
-    if (pairs < least_pairs(n_)) return {};
-    return Weight(squares, pairs);
+    if (pairs == 0) return {};
+    return Weight(squares, pairs, frame_square_, frame_pairs(n_));
   }
 
  private:
   int row_words_, rows_;
   const std::vector<std::uint32_t>& cells_;
+  float frame_square_;
   int n_;
 };
 
@@ -107,7 +111,7 @@ void add_shift(const Frame& frame, const Frame& behind, const Words& pixels, Pat
                const PatternSettings& settings, Sums& out) {
   const Grid f(frame);
   const std::vector<std::uint32_t> cells = patterns_difference(frame, pixels, {shift}, settings);
-  const CellPlane plane(frame, cells, settings.window_cells);
+  const CellPlane plane(frame, cells, shift.frame_square, settings.window_cells);
   parallel_for(frame.height, [&](int y) {
     for (int x = 0; x < frame.width; ++x) {
       const std::size_t here = f.at(x, y);

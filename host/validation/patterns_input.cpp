@@ -61,7 +61,8 @@ void PatternCase::add_shifts(const Case& c) {
   };
   for (int i = 0; i < shift_count; ++i) {
     const int x = any(c.width);
-    shifts.push_back({x, any(c.height)});
+    const int y = any(c.height);
+    shifts.push_back({x, y, 0, static_cast<float>(std::floor(4000 * random.next()))});
   }
   // The first is what kernels by themselves are checked with.
   PatternShift& parallel = shifts[c.seed % 2];

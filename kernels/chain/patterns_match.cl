@@ -1,9 +1,10 @@
 // patterns_match: what lies behind, moved towards where the picture agrees with it (patterns.cl).
 //
 // Of each shift, the cells around a pixel give D, the mean squared difference of its surroundings
-// and its match's; then the shift's weight w = (1/100 / D)^6, D in units of white squared. Colours
-// move towards the matches' mean by the gain of linear regression, covariance / variance
-// = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
+// and its match's, with the frame's mean as of frame_pairs pairs more: the fewer are known, the
+// less is chance believed. Then the shift's weight is w = (1/100 / D)^6, D in units of white
+// squared. Colours move towards the matches' mean by the gain of linear regression, covariance /
+// variance = 1 - D / 2 V, clamped to 0...1: not at all where surroundings agree by chance only.
 //
 // shifts, pixels, coc_quanta, cells           as in patterns.cl; the first row of cells here is
 //                                             row window_cells - 1 there
@@ -26,19 +27,22 @@ typedef struct {
   int4 is_match;
 } Agreement;
 
-Agreement agreement_of(const DefrayPatternsParams p, const uint4 squares, const uint4 pairs) {
+Agreement agreement_of(const DefrayPatternsParams p, const float frame_square, const uint4 squares,
+                       const uint4 pairs) {
   // White is 255. Two thirds of a step squared more: rounding to 8 bits hides as much.
-  const float4 d = convert_float4(squares) / convert_float4(pairs) + 0.65025f;
+  const float4 d = (convert_float4(squares) + p.frame_pairs * frame_square) /
+                       (convert_float4(pairs) + p.frame_pairs) +
+                   0.65025f;
   const float4 q = 650.25f / d;
   const float4 q2 = q * q;
   const float4 w = q2 * q2 * q2;
-  const Agreement agreement = {w, w * d, as_int4(pairs >= (uint4)(p.least_pairs))};
+  const Agreement agreement = {w, w * d, as_int4(pairs > (uint4)(0u))};
   return agreement;
 }
 
 // From the first cell on that its windows reach.
-Agreement windows_of(const DefrayPatternsParams p, __global const uint* restrict cells,
-                     const uint stride) {
+Agreement windows_of(const DefrayPatternsParams p, const float frame_square,
+                     __global const uint* restrict cells, const uint stride) {
   const int n = p.window_cells;
   uint16 column_squares = 0u, column_pairs = 0u;
   for (int j = 1 - n; j < n; ++j) {
@@ -56,7 +60,7 @@ Agreement windows_of(const DefrayPatternsParams p, __global const uint* restrict
     all_squares += weight * vload4(0, squares + j + n - 1);
     all_pairs += weight * vload4(0, pairs + j + n - 1);
   }
-  return agreement_of(p, all_squares, all_pairs);
+  return agreement_of(p, frame_square, all_squares, all_pairs);
 }
 
 float16 of_cells(const float4 v) { return (float16)(v.xxxx, v.yyyy, v.zzzz, v.wwww); }
@@ -153,7 +157,7 @@ __kernel void patterns_match(
   const uint column = (uint)((unit + DEFRAY_PATTERN_MARGIN) * DEFRAY_PATTERN_UNIT - margin);
   __global const uint* from = cells + (uint)cell_row * stride + column;
   for (uint i = 0; i < p.shift_count; ++i, from += p.cell_rows * stride) {
-    const Agreement agreement = windows_of(p, from, stride);
+    const Agreement agreement = windows_of(p, shifts[i].frame_square, from, stride);
     if (!any(agreement.is_match)) continue;
     for (int j = 0; j < DEFRAY_PATTERN_CELL; ++j) {
       if (!any_lane(rows[j].is_behind)) continue;

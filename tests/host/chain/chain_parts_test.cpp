@@ -204,13 +204,13 @@ TEST(HighlightTiles, FarTilesDoNotMatterToSmallDiscs) {
             (std::vector<float>{1, 1, 1, 0.25f, 0.25f}));
 }
 
-TEST(PatternPairs, AMatchNeedsATenthOfAWindows) {
+TEST(PatternPairs, TheFramesMeanCountsAsAShareOfAWindows) {
   for (int n = 1; n <= DEFRAY_PATTERN_LARGEST_WINDOW; ++n) {
     double weights = 0;
     for (int x = 0; x < DEFRAY_PATTERN_CELL * (2 * n - 1); ++x) {
       weights += n - std::abs(x / DEFRAY_PATTERN_CELL - (n - 1));
     }
-    EXPECT_EQ(least_pairs(n), std::ceil(weights * weights / 10)) << n;
+    EXPECT_FLOAT_EQ(frame_pairs(n), static_cast<float>(0.015 * weights * weights)) << n;
   }
 }
 

@@ -78,9 +78,10 @@ std::vector<PatternShift> expected_shifts(const SearchScene& s) {
                    [](const Length& a, const Length& b) { return a.first < b.first; });
   found.resize(std::min(found.size(), size(s.settings.parallel_shifts)));
   std::vector<PatternShift> expected;
-  for (const auto& [unused, shift] : found) {
-    expected.push_back(shift);
-    expected.push_back({-shift.x, -shift.y, shift.parallel});
+  for (const auto& [cost, shift] : found) {
+    const float frame_square = static_cast<float>(static_cast<double>(cost) / 256);
+    expected.push_back({shift.x, shift.y, shift.parallel, frame_square});
+    expected.push_back({-shift.x, -shift.y, shift.parallel, frame_square});
   }
   return expected;
 }

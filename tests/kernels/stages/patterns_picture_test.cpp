@@ -20,8 +20,8 @@ TEST_F(PatternPicture, ShiftsOfAPeriodicWallAreItsPeriods) {
     EXPECT_EQ(shifts[i].x % 24, 0) << shifts[i].x;
     EXPECT_EQ(shifts[i].y % 14, 0) << shifts[i].y;
     EXPECT_EQ(std::count(shifts.begin(), shifts.end(), shifts[i]), 1);
-    EXPECT_EQ(std::count(shifts.begin(), shifts.end(), PatternShift{-shifts[i].x, -shifts[i].y}),
-              1);
+    const PatternShift opposite{-shifts[i].x, -shifts[i].y, 0, shifts[i].frame_square};
+    EXPECT_EQ(std::count(shifts.begin(), shifts.end(), opposite), 1);
   }
 }
 
@@ -29,7 +29,8 @@ TEST_F(PatternPicture, ShiftsFromOneSurfaceToAnotherDoNotCount) {
   const auto halves = [](int x, int y, int c) { return noise(x % 100, y, c); };
   const auto finds_half = [](const PatternScene& s) {
     const auto shifts = find_pattern_shifts(s.frame(), s.words(), PatternSettings());
-    return std::count(shifts.begin(), shifts.end(), PatternShift{100, 0});
+    return std::count_if(shifts.begin(), shifts.end(),
+                         [](const PatternShift& s) { return s.x == 100 && s.y == 0; });
   };
   PatternScene s(picture);
   s.paint(halves, [](int, int) { return false; });

@@ -91,9 +91,10 @@ std::vector<PatternShift> expected_shifts(const SearchScene& s) {
   std::sort(refined.begin(), refined.end());
   refined.erase(std::unique(refined.begin(), refined.end()), refined.end());
   std::vector<PatternShift> shifts;
-  for (const auto& [unused, y, x] : refined) {
-    shifts.push_back({x, y});
-    shifts.push_back({-x, -y});
+  for (const auto& [cost, y, x] : refined) {
+    const float frame_square = static_cast<float>(static_cast<double>(cost) / 256);
+    shifts.push_back({x, y, 0, frame_square});
+    shifts.push_back({-x, -y, 0, frame_square});
   }
   return shifts;
 }
@@ -140,7 +141,7 @@ TEST(PatternSearch, ReachesAsFarAsItIsSaidTo) {
       }
     }
     const auto shifts = find_pattern_shifts(s.frame(), s.words(), {});
-    const bool has = !shifts.empty() && shifts[0] == PatternShift{x, y};
+    const bool has = !shifts.empty() && shifts[0].x == x && shifts[0].y == y;
     EXPECT_EQ(has, is_found) << x << " " << y;
     EXPECT_LE(shifts.size(), 2 * 24u);
   }

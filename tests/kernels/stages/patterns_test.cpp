@@ -22,8 +22,9 @@ PatternScene random_scene(Size size, double share) {
   return s;
 }
 
-const std::vector<PatternShift> some_shifts{{3, 1},    {-3, -1}, {0, 5},      {-40, 0},
-                                            {1000, 3}, {0, 0},   {50, 0, 60}, {0, -30, 45}};
+const std::vector<PatternShift> some_shifts{{3, 1, 0, 900},    {-3, -1, 0, 900}, {0, 5, 0, 12.5f},
+                                            {-40, 0, 0, 4000}, {1000, 3},        {0, 0},
+                                            {50, 0, 60, 0.1f}, {0, -30, 45, 300}};
 
 /// Colours behind, moved.
 std::uint64_t moved(const PatternScene& s, Backend& backend, const PatternSettings& settings,
@@ -98,16 +99,17 @@ TEST(Patterns, TheLargestWindowFullOfTheLargestDifferencesFits) {
   const Plane variance(size(pattern_rows(100) * pattern_units(100)) * DEFRAY_PATTERN_UNIT,
                        3 * 255 * 255);
   for (Backend* backend : device_and_twins()) {
-    const Frame behind =
-        backend->patterns(s.frame(), s.hidden(), s.words(), variance, {{1, 0}}, settings);
+    const Frame behind = backend->patterns(s.frame(), s.hidden(), s.words(), variance,
+                                           {{1, 0, 0, 3 * 255 * 255}}, settings);
     for (const int x : {50, 51}) {
       EXPECT_NEAR(behind.channels[0][s.at(x, 50)], x % 2 ? 0.25 : 0.75, 1e-5);
     }
   }
 }
 
-/// How far a colour moves towards matches 0.6 away whose surroundings differ by D = 3 x 10^2.
-double way_moved(Backend& backend, double variance) {
+/// How far a colour moves towards matches 0.6 away whose surroundings differ by D = 3 x 10^2, the
+/// frame by `frame_square`.
+double way_moved(Backend& backend, double variance, float frame_square = 300) {
   PatternScene s({64, 48});
   s.paint([](int x, int, int) { return x < 32 ? 0.3f : 0.9f; }, [](int, int) { return false; });
   for (std::size_t i = 0; i < s.pixels(); ++i) {
@@ -117,7 +119,8 @@ double way_moved(Backend& backend, double variance) {
   for (Plane& channel : s.behind) channel.assign(s.pixels(), 0.3f);
   const Plane spread(size(pattern_rows(48) * pattern_units(64)) * DEFRAY_PATTERN_UNIT,
                      static_cast<float>(variance));
-  const Frame behind = backend.patterns(s.frame(), s.hidden(), s.words(), spread, {{32, 0}}, {});
+  const Frame behind =
+      backend.patterns(s.frame(), s.hidden(), s.words(), spread, {{32, 0, 0, frame_square}}, {});
   return behind.channels[1][s.at(13, 21)] - 0.3f;
 }
 
@@ -131,6 +134,24 @@ TEST(Patterns, ColoursMoveByTheShareOfTheVarianceThatMatchesExplain) {
     }
     EXPECT_EQ(way_moved(*backend, difference / 3), 0);
     EXPECT_EQ(way_moved(*backend, 0), 0);
+  }
+}
+
+TEST(Patterns, TheFramesDifferenceCountsBesideThePairsOfTheWindow) {
+  const int n = PatternSettings().window_cells;
+  double pairs = 0;  // of way_moved's pixel, by weight
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      pairs +=
+          std::max(0, n - std::abs(x / 4 - 13 / 4)) * std::max(0, n - std::abs(y / 4 - 21 / 4));
+    }
+  }
+  const double of_frame = frame_pairs(n);
+  for (Backend* backend : device_and_twins()) {
+    for (const float frame_square : {0.0f, 5000.0f, 20000.0f}) {
+      const double square = (300 * pairs + of_frame * frame_square) / (pairs + of_frame) + 0.65025;
+      EXPECT_NEAR(way_moved(*backend, 400, frame_square), 0.6 * (1 - square / 800), 1e-5);
+    }
   }
 }
 
