@@ -99,7 +99,7 @@ void improve_by_patterns(Backend& backend, const Frame& frame, const Words& pixe
                          const std::vector<PatternShift>& shifts, const PatternSettings& settings,
                          Frame& behind) {
   if (shifts.empty() || !is_any_behind(frame, pixels)) return;
-  const Values<float> variance = patterns_variance(frame, pixels, settings);
+  const Values<float> variance = patterns_variance(frame, behind, pixels, settings);
   behind = backend.patterns(frame, std::move(behind), pixels, variance, shifts, settings);
 }
 

@@ -80,10 +80,11 @@ std::vector<PatternShift> find_shifts(const Frame& frame, const Words& pixels,
 /// Rows around a pixel that its matches and their windows lie in, whatever the shifts.
 int pattern_rows_around(const PatternSettings& settings);
 
-/// Variance V of the known colours around each cell, all three together, (1/255)^2, where it hides
-/// something: [rows of cells][units][DEFRAY_PATTERN_UNIT], of wanted rows. A shift's D is
-/// 2 (V - covariance).
-Values<float> patterns_variance(const Frame& frame, const Words& pixels,
+/// Variance V of the known colours around each cell, all three together, (1/255)^2, of the surface
+/// that it hides, 0 where it hides none: [rows of cells][units][DEFRAY_PATTERN_UNIT], of wanted
+/// rows. A shift's D is 2 (V - covariance). Where colours change slowly, the nearest known ones are
+/// closer than their mean: V is no more than known pixels differ by that far apart.
+Values<float> patterns_variance(const Frame& frame, const Frame& behind, const Words& pixels,
                                 const PatternSettings& settings);
 
 /// The smooth colours of `behind`, of wanted rows, are improved in place. `pixels` are

