@@ -21,7 +21,7 @@ struct Line {
       return (step > 0) == (rise > 0) && std::abs(step) > std::abs(rise) / 8;
     };
     const auto is_flat = [&](int step) { return std::abs(step) < std::abs(rise) / 8; };
-    return std::abs(rise) > 2 * DEFRAY_JUMP_QUANTA && is_on_the_way(middle - low) &&
+    return std::abs(rise) > DEFRAY_RAMP_QUANTA && is_on_the_way(middle - low) &&
            is_on_the_way(high - middle) && is_flat(low - before) && is_flat(after - high);
   }
   bool is_nearer_low() const { return std::abs(middle - low) <= std::abs(high - middle); }

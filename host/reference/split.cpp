@@ -217,7 +217,7 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     if (!saw_front && is_third && seen) b = seen->colour;
     const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
     if (saw_front) {
-      if (std::abs(nearest) < DEFRAY_JUMP_QUANTA) return;
+      if (std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
       if (share > 1 - 0.03f) return;
       front.coverage[pixel] = stored(std::max(share, 0.25f));
       set_colour(front.channels, pixel, rest_of(c, b, 1 - share_of(front.coverage[pixel])));

@@ -1,7 +1,8 @@
 // repair, mixed: where one surface ends before another.
 //
 // The signed CoC orders surfaces as depth does, and a step of it says by how many pixels the lens
-// parts the two: only steps above a pixel (DEFRAY_JUMP_QUANTA) matter, whatever the scene's scale.
+// parts the two: only steps above 3/4 of a pixel (DEFRAY_JUMP_QUANTA) matter, whatever the scene's
+// scale.
 //
 // coc_quanta  [height][width]  signed radius, 1/256 px
 // source      [height][width]  repair: index of the pixel whose depth a pixel should have: its own,
@@ -18,7 +19,7 @@
 int ramp(const int before, const int low, const int middle, const int high, const int after) {
   const int rise = high - low;
   const int from_low = middle - low, to_high = high - middle;
-  const bool is_steep = abs(rise) > 2 * DEFRAY_JUMP_QUANTA;
+  const bool is_steep = abs(rise) > DEFRAY_RAMP_QUANTA;
   const bool is_between = (rise > 0) == (from_low > 0) && (rise > 0) == (to_high > 0) &&
                           abs(from_low) > abs(rise) / 8 && abs(to_high) > abs(rise) / 8;
   const bool is_flat = abs(low - before) < abs(rise) / 8 && abs(after - high) < abs(rise) / 8;
@@ -31,7 +32,7 @@ int ramp(const int before, const int low, const int middle, const int high, cons
 int16 apart(const int16 a, const int16 b) { return max(a, b) - min(a, b); }
 
 // Where all that may be an end of a ramp is close to its middle: there is none then. Of a steep one
-// one end is a jump away at least.
+// one end is half of a step away at least.
 int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                const int2 start) {
   const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
@@ -42,7 +43,7 @@ int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quant
       largest = max(largest, apart(coc, own));
     }
   }
-  return largest <= (int16)(DEFRAY_JUMP_QUANTA);
+  return largest <= (int16)(DEFRAY_RAMP_QUANTA / 2);
 }
 
 // The pixel whose depth a pixel should have.

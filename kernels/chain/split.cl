@@ -165,7 +165,7 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
-    if (abs(nearest) < DEFRAY_JUMP_QUANTA) return;
+    if (abs(nearest) < DEFRAY_SMALL_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     front->coverage = stored(fmax(share, LEAST_OF_FRONT));
     front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);

@@ -77,7 +77,7 @@ TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
   for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
     expect_untouched(step_along(dx, dy, 0, 0.25, 1));
     auto small = step_along(dx, dy, 1, 0, 1);
-    for (std::int32_t& c : small) c /= 2;  // 512 quanta: not above two jumps
+    for (std::int32_t& c : small) c /= 2;  // 512 quanta: not above a ramp's
     expect_untouched(small);
     std::vector<std::int32_t> slope;
     for (int i = 0; i < side * side; ++i)
@@ -115,23 +115,21 @@ TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {
   }
 }
 
-TEST(Mixed, BothSidesOfAStepAreMixedAndOneStepOfAPixelIsNone) {
+TEST(Mixed, BothSidesOfAStepAreMixedAndOneOfThreeQuartersOfAPixelIsNone) {
   Canvas f(12, 6);
   f.add_bar(4, 8);
   const Words mixed = f.mixed();
   f.each([&](int x, int y) {
     EXPECT_EQ(mixed[f.at(x, y)], x == 3 || x == 4 || x == 7 || x == 8) << x << " " << y;
   });
-  for (std::int32_t& c : f.coc) c = c == 0 ? 1536 - 256 : c;
+  for (std::int32_t& c : f.coc) c = c == 0 ? 1536 - DEFRAY_JUMP_QUANTA : c;
   for (const std::uint32_t m : f.mixed()) EXPECT_EQ(m, 0u);
 }
 
 const FaultRows faults{
     {"repair", "the other end of the ramp", {"side < 0 ? low : high", "side < 0 ? high : low"}},
     {"repair", "ties to the far end", {"<= abs(to_high) ? -1", "< abs(to_high) ? -1"}},
-    {"repair",
-     "falling ramps forgotten",
-     {"abs(rise) > 2 * DEFRAY_JUMP", "rise > 2 * DEFRAY_JUMP"}},
+    {"repair", "falling ramps forgotten", {"abs(rise) > DEFRAY_RAMP", "rise > DEFRAY_RAMP"}},
     {"repair",
      "slopes taken for ramps",
      {"if (!is_steep || !is_between || !is_flat)", "if (!is_steep || !is_between)"}},
@@ -140,7 +138,8 @@ const FaultRows faults{
      {"abs(from_low) > abs(rise) / 8", "abs(from_low) > abs(rise) / 16"}},
     {"repair",
      "ramps of three jumps are level",
-     {"largest <= (int16)(DEFRAY_JUMP_QUANTA)", "largest <= (int16)(3 * DEFRAY_JUMP_QUANTA)"}},
+     {"largest <= (int16)(DEFRAY_RAMP_QUANTA / 2)",
+      "largest <= (int16)(3 * DEFRAY_RAMP_QUANTA / 2)"}},
     {"repair",
      "CoC without its limit",
      {"return tame(coc_quanta[pixel]);", "return coc_quanta[pixel];"}},

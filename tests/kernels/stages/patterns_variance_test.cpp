@@ -16,7 +16,8 @@ constexpr int units = 7;  // of 4 cells, a row
 template <typename Wall>
 PatternScene scene(const Wall& wall) {
   PatternScene s(frame_size);
-  s.paint(wall, [](int x, int y) { return ((x >= 40 && x < 60) || (x >= 96 && x < 104)) && y < 130; });
+  s.paint(wall,
+          [](int x, int y) { return ((x >= 40 && x < 60) || (x >= 96 && x < 104)) && y < 130; });
   return s;
 }
 
@@ -63,8 +64,7 @@ struct Definition {
     }
     if (count == 0) return 0;
     const double variance =
-        squares / count -
-        (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (count * count);
+        squares / count - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / (count * count);
     const int k = cells_away < 2 ? cells_away : cells_away < 4 ? 2 : 3;
     return std::min(variance, 1.25 * apart[k] / pairs[k]);
   }
