@@ -155,6 +155,9 @@ TEST_F(Compare, SheetShowsBothAndTheirDifference) {
   ASSERT_EQ(code("a.exr b.exr --sheet faint.png --amplify 0.5"), 0);
   const LdrPicture faint = read_ldr(folder_ / "faint.png", Content::data);
   EXPECT_GT(red(faint, 2, 2, 9), red(sheet, 2, 2, 9));
+  ASSERT_EQ(code("a.exr b.exr --sheet four.png --amplify 4"), 0);  // the default
+  const LdrPicture four = read_ldr(folder_ / "four.png", Content::data);
+  EXPECT_EQ(red(four, 2, 2, 9), red(sheet, 2, 2, 9));
 }
 
 TEST_F(Compare, AlphaIsNoObstacle) {

@@ -229,7 +229,9 @@ TEST(Depth, SettingsThatContradictEachOther) {
   for (const auto& [near, far] : {std::pair{1.0, 0.0}, {-1.0, 3.0}, {2.0, 2.0}, {1.0, HUGE_VAL}}) {
     settings.near_units = near;
     settings.far_units = far;
-    expect_error(ErrorKind::usage, {"near_units < far_units"}, [&] { validate(settings); });
+    expect_error(ErrorKind::usage,
+                 {"near_units < far_units", fmt::format("found near {} far {}", near, far)},
+                 [&] { validate(settings); });
   }
   settings = {};
   settings.far_units = 3;
