@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "experiments.h"
 #include "random/layered_scene.h"
@@ -80,38 +77,6 @@ Table summary(const std::vector<Measured>& all, double tie_db) {
 }  // namespace
 
 Section layered(const Bench& bench) {
-  if (const char* seeds = std::getenv("SEEDS")) {
-    std::istringstream in(seeds);
-    const Layers l{bench, 64};
-    for (std::uint32_t seed; in >> seed;) {
-      const std::string path = fmt::format("/tmp/lc/{}.bin", seed);
-      Subject s = l.subject(seed);
-      TwoTruths truths;
-      if (std::ifstream f{path, std::ios::binary}) {
-        for (auto* t : {&truths.first, &truths.second}) {
-          t->assign(3, Plane(s.pinhole.depth.size()));
-          for (Plane& pl : *t)
-            f.read(reinterpret_cast<char*>(pl.data()), static_cast<std::streamsize>(pl.size() * 4));
-        }
-      } else {
-        truths = make_two_truths(s, 64);
-        std::ofstream o(path, std::ios::binary);
-        for (auto* t : {&truths.first, &truths.second})
-          for (Plane& pl : *t)
-            o.write(reinterpret_cast<char*>(pl.data()),
-                    static_cast<std::streamsize>(pl.size() * 4));
-      }
-      const auto psnr_db = [&](const MethodSettings& m) {
-        return psnr_of(mean_of(square_errors(render(bench.backend, s, m), truths)));
-      };
-      MethodSettings fill = default_chain();
-      fill.chain->hidden = Hidden::fill;
-      fmt::print("{} {:.2f} {:.2f} {:.2f} {:.2f}\n", seed, psnr_db(default_chain()), psnr_db(fill),
-                 psnr_db(rdb_of(9)), psnr_db(gather_of(GatherKind::aware, 32, 2)));
-      std::fflush(stdout);
-    }
-    return {};
-  }
   constexpr double tie_db = 0.05;
   Section section{
       "Random layers",
