@@ -35,6 +35,11 @@ Figures measure_stages(TableBench& b) {
   return figures;
 }
 
+Figures measure_layered(TableBench& b) {
+  Section section = layered(b.bench());
+  return {std::move(section.tables[0]), std::move(section.findings)};
+}
+
 Figures measure_left(TableBench& b) {
   Section section;
   add_split(b.bench(), b.setups(), section);

@@ -16,6 +16,7 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"stages", {"what the stages around the RDB gain and cost", measure_stages}},
       {"left", {"what is left of the error", measure_left}},
       {"motion", {"error of the change from frame to frame", measure_motion}},
+      {"layered", {"the default beside others on random layers", measure_layered}},
       {"prediction", {"expected errors beside true ones, and of --scenes", measure_prediction}},
       {"roofline", {"kernels beside the machine's memory and arithmetic", measure_roofline}},
       {"splats", {"point clouds: time and error by aperture", measure_splats}},

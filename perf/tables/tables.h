@@ -40,6 +40,7 @@ Figures measure_methods(TableBench& bench);      ///< All methods on three built
 Figures measure_stages(TableBench& bench);       ///< Gain and cost of each stage of the RDB.
 Figures measure_left(TableBench& bench);         ///< What is left of the default's error.
 Figures measure_motion(TableBench& bench);       ///< From frame to frame.
+Figures measure_layered(TableBench& bench);      ///< The default and others on random layers.
 Figures measure_prediction(TableBench& bench);   ///< Expected errors beside true ones.
 Figures measure_roofline(TableBench& bench);     ///< Kernels beside the machine's limits.
 Figures measure_splats(TableBench& bench);       ///< Point clouds: time and error by aperture.
