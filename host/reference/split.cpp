@@ -99,23 +99,42 @@ class Splitter {
   std::span<const std::uint32_t> mixed_;
 };
 
+/// C beside what F and B can make: the share of F that comes nearest, and what is left then.
+struct Fit {
+  Fit(const Colour& c, const Colour& f, const Colour& b) {
+    const Colour all = minus(f, b);
+    along = dot(minus(c, b), all);
+    length2 = dot(all, all);
+    share = length2 > 0 ? std::clamp(along / length2, 0.0f, 1.0f) : 0;
+    Colour left = minus(c, b);
+    for (std::size_t i = 0; i < 4; ++i) left[i] -= share * all[i];
+    misfit2 = dot(left, left);
+  }
+  float along, length2, share, misfit2;
+};
+
 /// Share a of the front F that makes a F + (1 - a) B most like C, drawn towards what is likely
 /// where F and B are alike.
 float coverage_of(const Colour& c, const Colour& f, const Colour& b, bool saw_front) {
-  const Colour all = minus(f, b);
-  const float along = dot(minus(c, b), all), length2 = dot(all, all);
+  const auto [along, length2, share, misfit2] = Fit(c, f, b);
   Colour sizes;
   for (std::size_t i = 0; i < 4; ++i) sizes[i] = f[i] * f[i] + b[i] * b[i];
   const float unsure = 1e-3f * (sizes[0] + sizes[1] + sizes[2] + sizes[3]);
   const float likely = saw_front ? 0.75f : 0.25f;
   if (!std::isfinite(along) || !std::isfinite(length2 + unsure)) return saw_front ? 1 : 0;
   if (length2 + unsure == 0) return likely;
-  const float share = length2 > 0 ? std::clamp(along / length2, 0.0f, 1.0f) : 0;
-  Colour left = minus(c, b);
-  for (std::size_t i = 0; i < 4; ++i) left[i] -= share * all[i];
   const float mean = (share * length2 + likely * unsure) / (length2 + unsure);
-  const float fit = (length2 + unsure) / (length2 + unsure + dot(left, left));
+  const float fit = (length2 + unsure) / (length2 + unsure + misfit2);
   return saw_front ? 1 - (1 - mean) * fit : mean * fit;
+}
+
+/// `best` behind F, unless another explains C twice as well.
+Colour best_behind(const Colour& c, const Colour& f, Colour best,
+                   std::initializer_list<Colour> others) {
+  for (const Colour& other : others) {
+    if (Fit(c, f, other).misfit2 < 0.25f * Fit(c, f, best).misfit2) best = other;
+  }
+  return best;
 }
 
 /// C without the other surface's part, never below 0 where C is not.
@@ -215,6 +234,9 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     const auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     const bool is_third = std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA;
     if (!saw_front && is_third && seen) b = seen->colour;
+    if (!saw_front && !is_third && seen && found) {
+      b = best_behind(c, found->colour, b, {colour_at(f.channels, seen->source), seen->colour});
+    }
     const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
     if (saw_front) {
       if (std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;

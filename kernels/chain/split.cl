@@ -2,11 +2,11 @@
 // of them as the two layers of one frame.
 //
 // With F the colour of the surface in front (pure pixels nearby), B that behind it (from `fill`, or
-// from pure pixels if the depth sample saw another one), the pixel's colour C = a F + (1 - a) B has
-// the coverage a nearest to it (least squares; alpha counts like a colour). What the two colours do
-// not explain goes to the surface that the depth sample saw, so that both together still give C;
-// but what lies behind gets no colour beyond C, B and those of its pure pixels nearby. The edge
-// pixels of what is in focus stay as they are.
+// from pure pixels if the depth sample saw another one, or if theirs explains the pixel better),
+// the pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha
+// counts like a colour). What the two colours do not explain goes to the surface that the depth
+// sample saw, so that both together still give C; but what lies behind gets no colour beyond C, B
+// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -92,26 +92,49 @@ Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_qu
   return front;
 }
 
+// C beside what F and B can make: the share of F that comes nearest, and how far from it C stays,
+// squared.
+typedef struct {
+  float along, length2, share, misfit2;
+} Fit;
+
+Fit fit_of(const float4 c, const float4 f, const float4 b) {
+  const float4 from_b = c - b, all = f - b;
+  const float4 products = from_b * all, squares = all * all;
+  Fit fit;
+  fit.along = products.x + products.y + products.z + products.w;
+  fit.length2 = squares.x + squares.y + squares.z + squares.w;
+  fit.share = fit.length2 > 0.0f ? clamp(fit.along / fit.length2, 0.0f, 1.0f) : 0.0f;
+  const float4 left = from_b - fit.share * all, misfits = left * left;
+  fit.misfit2 = misfits.x + misfits.y + misfits.z + misfits.w;
+  return fit;
+}
+
 // Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
 // sample decides: it most likely saw the larger share. The more of C the two leave unexplained, the
 // less of it is taken apart. Colours that are not finite, or whose squares are not, say nothing:
 // the pixel stays whole.
 float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
-  const float4 from_b = c - b, all = f - b;
-  const float4 products = from_b * all, squares = all * all, sizes = f * f + b * b;
-  const float along = products.x + products.y + products.z + products.w;
-  const float length2 = squares.x + squares.y + squares.z + squares.w;
-  const float size2 = sizes.x + sizes.y + sizes.z + sizes.w;
-  const float unsure = 1e-3f * size2;
-  const float likely = saw_front ? 0.75f : 0.25f;
-  if (!isfinite(along) || !isfinite(length2 + unsure)) return saw_front ? 1.0f : 0.0f;
-  if (length2 + unsure == 0.0f) return likely;
-  const float share = length2 > 0.0f ? clamp(along / length2, 0.0f, 1.0f) : 0.0f;
-  const float4 left = from_b - share * all, misfits = left * left;
-  const float misfit2 = misfits.x + misfits.y + misfits.z + misfits.w;
-  const float mean = (share * length2 + likely * unsure) / (length2 + unsure);
-  const float fit = (length2 + unsure) / (length2 + unsure + misfit2);
-  return saw_front ? 1.0f - (1.0f - mean) * fit : mean * fit;
+  const Fit fit = fit_of(c, f, b);
+  const float4 sizes = f * f + b * b;
+  const float unsure = 1e-3f * (sizes.x + sizes.y + sizes.z + sizes.w);
+  const float all2 = fit.length2 + unsure, likely = saw_front ? 0.75f : 0.25f;
+  if (!isfinite(fit.along) || !isfinite(all2)) return saw_front ? 1.0f : 0.0f;
+  if (all2 == 0.0f) return likely;
+  const float mean = (fit.share * fit.length2 + likely * unsure) / all2;
+  const float explained = all2 / (all2 + fit.misfit2);
+  return saw_front ? 1.0f - (1.0f - mean) * explained : mean * explained;
+}
+
+// Of what may lie behind F, what explains C: what was made up, unless another comes twice as near.
+// (Of 1, 4 and 16 times as near, squared: fence fence at 96x72 -0.2, 0, 0 dB; random layers +0.15,
+// +0.08 dB in the mean; fence bg +0.09, +0.07.)
+float4 best_behind(const float4 c, const float4 f, const float4 made_up, const float4 nearest,
+                   const float4 mean) {
+  float4 best = made_up;
+  if (fit_of(c, f, nearest).misfit2 < 0.25f * fit_of(c, f, best).misfit2) best = nearest;
+  if (fit_of(c, f, mean).misfit2 < 0.25f * fit_of(c, f, best).misfit2) best = mean;
+  return best;
 }
 
 // A coverage in 2^-16 and, of the very share that is stored, what is left of C for one surface when
@@ -160,7 +183,11 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
                        own + DEFRAY_JUMP_QUANTA);
     // Where `fill` found another surface than the one that was seen there are three.
     const bool is_third = abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA;
-    if (is_third && seen.is_found) b = seen.colour;
+    if (is_third && seen.is_found) {
+      b = seen.colour;
+    } else if (seen.is_found && f.is_found) {
+      b = best_behind(c, f.colour, b, colour_at(CHANNELS(channel), seen.source), seen.colour);
+    }
   }
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);

@@ -118,6 +118,40 @@ double sought_share(const Colour& c, const Colour& front, const Colour& behind, 
   return saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
 }
 
+/// What lies behind, of which the pixel is a mixture: what `fill` found or, where the depth sample
+/// saw it and it comes twice as near, the nearest pure pixel of its surface, or their mean.
+Colour sought_behind(const Canvas& f, const Words& mixed, const Colour& made_up,
+                     const Colour& front, int x, int y) {
+  const std::size_t own = f.at(x, y);
+  Colour nearest{}, mean{};
+  double weights = 0, largest = 0;
+  for (int j = -3; j <= 3; ++j) {
+    for (int i = -3; i <= 3; ++i) {
+      const std::size_t at =
+          f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1));
+      if (mixed[at] || std::abs(f.coc[at] - f.coc[own]) > DEFRAY_JUMP_QUANTA) continue;
+      const double weight = 1.0 / ((i * i + j * j) * (i * i + j * j));
+      const Colour c = colour_of(f.view().channels, at);
+      for (std::size_t k = 0; k < 4; ++k) mean[k] += weight * c[k];
+      if (weight > largest) nearest = c;
+      largest = std::max(largest, weight);
+      weights += weight;
+    }
+  }
+  if (weights == 0) return made_up;
+  for (double& v : mean) v /= weights;
+  const Colour c = colour_of(f.view().channels, own);
+  const auto misfit = [&](const Colour& behind) {
+    const double share = lowest([&](double a) { return distance2(mixture(a, front, behind), c); });
+    return distance2(mixture(share, front, behind), c);
+  };
+  Colour best = made_up;
+  for (const Colour& other : {nearest, mean}) {
+    if (misfit(other) < 0.25 * misfit(best)) best = other;
+  }
+  return best;
+}
+
 /// Colours of the surface that a mixed pixel's depth saw: of pure pixels around, what `fill` found,
 /// and the pixel's own.
 std::vector<Colour> known_behind(const Canvas& f, const Words& mixed, const Frame& filled, int x,
@@ -127,7 +161,7 @@ std::vector<Colour> known_behind(const Canvas& f, const Words& mixed, const Fram
   for (int j = std::max(y - 3, 0); j <= std::min(y + 3, f.height - 1); ++j) {
     for (int i = std::max(x - 3, 0); i <= std::min(x + 3, f.width - 1); ++i) {
       const std::size_t at = f.at(i, j);
-      if (mixed[at] || std::abs(f.coc[at] - f.coc[own]) > 256) continue;
+      if (mixed[at] || std::abs(f.coc[at] - f.coc[own]) > DEFRAY_JUMP_QUANTA) continue;
       known.push_back(colour_of(f.view().channels, at));
     }
   }
@@ -145,9 +179,13 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
   const Around a = around(f, mixed, x, y);
   const bool saw_front = f.coc[i] < a.nearest + (a.farthest - a.nearest) / 2;
   // Two surfaces, both in pure pixels.
-  if (a.weights == 0 || (!saw_front && std::abs(filled.coc_quanta[i] - f.coc[i]) > 256)) return;
+  if (a.weights == 0 ||
+      (!saw_front && std::abs(filled.coc_quanta[i] - f.coc[i]) > DEFRAY_JUMP_QUANTA))
+    return;
   const Colour c = colour_of(f.view().channels, i);
-  const double share = sought_share(c, a.front, colour_of(filled.channels, i), saw_front);
+  Colour made_up = colour_of(filled.channels, i);
+  if (!saw_front) made_up = sought_behind(f, mixed, made_up, a.front, x, y);
+  const double share = sought_share(c, a.front, made_up, saw_front);
   if (std::fabs(share - 0.03) < 1e-3 || std::fabs(share - 0.97) < 1e-3) return;
   const bool is_whole = saw_front ? share > 0.97 || std::abs(a.nearest) < 256 : share < 0.03;
   const double kept = saw_front ? std::max(share, 0.25) : std::min(share, 0.75);
