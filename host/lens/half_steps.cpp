@@ -8,13 +8,15 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/params.h"
 #include "lens/half_slopes.h"
 
 namespace defray {
 namespace {
 
 constexpr float no_step = std::numeric_limits<float>::infinity();
-constexpr double visible_px = 0.5;
+/// Half of what parts surfaces: slopes of up to as much a pixel stay whole with a step on top.
+constexpr double visible_px = 0.5 * DEFRAY_JUMP_QUANTA / (1 << DEFRAY_COC_FRACTION_BITS);
 constexpr float smallest_normal_half = 0x1p-14f;
 
 /// A float with no more digits than a half's.

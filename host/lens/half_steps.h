@@ -1,6 +1,6 @@
 #pragma once
-// Depth that was stored in half floats comes in steps; where the lens makes a step larger than a
-// pixel's half, they show as rings.
+// Depth that was stored in half floats comes in steps; where the lens makes a step larger than half
+// of what parts surfaces (3/8 px), they show as rings.
 #include <cstddef>
 
 #include "base/plane.h"
@@ -14,7 +14,7 @@ struct HalfSteps {
 };
 
 /// Where depths are half floats and a step at a depth that is seen changes the CoC by more than
-/// half a pixel: terraces become slopes, between the middles of their steps, and slopes that are
+/// 3/8 of a pixel: terraces become slopes, between the middles of their steps, and slopes that are
 /// steeper than a step a pixel (half_slopes.h) lose what rounding put on them. Level surfaces stay,
 /// and nothing is smoothed across an edge. `depth` is planar, `lens_width` the frame that the lens
 /// spans.
