@@ -11,7 +11,9 @@
 namespace defray {
 namespace {
 
-constexpr int reach = 24;  ///< Of a line to either side, px.
+/// Of a line to either side, px. With 24 and 32 rounding leaves more made-up pixels (11700 and 8100
+/// of 144000 on `slanted`, 300 mm f/0.5; 5400 with 48).
+constexpr int reach = 48;
 constexpr int fewest = 4;  ///< Pixels that make a line.
 /// Two pixels were rounded by half a step each; a quarter more where steps change their size.
 constexpr double rounding = 1.25;
