@@ -122,7 +122,8 @@ struct Cells {
   }
 };
 
-/// Those of the wanted rows, and of `around` rows of cells beside them.
+/// Those of the wanted rows, and of `around` rows of cells beside them; empty where no hidden
+/// cell's window reaches.
 Cells cells_of(const Frame& f, const Frame& behind, const Words& pixels, int around,
                const PatternSettings& settings) {
   const int rows = pattern_rows(f.height), wanted = f.wanted_rows().y / DEFRAY_PATTERN_CELL;
@@ -133,10 +134,14 @@ Cells cells_of(const Frame& f, const Frame& behind, const Words& pixels, int aro
               {}};
   cells.cells.resize(size(cells.columns) * size(cells.end - cells.first));
   const Pixels all(f, behind, pixels, settings);
+  const Words needed = needed_units(f, pixels, settings.window_cells);
+  const auto is_needed = needed.host();
   parallel_for(cells.end - cells.first, [&](int row) {
     const std::size_t pixel = size(cells.first + row) * DEFRAY_PATTERN_CELL * size(f.width);
     const std::size_t end = std::min(pixel + DEFRAY_PATTERN_CELL * size(f.width), all.count());
+    const std::size_t first_unit = size(cells.first + row) * size(pattern_units(f.width));
     for (std::size_t i = pixel; i < end; ++i) {
+      if (!is_needed[first_unit + i % size(f.width) / DEFRAY_RUN]) continue;
       const std::size_t column = i % size(f.width) / DEFRAY_PATTERN_CELL;
       all.add_to(cells.cells[size(row) * size(cells.columns) + column], i);
     }
