@@ -23,7 +23,7 @@ left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAwa
 left_out+=:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
 perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
-  longer=Arithmetic.*:$perf:Rdb.Huge*:Blender*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*
+  longer=Arithmetic.*:Mistakes.HalfFloatDepthOfASteepPlane:$perf:Rdb.Huge*:Blender*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*
   DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"
 fi
 case $name in

@@ -53,7 +53,7 @@ std::vector<DeviceInfo> chosen_devices(const ValidateOptions& o, std::vector<std
 
 Settings settings_of(const ValidateOptions& o) {
   Settings s;
-  s.level = o.full ? Level::full : Level::quick;
+  s.level = o.full ? Level::full : o.tiny ? Level::tiny : Level::quick;
   s.kernels = o.kernels;
   s.only_case = o.only_case;
   s.session.math = choice<Math>("--math", o.math, math_words);
@@ -84,7 +84,7 @@ DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& sett
 
 const char* level_of(const ValidateOptions& o) {
   if (!o.only_case.empty()) return "case";
-  return o.full ? "full" : "quick";
+  return o.full ? "full" : o.tiny ? "tiny" : "quick";
 }
 
 std::string title_of(const std::vector<DeviceResult>& results) {
@@ -148,18 +148,22 @@ Run add_validate(CLI::App& app) {
   all->excludes(device);
   auto* quick = command->add_flag("--quick", o->quick, "Within a minute on two cores (default)");
   auto* full = command->add_flag("--full", o->full, "Every pattern with every size; some minutes");
-  full->excludes(quick);
+  auto* tiny = command->add_flag("--tiny", o->tiny,
+                                 "Small frames alone, as simulators get: seconds on slow devices");
+  full->excludes(quick)->excludes(tiny);
+  tiny->excludes(quick);
   auto* kernel =
       command->add_option("--kernel", o->kernels, "Only these kernels, comma-separated or repeated")
           ->delimiter(',');
   auto* only = command->add_option("--case", o->only_case, "Only this case, as a report gives it");
-  only->excludes(quick)->excludes(full);
+  only->excludes(quick)->excludes(full)->excludes(tiny);
   auto* math =
       command->add_option("--math", o->math, "strict, or fast to see which rules it breaks");
   command
       ->add_flag("--arithmetic", o->arithmetic,
                  "Measure instead what relaxed arithmetic buys and costs: minutes")
       ->excludes(all)
+      ->excludes(tiny)
       ->excludes(kernel)
       ->excludes(only)
       ->excludes(math);

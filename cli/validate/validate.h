@@ -13,7 +13,7 @@ namespace defray::cli {
 struct ValidateOptions {
   std::string device, folder, only_case, math = "strict";
   std::vector<std::string> kernels;
-  bool all = false, quick = false, full = false, arithmetic = false, json = false;
+  bool all = false, quick = false, full = false, tiny = false, arithmetic = false, json = false;
 };
 
 /// Measures what relaxed arithmetic buys and costs; the exit code.

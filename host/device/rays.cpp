@@ -1,24 +1,151 @@
-// The ray distribution buffers: by `rdb_gather` where nothing is random, else by `rdb_scatter`.
+// The ray distribution buffers: from where rays end, by `rdb_gather`; from where they begin, where
+// something is random, by `rdb_scatter`.
 #include <algorithm>
+#include <optional>
 
 #include "device/device_backend.h"
-#include "device/rays_gather.h"
+#include "device/ray_window.h"
 #include "device/rdb_run.h"
+#include "opencl/launch_table.h"
+#include "rdb/rdb_plan.h"
+#include "rdb/segments.h"
 
 namespace defray {
 namespace {
 
-void scatter(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-             const Progress& progress, RayResult& out) {
-  RdbRun run(session, frame, plan, lights);
-  double done = 0;
-  for (const RdbPass& pass : run.passes()) {
-    run.scatter(pass);
-    run.merge(pass);
-    run.finish();
-    if (run.is_last_of_band(pass)) run.read_band(pass, out);
-    done += 1;
-    if (progress) progress(done / static_cast<double>(run.passes().size()));
+const LaunchRow rdb_gather_launch({"rdb_gather", WorkGroup{1, 1}});
+
+constexpr int rows_at_once = 64;  ///< Of a launch, for the progress bar.
+
+/// Cells whose winners somebody asks for: the light sources, or the nearest hits.
+std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
+  return plan.wants_nearest || (lights && !lights->empty()) ? plan.lens.points.size() : 0;
+}
+
+/// Winners of so many bytes stay in a CPU's caches from the kernel that writes them to the one that
+/// reads them (1920x1080, spheres f2: rays take 0.85 of the time of bands of 64 rows, 130 MiB).
+constexpr std::size_t winners_at_once = 16 << 20;
+
+/// Rows of a band: winners of all its cells take a quarter of the memory at most.
+int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_cells) {
+  if (winner_cells == 0) return rows_at_once;
+  const std::size_t row = size(frame.width) * winner_cells * sizeof(RdbWinner);
+  const std::size_t strip = row * DEFRAY_RAY_ROWS, memory = session.memory_bytes() / 4;
+  if (memory < strip) return 1;
+  const std::size_t strips = std::max<std::size_t>(std::min(winners_at_once, memory) / strip, 1);
+  return std::min(static_cast<int>(strips) * DEFRAY_RAY_ROWS, rows_at_once);
+}
+
+/// What RdbRun computes, bit for bit, without jitter.
+class RaysGather {
+ public:
+  /// All must stay alive and unchanged meanwhile.
+  RaysGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
+             KeptBuffer& winners);
+
+  void run(RayResult& out, const Progress& progress);
+
+ private:
+  void gather(int y, int rows, RayResult& out);
+  void gather_pass(int first_cell);
+  void find_segments(int first_cell);
+
+  Session& session_;
+  const Frame& frame_;
+  const LensPoints& lens_;
+  RadiusBins bins_;
+  std::size_t winner_cells_;  ///< 0: nobody wants winners.
+  int rows_;                  ///< Most of a band.
+  RayBuffers buffers_;
+  RayTileWindow window_;
+  BinSet sharp_;
+  cl::Buffer filled_, segments_, first_, sharp_on_device_;
+  std::optional<SegmentTable> table_;  ///< Of the last pass.
+  int table_cell_ = -1;                ///< Its first.
+};
+
+RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan,
+                       const LightSources* lights, KeptBuffer& winners)
+    : session_(session),
+      frame_(frame),
+      lens_(plan.lens),
+      bins_(bins_of(frame)),
+      winner_cells_(winner_cells_of(plan, lights)),
+      rows_(rows_of_band(session, frame, winner_cells_)),
+      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_,
+               winners),
+      window_(session, frame, plan, bins_),
+      sharp_(sharp_bins(bins_, lens_)),
+      filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
+      sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
+  DefrayRaysParams& p = window_.params;
+  // Those who ask for winners look at all columns.
+  const int margin = winner_cells_ > 0 ? 0 : frame.margin;
+  p.band_x = word(margin / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE);
+  p.band_end = word(frame.width - margin);
+  p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
+  p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
+}
+
+/// The table of the pass that begins with a cell: of one pass it stays.
+void RaysGather::find_segments(int first_cell) {
+  if (first_cell == table_cell_) return;
+  session_.finish();  // kernels may look at the one before
+  table_.emplace(lens_, first_cell, bins_, frame_.width, frame_.height,
+                 session_.info().most_segments);
+  table_cell_ = first_cell;
+  first_ = session_.view(table_->first);
+  segments_ = table_->segments.empty() ? first_ : session_.view(table_->segments);
+}
+
+void RaysGather::gather_pass(int first_cell) {
+  find_segments(first_cell);
+  DefrayRaysParams& p = window_.params;
+  p.first_cell = word(first_cell);
+  p.cell_count = word(table_->cell_count());
+  p.is_first_pass = first_cell == 0;
+  p.is_last_pass = p.first_cell + p.cell_count == lens_.points.size();
+  const std::size_t across = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
+  const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
+  const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
+  session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
+                  window_.sending, window_.coverage, window_.channels, segments_, first_,
+                  window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
+                  buffers_.light_first, buffers_.winner, buffers_.means, filled_, buffers_.seen);
+}
+
+void RaysGather::gather(int y, int rows, RayResult& out) {
+  DefrayRaysParams& p = window_.params;
+  p.band_y = word(y);
+  p.band_rows = word(rows);
+  const int cells = static_cast<int>(lens_.points.size());
+  for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
+  DefrayRdbParams r = buffers_.params();
+  r.window_y = p.window_y;
+  r.window_rows = p.window_rows;
+  r.band_y = p.band_y;
+  r.band_rows = p.band_rows;
+  r.cell_count = word(cells);
+  r.is_first_pass = r.is_last_pass = 1;
+  buffers_.find_nearest(r, window_.planes);
+  buffers_.add_light(r, window_.planes);
+  buffers_.read(r, out);
+}
+
+void RaysGather::run(RayResult& out, const Progress& progress) {
+  const Rows wanted = frame_.wanted_rows();
+  const int first = std::max(wanted.y, frame_.margin);
+  const int end = std::min(wanted.end, frame_.height - frame_.margin);
+  for (const BandRows& rows : window_.windows()) {
+    const int from = std::max(rows.y, first), to = std::min(rows.y + rows.rows, end);
+    if (from >= to) continue;
+    window_.prepare(rows);
+    const int step = std::min(rows_, DEFRAY_RAY_ROWS);  // no strip lies across two tiles
+    for (int y = from / step * step; y < to; y += rows_) {
+      const int last = std::min(y + rows_, to);
+      gather(y, last - y, out);
+      if (progress) progress(static_cast<double>(last - first) / (end - first));
+    }
   }
 }
 
@@ -35,7 +162,7 @@ RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const Lig
     RaysGather(session_, frame, plan, lights, winners_).run(out, progress);
     if (frame.wanted_rows().end == frame.height) winners_ = {};
   } else {
-    scatter(session_, frame, plan, lights, progress, out);
+    RdbRun(session_, frame, plan, lights).run(out, progress);
   }
   return out;
 }

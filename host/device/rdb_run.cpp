@@ -88,6 +88,18 @@ void RdbRun::merge(const RdbPass& pass) {
   if (is_last_of_band(pass)) buffers_.add_light(p, window_);
 }
 
+void RdbRun::run(RayResult& out, const Progress& progress) {
+  double done = 0;
+  for (const RdbPass& pass : passes_) {
+    scatter(pass);
+    merge(pass);
+    finish();
+    if (is_last_of_band(pass)) read_band(pass, out);
+    done += 1;
+    if (progress) progress(done / static_cast<double>(passes_.size()));
+  }
+}
+
 std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
   std::vector<RdbWinner> result(size(frame_.width) * size(pass.rows) * size(pass.cell_count));
   session_.read(buffers_.winner, result.data(), result.size() * sizeof(RdbWinner));

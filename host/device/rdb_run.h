@@ -16,6 +16,9 @@ class RdbRun {
   RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
          const LightSources* lights = nullptr);
 
+  /// All passes, one after the other.
+  void run(RayResult& out, const Progress& progress);
+
   const std::vector<RdbPass>& passes() const { return passes_; }
 
   /// Empties the cells of a pass and scatters into them.

@@ -14,6 +14,9 @@ namespace {
 
 constexpr const char* no_pragma = "-DDEFRAY_FAST_MATH";  // lets the compiler contract a * b + c
 
+/// Of all kernels' cases: work-groups change no rule, and each size is another program to compile.
+constexpr int usual_group = 64;
+
 SessionOptions with(const std::string& build_options) {
   SessionOptions options;
   options.build_options = build_options;
@@ -57,7 +60,7 @@ double share_changed(const std::vector<Plane>& a, const std::vector<Plane>& b) {
 bool is_stable(Session& session, const Subject& subject, const MethodSettings& settings,
                const std::vector<Plane>& expected) {
   bool same = true;
-  for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{16, 1}, {7, 3}, {0, 0}}) {
+  for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{7, 3}, {0, 0}}) {
     session.set_work_group(x, y);
     DeviceBackend backend(session);
     same = same && render(backend, subject, settings) == expected;
@@ -138,6 +141,7 @@ VariantResult open_trial(const DeviceInfo& info, const Variant& variant, Level l
     Settings settings;
     settings.session = variant.options;
     settings.level = level;
+    settings.group_x = usual_group;
     result.kernels = validate_device(info, settings);
   } catch (const Error& error) {
     result.error = error.what();

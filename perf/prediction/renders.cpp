@@ -83,7 +83,7 @@ void add_builtin_scenes(const Bench& bench, const SceneSize& size,
 void add_random_scenes(const Bench& bench, const SceneSize& size, std::uint32_t first,
                        std::uint32_t count, bool sets_model, std::vector<PredictedRender>& out) {
   for (std::uint32_t seed = first; seed < first + (bench.is_quick ? 1 : count); ++seed) {
-    add_renders(bench, random_scene(size.width, size.height, seed),
+    add_renders(bench, random_scene(bench.size(size.width), bench.size(size.height), seed),
                 "random-" + std::to_string(seed), sets_model, out);
   }
 }

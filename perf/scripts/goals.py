@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-FRAMES = 8
+FRAMES = 3 if "--quick" in sys.argv else 8
 
 
 class Figure:

@@ -10,7 +10,7 @@
 namespace defray::perf {
 namespace {
 
-constexpr int views = 200;
+int views(const Bench& bench) { return bench.is_quick ? 20 : 200; }
 
 /// The paper's models, and lenses that blur them at least as its own did (fragments a splat); what
 /// it says of the largest: time over the sharp picture's, without levels of detail over with, views
@@ -43,8 +43,8 @@ Pictures draw(const Bench& bench, const SplatShot& shot, double aperture_mm) {
   discs.psf = SplatPsf::disc;
   averaged.merge = SplatMerge::average;
   Pictures p;
-  p.truth_s =
-      seconds_of([&] { p.truth = mean_of_views(bench.backend, shot.tree, view({}), views); });
+  p.truth_s = seconds_of(
+      [&] { p.truth = mean_of_views(bench.backend, shot.tree, view({}), views(bench)); });
   p.lod = run_splats(bench, shot, view({}), true);
   p.points = run_splats(bench, shot, view({}), false);
   p.discs = run_splats(bench, shot, view(discs), true);
@@ -65,13 +65,14 @@ void add_row(const Bench& bench, const SplatShot& shot, double aperture_mm, cons
                         psnr(p.lod), psnr(p.points), psnr(p.discs), psnr(p.averaged)});
 }
 
-std::string finding(const PaperRow& row, const Pictures& sharp, const Pictures& blurred) {
+std::string finding(const Bench& bench, const PaperRow& row, const Pictures& sharp,
+                    const Pictures& blurred) {
   const double lod = blurred.lod.timing.median_s;
   return fmt::format(
       "{}, largest aperture: {:.2f} times the sharp picture's time (the paper {}); every point by "
       "itself takes {:.1f} times as long ({}), {} views {:.0f} times ({}).",
       row.model, lod / sharp.lod.timing.median_s, row.sharp, blurred.points.timing.median_s / lod,
-      row.points, views, blurred.truth_s / lod, row.views);
+      row.points, views(bench), blurred.truth_s / lod, row.views);
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ Section splat_table1(const Bench& bench) {
       {}};
   Table table{"splat_table1",
               fmt::format("{0}x{0}, c = 2.5; PSNR against {1} views, dB, sRGB-encoded",
-                          bench.size(512), views),
+                          bench.size(512), views(bench)),
               {"model", "aperture, mm", "time", "fragments, splats", "LOD off", "fragments, splats",
                "200 views", "PSNR", "LOD off", "discs", "averaged"},
               {}};
@@ -98,13 +99,13 @@ Section splat_table1(const Bench& bench) {
       const Pictures& p = all.emplace_back(draw(bench, shot, aperture));
       add_row(bench, shot, aperture, p, table);
       if (aperture == 0) continue;
-      section.figures.push_back(
-          sheet(bench, fmt::format("splat_{}_{:.0f}", row.model, aperture),
-                fmt::format("{}, {:.0f} mm: splats, discs, {} views", row.model, aperture, views),
-                {{"splats", &p.lod.picture}, {"discs", &p.discs.picture}, {"views", &p.truth}},
-                bench.size(512), bench.size(512)));
+      section.figures.push_back(sheet(
+          bench, fmt::format("splat_{}_{:.0f}", row.model, aperture),
+          fmt::format("{}, {:.0f} mm: splats, discs, {} views", row.model, aperture, views(bench)),
+          {{"splats", &p.lod.picture}, {"discs", &p.discs.picture}, {"views", &p.truth}},
+          bench.size(512), bench.size(512)));
     }
-    if (*row.sharp) section.findings.push_back(finding(row, all.front(), all.back()));
+    if (*row.sharp) section.findings.push_back(finding(bench, row, all.front(), all.back()));
   }
   section.tables.push_back(table);
   return section;

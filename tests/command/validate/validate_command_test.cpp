@@ -82,6 +82,19 @@ TEST_F(ValidateCommand, ACaseRunsAgainByItsCommand) {
   EXPECT_EQ(repeated["worst_case"], coc["worst_case"]);
 }
 
+TEST_F(ValidateCommand, TinyTakesFewerCasesAndSaysSo) {
+  const auto run = [&](const std::string& level) {
+    expect_ok(defray(folder, "validate --kernel coc -o report " + level));
+    return report();
+  };
+  const json tiny = run("--tiny"), quick = run("");
+  EXPECT_EQ(tiny["level"], "tiny");
+  EXPECT_EQ(quick["level"], "quick");
+  const auto cases = [](const json& r) { return r["devices"][0]["kernels"][0]["cases"]; };
+  EXPECT_GT(cases(tiny), 10);
+  EXPECT_LT(cases(tiny), cases(quick));
+}
+
 TEST_F(ValidateCommand, JsonPrintsTheReportAlone) {
   const Result result = defray(folder, two_kernels + "--json --case 13x7,ties");
   expect_ok(result);
@@ -121,6 +134,7 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
   expect_refused("-o none --case ''", 2, {"--case", "empty"});
   expect_refused("-o none --math fats", 2, {"fats", "Did you mean 'fast'"});
   expect_refused("-o none --kernel coc --quick --full", 2, {"--quick", "--full"});
+  expect_refused("-o none --kernel coc --tiny --full", 2, {"--tiny", "--full"});
   expect_refused("-o none --all --device 0", 2, {"--all", "--device"});
   expect_refused("-o none --arithmetic --all", 2, {"--arithmetic", "--all"});
   expect_refused("-o none --arithmetic --kernel coc", 2, {"--arithmetic", "--kernel"});

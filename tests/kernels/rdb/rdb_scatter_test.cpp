@@ -91,7 +91,7 @@ void expect_no_differing_winners(Session& s, bool jitter) {
     for (const double radius : radii) {
       if (is_slow_device() && size.width == 640 && radius != 8) continue;
       // Jitter makes both visit every pixel in a ray's reach: large CoC in the smaller frames only.
-      if (jitter && size.width > 100 && radius > (size.width > 300 ? 8 : 32)) continue;
+      if (jitter && size.width > 100 && radius > (size.width > 300 ? 1.7 : 8)) continue;
       if (jitter && is_slow_device() && (size.width > 300 || radius > 8)) continue;
       RdbSettings settings;
       settings.cells_per_side = cells_per_side(size);
