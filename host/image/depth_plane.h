@@ -13,6 +13,7 @@ struct DepthPlane {
   std::string channel;   ///< Its name, for people.
   int integer_bits = 0;  ///< As PartInfo has it.
   bool is_mist = false;
+  bool is_smoothed = false;  ///< Between its steps.
 };
 
 /// From the colour's own file, or from `depth_path`, if given, which must have the same data

@@ -21,7 +21,7 @@ void note_depth(const DepthPlane& depth, const DepthSettings& settings, const De
                 std::vector<std::string>& notes) {
   const bool is_range =
       settings.kind == DepthKind::normalized || settings.kind == DepthKind::zbuffer;
-  if (depth.integer_bits == 8) {
+  if (depth.integer_bits == 8 && !depth.is_smoothed) {
     notes.push_back(
         "the depth has 8 bits, 256 steps: surfaces become terraces; render it as 32-bit float");
   }

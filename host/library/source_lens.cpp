@@ -8,7 +8,7 @@
 #include "lens/camera.h"
 #include "lens/camera_metadata.h"
 #include "lens/depth.h"
-#include "lens/half_steps.h"
+#include "lens/depth_steps.h"
 #include "library/frame_notes.h"
 
 namespace defray {
@@ -61,14 +61,22 @@ CameraValues camera_of(const ImageFile& file, const RenderSettings& settings) {
       .overridden_by(stated);
 }
 
-/// Takes the steps out of depth in half floats, where they would show.
-void smooth_steps(Plane& depth, int width, FrameReport& report) {
-  const HalfSteps steps = smooth_half_steps(depth, width, report.lens, report.display.width);
+/// Takes the steps out of a depth that was stored in steps, where they would show.
+void smooth_depth(DepthPlane& depth, DepthLadder ladder, int width, const DepthSettings& settings,
+                  FrameReport& report) {
+  if (ladder.steps.empty()) return;
+  convert(ladder, settings);
+  const DepthSteps steps =
+      smooth_steps(depth.values, ladder, width, report.lens, report.display.width);
   if (steps.smoothed == 0) return;
-  report.notes.push_back(fmt::format(
-      "the depth is in half floats, whose steps change the CoC by up to {:.3g} px: smoothed within "
-      "a step in {} px; render it as 32-bit float",
-      steps.largest_px, steps.smoothed));
+  const int bits = depth.integer_bits;
+  report.notes.push_back(
+      fmt::format("the depth {}, whose steps change the CoC by up to {:.3g} px: smoothed within a "
+                  "step in {} px; "
+                  "render it as 32-bit float",
+                  bits > 0 ? fmt::format("has {} bits", bits) : "is in half floats",
+                  steps.largest_px, steps.smoothed));
+  depth.is_smoothed = true;
 }
 
 }  // namespace
@@ -93,6 +101,8 @@ void take_lens(const ImageFile& file, const PartInfo& part, DepthPlane& depth,
                      report.display);
   };
   report.lens = lens_of(settings.focus_at ? before_focus(camera) : camera);
+  DepthLadder ladder;
+  if (depth.integer_bits <= 16) ladder = ladder_of_stored(depth.values, depth.integer_bits);
   report.depth =
       convert_depth(depth.values, settings.depth, part.data, report.display, report.lens, path);
   if (settings.focus_at) {
@@ -101,9 +111,7 @@ void take_lens(const ImageFile& file, const PartInfo& part, DepthPlane& depth,
     report.lens = lens_of(camera);
   }
   std::vector<std::string>& notes = report.notes;
-  if (settings.depth.kind == DepthKind::z || settings.depth.kind == DepthKind::negative_z) {
-    smooth_steps(depth.values, part.data.width, report);
-  }
+  smooth_depth(depth, std::move(ladder), part.data.width, settings.depth, report);
   notes.insert(notes.end(), camera.notes.begin(), camera.notes.end());
   for (std::string& note : notes_on_extremes(camera)) notes.push_back(std::move(note));
   note_depth(depth, settings.depth, report.depth, notes);

@@ -101,6 +101,31 @@ TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
             std::string::npos);
 }
 
+TEST_F(Mistakes, DepthOfEightBitsMakesNoTerraces) {
+  expect_ok(defray(folder_, "scene slanted -o . --width 320 --height 200 --truth-samples 1"));
+  const ImageFile scene = ImageFile::read(folder_ / "pinhole.exr");
+  const Plane z = scene.plane(0, 3);
+  const auto [near, far] = std::minmax_element(z.begin(), z.end());
+  cv::Mat stored(200, 320, CV_8UC1);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    stored.data[i] = static_cast<unsigned char>(std::lround((z[i] - *near) / (*far - *near) * 255));
+  }
+  cv::imwrite(folder_ / "z8.png", stored);
+  const std::string lens = " --focus 3 --focal-length 150 --fstop 1 --json";
+  expect_ok(defray(folder_, "render pinhole.exr -o f.exr" + lens));
+  const Result steps = defray(
+      folder_, fmt::format("render pinhole.exr --depth z8.png --depth-kind normalized --near {} "
+                           "--far {} -o o.exr{}",
+                           *near, *far, lens));
+  expect_ok(steps);
+  EXPECT_NE(steps.out.find("the depth has 8 bits, whose steps change the CoC by up to "),
+            std::string::npos)
+      << steps.out;
+  EXPECT_EQ(steps.out.find("terraces"), std::string::npos) << steps.out;
+  EXPECT_EQ(nlohmann::json::parse(steps.out)["chain"]["behind_px"], 0);
+  expect_ok(defray(folder_, "compare o.exr f.exr --min-psnr 58"));
+}
+
 TEST_F(Mistakes, FocusOutsideAllDepths) {
   Plane z(pixels, 4.0f);
   z[5] = 2;

@@ -1,45 +1,39 @@
-#include "lens/half_steps.h"
+#include "lens/depth_steps.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "kernels/params.h"
-#include "lens/half_slopes.h"
+#include "lens/depth_slopes.h"
 
 namespace defray {
 namespace {
 
-constexpr float no_step = std::numeric_limits<float>::infinity();
+constexpr float no_way = std::numeric_limits<float>::infinity();
 /// Half of what parts surfaces: slopes of up to as much a pixel stay whole with a step on top.
 constexpr double visible_px = 0.5 * DEFRAY_JUMP_QUANTA / (1 << DEFRAY_COC_FRACTION_BITS);
-constexpr float smallest_normal_half = 0x1p-14f;
 
-/// A float with no more digits than a half's.
-bool is_half(float z) { return (std::bit_cast<std::uint32_t>(z) & 0x1fff) == 0; }
-
-/// By how much the CoC changes from a depth to the next half float.
-double step_px(float z, const Lens& lens, int lens_width) {
-  const double here = static_cast<double>(z), next = static_cast<double>(next_half(z));
+/// By how much the CoC changes from a step's depth to the next one's.
+double step_px(const DepthLadder& ladder, std::int32_t step, const Lens& lens, int lens_width) {
   const double scale = std::isinf(lens.focus_distance_units)
                            ? infinite_focus_scale(lens, lens_width)
                            : background_coc_px(lens, lens_width) * lens.focus_distance_units;
-  return scale * (1 / here - 1 / next);
+  return scale * std::fabs(ladder.rise(step));
 }
 
 /// Each pixel's way to the next higher and the next lower step, within its terrace, in px.
 class Terraces {
  public:
-  Terraces(const Plane& depth, int width)
-      : depth_(depth), width_(width), height_(static_cast<int>(depth.size()) / width) {}
+  Terraces(const std::vector<std::int32_t>& steps, int width)
+      : steps_(steps), width_(width), height_(static_cast<int>(steps.size()) / width) {}
 
   /// Of all pixels, to a step up or down; infinite where the terrace has none.
   std::vector<float> distances(bool up) const {
-    std::vector<float> d(depth_.size());
+    std::vector<float> d(steps_.size());
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = distance_to(i, up);
     // A terrace that winds takes more than one turn.
     for (int turn = 0; turn < 2; ++turn) {
@@ -59,13 +53,12 @@ class Terraces {
   /// Half a pixel where a neighbour is a step higher, or lower.
   float distance_to(std::size_t i, bool up) const {
     const int x = static_cast<int>(i) % width_, y = static_cast<int>(i) / width_;
-    if (!std::isfinite(depth_[i])) return no_step;
+    if (steps_[i] == DepthLadder::no_step) return no_way;
     for (const auto& [u, v] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
       if (!is_inside(x + u, y + v)) continue;
-      const float other = depth_[at(x + u, y + v)];
-      if (up ? other == next_half(depth_[i]) : next_half(other) == depth_[i]) return 0.5f;
+      if (steps_[at(x + u, y + v)] == steps_[i] + (up ? 1 : -1)) return 0.5f;
     }
-    return no_step;
+    return no_way;
   }
 
   /// From the neighbours before a pixel, or after it, in the same terrace.
@@ -75,12 +68,12 @@ class Terraces {
     const std::array<std::array<int, 2>, 4> before{{{side, 0}, {0, side}, {1, side}, {-1, side}}};
     for (std::size_t n = 0; n < before.size(); ++n) {
       const int u = x + before[n][0], v = y + before[n][1];
-      if (!is_inside(u, v) || depth_[at(u, v)] != depth_[i]) continue;
+      if (!is_inside(u, v) || steps_[at(u, v)] != steps_[i]) continue;
       d[i] = std::min(d[i], d[at(u, v)] + (n < 2 ? 1 : diagonal));
     }
   }
 
-  const Plane& depth_;
+  const std::vector<std::int32_t>& steps_;
   int width_, height_;
 };
 
@@ -96,29 +89,30 @@ float height_of(float to_lower, float to_higher) {
 
 }  // namespace
 
-HalfSteps smooth_half_steps(Plane& depth, int width, const Lens& lens, int lens_width) {
-  const bool are_halves = std::all_of(depth.begin(), depth.end(), [](float z) {
-    return !std::isfinite(z) || (is_half(z) && z >= smallest_normal_half);
-  });
-  HalfSteps report;
-  if (!are_halves) return report;
-  for (const float z : depth) {
-    if (std::isfinite(z))
-      report.largest_px = std::max(report.largest_px, step_px(z, lens, lens_width));
+DepthSteps smooth_steps(Plane& depth, const DepthLadder& ladder, int width, const Lens& lens,
+                        int lens_width) {
+  DepthSteps report;
+  const auto add = [&](std::int32_t step) {
+    report.largest_px = std::max(report.largest_px, step_px(ladder, step, lens, lens_width));
+  };
+  for (const std::int32_t step : ladder.steps) {
+    if (step != DepthLadder::no_step) add(step);
   }
   if (report.largest_px <= visible_px) return report;
-  const Plane before = depth, on_slopes = smoothed_slopes(before, width);
-  const Terraces terraces(before, width);
+  const Plane on_slopes = smoothed_slopes(ladder, width);
+  const Terraces terraces(ladder.steps, width);
   const std::vector<float> higher = terraces.distances(true), lower = terraces.distances(false);
   report.largest_px = 0;  // of what is no step at all: a level surface, whatever its depth
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (!std::isfinite(before[i])) continue;
-    depth[i] = on_slopes[i] > 0 ? on_slopes[i]
-                                : before[i] + height_of(lower[i], higher[i]) *
-                                                  (next_half(before[i]) - before[i]);
-    if (depth[i] == before[i]) continue;
+    const std::int32_t step = ladder.steps[i];
+    if (step == DepthLadder::no_step) continue;
+    const float before = ladder.depth(step);
+    const float after =
+        on_slopes[i] > 0 ? on_slopes[i] : ladder.depth(step, height_of(lower[i], higher[i]));
+    if (after == before) continue;
+    depth[i] = depth[i] == before ? after : depth[i] * (after / before);  // of a distance its share
     report.smoothed += 1;
-    report.largest_px = std::max(report.largest_px, step_px(before[i], lens, lens_width));
+    add(step);
   }
   return report;
 }

@@ -1,10 +1,10 @@
-#include "lens/half_slopes.h"
+#include "lens/depth_slopes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "base/parallel.h"
 
@@ -60,20 +60,21 @@ struct Line {
 
 class Slopes {
  public:
-  Slopes(const Plane& depth, int width)
-      : depth_(depth),
-        inverse_(depth.size()),
+  Slopes(const DepthLadder& ladder, int width)
+      : ladder_(ladder),
+        inverse_(ladder.steps.size()),
         width_(width),
-        height_(static_cast<int>(depth.size()) / width) {
-    std::transform(depth.begin(), depth.end(), inverse_.begin(), [](float z) { return 1 / z; });
+        height_(static_cast<int>(ladder.steps.size()) / width) {
+    std::transform(ladder.steps.begin(), ladder.steps.end(), inverse_.begin(), [&](auto step) {
+      return step == DepthLadder::no_step ? 0 : 1 / ladder.depth(step);
+    });
   }
 
   float smoothed(std::size_t i) const {
-    if (!std::isfinite(depth_[i])) return 0;
+    const std::int32_t here = ladder_.steps[i];
+    const double step = here == DepthLadder::no_step ? 0 : ladder_.rise(here);
+    if (step == 0) return 0;
     const int x = static_cast<int>(i) % width_, y = static_cast<int>(i) / width_;
-    const float size = next_half(depth_[i]) - depth_[i];
-    const auto middle = static_cast<double>(inverse_[i]);
-    const double step = middle - 1 / static_cast<double>(next_half(depth_[i]));
     double height = 0, weight = 0;
     for (const Line& line :
          {line_at(i, x, width_, 1, step), line_at(i, y, height_, width_, step)}) {
@@ -86,8 +87,8 @@ class Slopes {
       weight += certain;
     }
     if (weight == 0) return 0;
-    return std::clamp(static_cast<float>(1 / (middle + step * height / weight)),
-                      depth_[i] - size / 2, depth_[i] + size / 2);
+    const double most = 0.5;
+    return ladder_.depth(here, static_cast<float>(std::clamp(height / weight, -most, most)));
   }
 
  private:
@@ -111,21 +112,17 @@ class Slopes {
     return back.count > on.count ? back : on;
   }
 
-  const Plane& depth_;
+  const DepthLadder& ladder_;
   std::vector<float> inverse_;  ///< Linear in the picture for a plane; 0: background.
   int width_, height_;
 };
 
 }  // namespace
 
-float next_half(float z) {
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(z) + (1u << 13));
-}
-
-Plane smoothed_slopes(const Plane& depth, int width) {
-  const Slopes slopes(depth, width);
-  Plane smoothed(depth.size());
-  parallel_for_each(depth.size(), [&](std::size_t i) { smoothed[i] = slopes.smoothed(i); });
+Plane smoothed_slopes(const DepthLadder& ladder, int width) {
+  const Slopes slopes(ladder, width);
+  Plane smoothed(ladder.steps.size());
+  parallel_for_each(smoothed.size(), [&](std::size_t i) { smoothed[i] = slopes.smoothed(i); });
   return smoothed;
 }
 

@@ -1,13 +1,14 @@
 // Depth in half floats: steps that show become slopes, edges stay.
-#include "lens/half_steps.h"
+#include "lens/depth_steps.h"
 
 #include <cmath>
 #include <limits>
 
 #include "defray/defray.h"
+#include "lens/depth.h"
 #include "support.h"
 
-namespace defray::test::half_steps_test {
+namespace defray::test::depth_steps_test {
 namespace {
 
 constexpr int width = 160, height = 24;
@@ -44,10 +45,16 @@ Plane halves(Plane z) {
   return z;
 }
 
-TEST(HalfSteps, TerracesBecomeTheSlopeTheyWere) {
+DepthSteps smooth_halves(Plane& z, const Lens& lens = telephoto()) {
+  DepthLadder ladder = ladder_of_stored(z, 0);
+  if (!ladder.steps.empty()) convert(ladder, {});
+  return smooth_steps(z, ladder, width, lens, frame_width);
+}
+
+TEST(DepthSteps, TerracesBecomeTheSlopeTheyWere) {
   const Plane exact = slope(), stepped = halves(exact);
   Plane z = stepped;
-  const HalfSteps report = smooth_half_steps(z, width, telephoto(), frame_width);
+  const DepthSteps report = smooth_halves(z);
   const float step = 1.0f / 128;
   EXPECT_GT(report.largest_px, 0.5);
   EXPECT_GT(report.smoothed, z.size() / 2);
@@ -68,14 +75,14 @@ TEST(HalfSteps, TerracesBecomeTheSlopeTheyWere) {
   EXPECT_LT(after, 0.15 * static_cast<double>(step));
 }
 
-TEST(HalfSteps, EdgesAndWhatIsNoStepStay) {
+TEST(DepthSteps, EdgesAndWhatIsNoStepStay) {
   Plane z;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) z.push_back(x < width / 2 ? 4.0f : 9.0f);
   }
   z[5] = std::numeric_limits<float>::infinity();
   const Plane before = z;
-  EXPECT_EQ(smooth_half_steps(z, width, telephoto(), frame_width).smoothed, 0u);
+  EXPECT_EQ(smooth_halves(z).smoothed, 0u);
   EXPECT_EQ(z, before);
   // A terrace beside an edge follows its own steps, never the other side's.
   Plane mixed = halves(slope());
@@ -83,7 +90,7 @@ TEST(HalfSteps, EdgesAndWhatIsNoStepStay) {
     if (i % width < 40) mixed[i] = 4;
   }
   const Plane stepped = mixed;
-  smooth_half_steps(mixed, width, telephoto(), frame_width);
+  smooth_halves(mixed);
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     if (i % width < 40) EXPECT_EQ(mixed[i], 4);
     EXPECT_LE(std::fabs(mixed[i] - stepped[i]), 1.0f / 256);
@@ -103,16 +110,18 @@ Plane steep_planes(int edge, float other) {
   return z;
 }
 
-TEST(HalfSteps, SteepSlopesAreSmoothedUpToTheFramesEnds) {
+TEST(DepthSteps, SteepSlopesAreSmoothedUpToTheFramesEnds) {
   const Plane exact = steep_planes(width, 1), stepped = halves(exact);
   Plane z = stepped;
-  const HalfSteps report = smooth_half_steps(z, width, telephoto(), frame_width);
+  const DepthSteps report = smooth_halves(z);
   EXPECT_GT(report.smoothed, z.size() * 9 / 10);
   EXPECT_GT(report.largest_px, 0.5);
   double before = 0, after = 0;
   for (std::size_t i = 0; i < z.size(); ++i) {
     const auto step = static_cast<double>(stepped[i] < 8 ? 1.0f / 256 : 1.0f / 128);
-    EXPECT_LE(std::fabs(z[i] - stepped[i]), step / 2 * 1.0001);
+    // Half a step of 1 / depth.
+    EXPECT_LE(std::fabs(z[i] - stepped[i]), step / 2 / (1 - step / (2 * stepped[i])) + 5e-7)
+        << "and a float's rounding";
     before = std::max(before, std::fabs(static_cast<double>(stepped[i] - exact[i])) / step);
     after = std::max(after, std::fabs(static_cast<double>(z[i] - exact[i])) / step);
   }
@@ -120,41 +129,114 @@ TEST(HalfSteps, SteepSlopesAreSmoothedUpToTheFramesEnds) {
   EXPECT_LT(after, 0.25);
 }
 
-TEST(HalfSteps, NoSlopeGoesOnAcrossAnEdge) {
+TEST(DepthSteps, NoSlopeGoesOnAcrossAnEdge) {
   constexpr int edge = 70;
   Plane near = halves(steep_planes(edge, 1.5f)), far = halves(steep_planes(edge, 0.6f));
   Plane thin = near;  // of a pixel's width, in front
   for (int y = 0; y < height; ++y) thin[static_cast<std::size_t>(y * width + 30)] = 3;
-  for (Plane* z : {&near, &far, &thin}) smooth_half_steps(*z, width, telephoto(), frame_width);
+  for (Plane* z : {&near, &far, &thin}) smooth_halves(*z);
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (i % width < edge) EXPECT_EQ(near[i], far[i]) << i % width;
     if (i % width == 30) EXPECT_EQ(thin[i], 3);
   }
 }
 
-TEST(HalfSteps, NothingIsDoneWhereNoStepShows) {
+/// A plane stored in 256 steps, as each kind of depth means them.
+TEST(DepthSteps, WholeNumbersBecomeTheSlopeTheyWere) {
+  struct Case {
+    DepthKind kind;
+    bool invert;
+  };
+  for (const Case& c : {Case{DepthKind::normalized, false},
+                        {DepthKind::normalized, true},
+                        {DepthKind::zbuffer, false},
+                        {DepthKind::zbuffer, true}}) {
+    DepthSettings settings;
+    settings.kind = c.kind;
+    settings.invert = c.invert;
+    settings.near_units = 4;
+    settings.far_units = 12;
+    Plane stored, exact;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const float zbuffer = (static_cast<float>(x) + 0.3f * static_cast<float>(y)) / 180;
+        const float z = 1 / ((1 - zbuffer) / 4 + zbuffer / 12);
+        const float share = c.kind == DepthKind::zbuffer ? zbuffer : (z - 4) / 8;
+        stored.push_back(std::nearbyint((c.invert ? 1 - share : share) * 255) / 255);
+        exact.push_back(z);
+      }
+    }
+    stored[7] = std::numeric_limits<float>::quiet_NaN();
+    DepthLadder ladder = ladder_of_stored(stored, 8);
+    ASSERT_EQ(ladder.steps.size(), stored.size());
+    EXPECT_EQ(ladder.steps[7], DepthLadder::no_step);
+    const Window frame{0, 0, width, height};
+    convert_depth(stored, settings, frame, frame, 0, "");
+    const Plane before = stored;
+    convert(ladder, settings);
+    const DepthSteps report = smooth_steps(stored, ladder, width, telephoto(), frame_width);
+    EXPECT_GT(report.smoothed, stored.size() / 4);
+    double stepped = 0, smoothed = 0;
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+      if (i == 7) continue;
+      const auto off = [&](const Plane& z) {
+        return std::fabs(1 / static_cast<double>(z[i]) - 1 / static_cast<double>(exact[i]));
+      };
+      stepped += off(before);
+      smoothed += off(stored);
+    }
+    EXPECT_LT(smoothed, 0.5 * stepped) << static_cast<int>(c.kind) << c.invert;
+    EXPECT_TRUE(std::isinf(stored[7]));
+  }
+}
+
+TEST(DepthSteps, DistancesKeepTheirShare) {
+  Plane z = halves(slope());
+  const Plane before = z;
+  DepthLadder ladder = ladder_of_stored(z, 0);
+  DepthSettings settings;
+  settings.kind = DepthKind::distance;
+  convert(ladder, settings);
+  for (float& value : z) value *= 0.9f;
+  Plane planar = before;
+  smooth_steps(z, ladder, width, telephoto(), frame_width);
+  smooth_halves(planar);
+  EXPECT_NE(planar, before);
+  for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(z[i], 0.9f * planar[i], 2e-6f);
+}
+
+TEST(DepthSteps, HalvesOfEachSignAndSizeAreFound) {
+  EXPECT_EQ(ladder_of_stored({1, 1.5f, 65504}, 0).steps.size(), 3u);
+  EXPECT_EQ(ladder_of_stored({-1, -1.5f}, 0).depths.back(), -as_half(1.5f) - 1.0f / 1024);
+  EXPECT_EQ(ladder_of_stored({0, 0x1p-24f, 0x1.8p-15f}, 0).steps, (std::vector{0, 1, 0x300}));
+  for (const float more : {1.0001f, 65536.0f, 0x1p-25f, -1.0f}) {
+    EXPECT_TRUE(ladder_of_stored({1, more}, 0).steps.empty()) << more;
+  }
+}
+
+TEST(DepthSteps, NothingIsDoneWhereNoStepShows) {
   Plane z = halves(slope());
   const Plane before = z;
   Lens small = telephoto();
   small.aperture_diameter_mm = 2;
-  const HalfSteps report = smooth_half_steps(z, width, small, frame_width);
+  const DepthSteps report = smooth_halves(z, small);
   EXPECT_GT(report.largest_px, 0);
   EXPECT_LT(report.largest_px, 0.5);
   EXPECT_EQ(z, before);
   Plane floats = slope();  // not halves at all
-  EXPECT_EQ(smooth_half_steps(floats, width, telephoto(), frame_width).largest_px, 0);
+  EXPECT_EQ(smooth_halves(floats).largest_px, 0);
   EXPECT_EQ(floats, slope());
 }
 
-TEST(HalfSteps, ARangeOrAnInfiniteFocusHasStepsToo) {
+TEST(DepthSteps, ARangeOrAnInfiniteFocusHasStepsToo) {
   Lens lens = telephoto();
   lens.focus_distance_units = std::numeric_limits<double>::infinity();
   Plane z = halves(slope());
-  const HalfSteps report = smooth_half_steps(z, width, lens, frame_width);
+  const DepthSteps report = smooth_halves(z, lens);
   // A F / 2 (1/z - 1/next)
   const double expected = 0.5 * 0.6 * frame_width * 300 / 36 * (1 / 9.0 - 1 / (9 + 1.0 / 128));
   EXPECT_NEAR(report.largest_px, expected, 0.02 * expected);
 }
 
 }  // namespace
-}  // namespace defray::test::half_steps_test
+}  // namespace defray::test::depth_steps_test
