@@ -1,10 +1,12 @@
 #pragma once
 // Numbers that change over a sequence.
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "defray/options.h"
 #include "lens/camera.h"
 
 namespace defray::cli {
@@ -27,14 +29,26 @@ class Curve {
   bool is_smooth_ = false, has_frames_ = false;
 };
 
-using CameraField = std::optional<double> CameraValues::*;
+/// An eye instead of a camera's lens.
+struct EyeOptions {
+  std::optional<Eye> eye;
+  double display_distance_m = 0.6, display_px_per_metre = 3780;  ///< Of Eye::display; 96 dpi.
+};
 
-/// Lens values that change.
-struct AnimatedField {
-  CameraField field;
+/// What of a frame may change over a sequence.
+struct FrameLens {
+  CameraValues camera;
+  Aperture aperture;
+  EyeOptions eye;
+  double max_coc_px = 0;
+};
+
+/// A value that does, and where it goes.
+struct AnimatedValue {
   std::string option;
   Curve curve;
+  std::function<void(FrameLens&, double)> set;
 };
-using AnimatedLens = std::vector<AnimatedField>;
+using AnimatedLens = std::vector<AnimatedValue>;
 
 }  // namespace defray::cli

@@ -17,27 +17,36 @@ bool has_optics(const Given& given) {
           given("--pixel-scale"));
 }
 
-void set_lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
-                    const std::string& name, const std::string& text) {
+LensNumber number_of(CameraValues& camera, CameraField field) {
+  return {[&camera, field](double v) { camera.*field = v; },
+          [field](FrameLens& lens, double v) { lens.camera.*field = v; }};
+}
+
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+                     const std::string& text) {
   Curve curve(name, text);
   if (curve.is_constant()) {
-    camera.*field = curve.at(0);
+    number.of_all(curve.at(0));
   } else {
-    animated->push_back({field, name, std::move(curve)});
+    animated->push_back({name, std::move(curve), number.of_frame});
   }
+}
+
+OptionValue lens_value(LensNumber number, AnimatedLens* animated, std::string default_text) {
+  const auto read = std::make_shared<std::string>();
+  return {[read](CLI::App& c, const std::string& name) {
+            return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
+          },
+          [read, number = std::move(number), animated](const std::string& name) {
+            set_lens_number(number, animated, name, *read);
+          },
+          std::move(default_text)};
 }
 
 OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
                        std::string default_text) {
   if (!animated) return value(camera.*field, std::move(default_text));
-  const auto read = std::make_shared<std::string>();
-  return {[read](CLI::App& c, const std::string& name) {
-            return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
-          },
-          [read, &camera, field, animated](const std::string& name) {
-            set_lens_value(camera, field, animated, name, *read);
-          },
-          std::move(default_text)};
+  return lens_value(number_of(camera, field), animated, std::move(default_text));
 }
 
 std::vector<OptionRow> lens_rows(CameraValues& v, const std::string& unit, AnimatedLens* animated) {

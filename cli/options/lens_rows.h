@@ -12,13 +12,22 @@ namespace defray::cli {
 /// What --camera is for the image's own metadata; no file is called so.
 inline const std::string from_metadata = "from-metadata";
 
-/// What was typed for a value of the lens; one that changes over a sequence goes to `animated`.
-/// Throws Error(usage) that begins with the option's name.
-void set_lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
-                    const std::string& name, const std::string& text);
+using CameraField = std::optional<double> CameraValues::*;
 
-/// A value of the lens; one that changes over a sequence goes to `animated` instead. Null: none
-/// may.
+/// Where a number of all frames goes, and one of a frame.
+struct LensNumber {
+  std::function<void(double)> of_all;
+  std::function<void(FrameLens&, double)> of_frame;
+};
+LensNumber number_of(CameraValues& camera, CameraField field);
+
+/// What was typed for a number of the lens; one that changes over a sequence goes to `animated`.
+/// Throws Error(usage) that begins with the option's name.
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+                     const std::string& text);
+
+/// An option of such a number. Null: it may not change.
+OptionValue lens_value(LensNumber number, AnimatedLens* animated, std::string default_text = "");
 OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* animated,
                        std::string default_text = "");
 

@@ -1,4 +1,5 @@
 // The options of defray render that bring the ray distribution buffer closer to the truth.
+#include "options/lens_rows.h"
 #include "render/render_command.h"
 
 namespace defray::cli {
@@ -67,26 +68,32 @@ OptionGroup chain_options(ChainSettings& s) {
       of_chain};
 }
 
-OptionGroup aperture_options(Aperture& a) {
+OptionGroup aperture_options(RenderCommand& job) {
+  Aperture& a = job.chain.aperture;
   const Needs blades{[&a](const Given&) { return a.blades != 0; }, "goes with --blades"};
+  const auto number = [&](double Aperture::*field) {
+    return lens_value({[&a, field](double v) { a.*field = v; },
+                       [field](FrameLens& lens, double v) { lens.aperture.*field = v; }},
+                      &job.animated, fmt::format("{}", a.*field));
+  };
   return {
       "Aperture",
       {{"--blades", value(a.blades), "Corners of the iris, 3 to 32; 0: a circle"},
        {"--blade-curvature",
-        value(a.curvature),
+        number(&Aperture::curvature),
         "0: straight; 1: a circle; below 0, to -1: hollow, from 4 blades on",
         {.field = "curvature", .needs = blades}},
        {"--blade-rotation",
-        value(a.rotation_deg),
+        number(&Aperture::rotation_deg),
         "Degrees counter-clockwise, seen behind the focus; 0: a side on the right",
         {.field = "rotation_deg", .needs = blades}},
-       {"--squeeze", value(a.squeeze),
+       {"--squeeze", number(&Aperture::squeeze),
         "Height of highlights over their width, 0.125 to 8; 2x anamorphic: 2"},
        {"--aperture-image",
         value(a.image),
         "A picture of the bokeh, as it shows behind the focus; black lets no light through",
         {.field = "aperture.image"}},
-       {"--cats-eye", value(a.cats_eye),
+       {"--cats-eye", number(&Aperture::cats_eye),
         "Vignetting: offset of the lens rim at the corners, aperture radii, 0 to 1; 1 leaves 39 % "
         "of a corner's light"}},
       of_chain};

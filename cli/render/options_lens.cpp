@@ -20,7 +20,13 @@ double above_zero(const char* option, double value) {
   fail(ErrorKind::usage, "{} is {}: it must be a finite number above 0", option, value);
 }
 
-std::vector<OptionRow> eye_rows(EyeOptions& e) {
+std::vector<OptionRow> eye_rows(RenderCommand& job) {
+  EyeOptions& e = job.eye;
+  const auto number = [&](double EyeOptions::*field) {
+    return lens_value({[&e, field](double v) { e.*field = v; },
+                       [field](FrameLens& lens, double v) { lens.eye.*field = v; }},
+                      &job.animated, fmt::format("{}", e.*field));
+  };
   const Needs display{[&e](const Given&) { return e.eye == Eye::display; },
                       "goes with --eye=display"};
   return {
@@ -31,11 +37,11 @@ std::vector<OptionRow> eye_rows(EyeOptions& e) {
                   "means nothing beside an aperture, a focal length and a sensor: "
                   "they win over all it says"}}},
       {"--display-distance",
-       value(e.display_distance_m),
+       number(&EyeOptions::display_distance_m),
        "m, of --eye=display",
        {.needs = display}},
       {"--display-resolution",
-       value(e.display_px_per_metre),
+       number(&EyeOptions::display_px_per_metre),
        "px per metre, of --eye=display",
        {.needs = display}},
   };
@@ -93,11 +99,12 @@ void set_range(RenderCommand& job, const std::string& text) {
     far.push_back(parts[i + 1]);
   }
   const std::string ending = is_smooth ? ",smooth" : "";
-  CameraValues& camera = job.settings.camera;
-  set_lens_value(camera, &CameraValues::focus_distance_units, &job.animated, "--focus-range",
-                 join(near, ",") + ending);
-  set_lens_value(camera, &CameraValues::focus_end_units, &job.animated, "--focus-range",
-                 join(far, ",") + ending);
+  const auto set = [&](CameraField field, const std::vector<std::string>& numbers) {
+    set_lens_number(number_of(job.settings.camera, field), &job.animated, "--focus-range",
+                    join(numbers, ",") + ending);
+  };
+  set(&CameraValues::focus_distance_units, near);
+  set(&CameraValues::focus_end_units, far);
 }
 
 std::vector<OptionRow> focus_rows(RenderCommand& job) {
@@ -126,6 +133,11 @@ std::vector<OptionRow> focus_rows(RenderCommand& job) {
   };
 }
 
+double coc_limit(double px) {
+  if (!(px > 0)) fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", px);
+  return px;
+}
+
 }  // namespace
 
 OptionGroup lens_options(RenderCommand& job) {
@@ -137,7 +149,7 @@ OptionGroup lens_options(RenderCommand& job) {
   };
   add(sensor_rows(job));
   add(focus_rows(job));
-  add(eye_rows(job.eye));
+  add(eye_rows(job));
   add({{"--scale",
         lens_value(s.camera, &CameraValues::perceived_scale, &job.animated),
         "Make the scene look this much of its size: divides the aperture",
@@ -150,12 +162,9 @@ OptionGroup lens_options(RenderCommand& job) {
   add({{"--lens-model", word(s.model, model_words),
         "cg: a renderer's thin lens; breathing: field of view follows focus"},
        {"--max-coc",
-        parsed<double>(
-            [&s](double px) {
-              if (!(px > 0)) fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", px);
-              s.max_coc_px = px;
-            },
-            "none"),
+        lens_value({[&s](double px) { s.max_coc_px = coc_limit(px); },
+                    [](FrameLens& lens, double px) { lens.max_coc_px = coc_limit(px); }},
+                   &job.animated, "none"),
         "Limit of the CoC radius, px",
         {.field = "max_coc_px"}}});
   return group;
@@ -164,12 +173,12 @@ OptionGroup lens_options(RenderCommand& job) {
 namespace {
 
 /// The camera file of a frame, under the eye; empty where there is none.
-CameraValues camera_at(const RenderCommand& job, std::optional<int> frame) {
+CameraValues camera_at(const RenderCommand& job, const EyeOptions& eye, std::optional<int> frame) {
   const bool has_file = !job.camera.empty() && job.camera != from_metadata;
-  if (!has_file) return eye_of(job.eye);
+  if (!has_file) return eye_of(eye);
   const std::string path = frame ? frame_path(job.camera, *frame) : job.camera;
   return read_camera_json(path, job.focus_setting, job.settings.metres_per_unit)
-      .overridden_by(eye_of(job.eye));
+      .overridden_by(eye_of(eye));
 }
 
 /// Throws what is wrong with a lens of which the picture tells no part.
@@ -188,14 +197,21 @@ void check_lens(const RenderSettings& s) {
 RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
   RenderSettings s = job.settings;
   if (s.method.method == Method::tiltshift) return s;
-  for (const AnimatedField& value : job.animated) {
+  std::optional<ChainSettings>& chain = s.method.chain;
+  FrameLens lens{s.camera, chain ? chain->aperture : Aperture(), job.eye, s.max_coc_px};
+  for (const AnimatedValue& value : job.animated) {
     if (!frame) {
       fail(ErrorKind::usage, "{} changes over frames, the input {} has none", value.option,
            job.paths.input);
     }
-    s.camera.*value.field = value.curve.at(*frame);
+    value.set(lens, value.curve.at(*frame));
   }
-  s.camera = camera_at(job, frame).overridden_by(s.camera);
+  s.camera = camera_at(job, lens.eye, frame).overridden_by(lens.camera);
+  s.max_coc_px = lens.max_coc_px;
+  if (chain) {
+    validate(lens.aperture);
+    chain->aperture = lens.aperture;
+  }
   return s;
 }
 

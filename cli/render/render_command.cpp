@@ -17,16 +17,11 @@ std::size_t RenderCommand::memory_bytes() const {
 }
 
 std::vector<OptionGroup> render_options(RenderCommand& job) {
-  return {main_options(job),
-          file_options(job),
-          channel_options(job),
-          lens_options(job),
-          method_options(job),
-          chain_options(job.chain),
-          aperture_options(job.chain.aperture),
-          tiltshift_options(job.settings.tiltshift),
-          device_options(job),
-          terminal_options(job)};
+  return {main_options(job),     file_options(job),
+          channel_options(job),  lens_options(job),
+          method_options(job),   chain_options(job.chain),
+          aperture_options(job), tiltshift_options(job.settings.tiltshift),
+          device_options(job),   terminal_options(job)};
 }
 
 void finish(RenderCommand& job) {

@@ -17,12 +17,6 @@
 
 namespace defray::cli {
 
-/// An eye instead of a camera's lens.
-struct EyeOptions {
-  std::optional<Eye> eye;
-  double display_distance_m = 0.6, display_px_per_metre = 3780;  ///< Of Eye::display; 96 dpi.
-};
-
 /// Rows set members of this; finish() makes the settings complete.
 struct RenderCommand {
   FramePaths paths;  ///< With the frame number's pattern, where there is one.
@@ -69,7 +63,7 @@ OptionGroup method_options(RenderCommand& job);
 OptionGroup tiltshift_options(TiltshiftSettings& tiltshift);
 OptionRow quality_row(ChainSettings& chain);  ///< Before what it sets: --rdb, --hidden.
 OptionGroup chain_options(ChainSettings& chain);
-OptionGroup aperture_options(Aperture& aperture);
+OptionGroup aperture_options(RenderCommand& job);
 OptionGroup device_options(RenderCommand& job);
 OptionGroup terminal_options(RenderCommand& job);
 

@@ -81,7 +81,7 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
              {.field = "target_db"}}}},
           without(channel_options(job), "--channels"),
           without(lens_options(job), "--focus-frame"),
-          aperture_options(job.chain.aperture),
+          aperture_options(job),
           device_options(job),
           {"Terminal",
            {{"--json", flag(job.json), "JSON instead of text"},

@@ -79,7 +79,7 @@ std::vector<OptionGroup> tune_options(TuneCommand& job) {
          {.needs = {[](const Given& given) { return given("input"); }, "goes with a picture"}}}}},
       of_a_picture(channel_options(job), "--channels"),
       of_a_picture(lens_options(job), "--focus-frame"),
-      of_a_picture(aperture_options(job.chain.aperture), ""),
+      of_a_picture(aperture_options(job), ""),
       device,
       {"Terminal",
        {{"--json", flag(job.json), "JSON instead of text"},

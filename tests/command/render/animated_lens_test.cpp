@@ -1,4 +1,5 @@
 // defray render: lenses that change over a sequence, focus on a place.
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -56,6 +57,58 @@ TEST_F(Sequences, PerceivedSizesChange) {
   const auto near = frames(lens + "--perceived-distance 1:1,2:3");
   EXPECT_DOUBLE_EQ(near[0]["aperture_diameter_mm"], aperture * 2.5);
   EXPECT_DOUBLE_EQ(near[2]["aperture_diameter_mm"], aperture * 2.5 / 2);
+}
+
+/// A number that changes gives frame 2 the bits of the same number standing still.
+TEST_F(Sequences, AnyNumberChanges) {
+  const std::string optics = " --focus 2.5 --fstop 1 --focal-length 50 ";
+  const struct {
+    const char *options, *option, *changing, *second, *other;
+  } numbers[] = {{"", "--cats-eye", "0.2:1,0.8:3", "0.5", "0.8"},
+                 {"", "--squeeze", "1:1,2:3", "1.5", "2"},
+                 {"--blades 5", "--blade-rotation", "0:1,40:3", "20", "40"},
+                 {"--blades 5", "--blade-curvature", "0:1,1:3", "0.5", "1"},
+                 {"", "--max-coc", "0.2:1,0.6:3", "0.4", "0.6"}};
+  const auto second = [&](const std::string& input, const std::string& output,
+                          const std::string& options) {
+    expect_ok(defray(folder_, "render " + input + " -o " + output + optics + options));
+    return file_hash(folder_ / "o.0002.exr");
+  };
+  for (const auto& n : numbers) {
+    const auto with = [&](const char* value) {
+      return fmt::format("{} {} {}", n.options, n.option, value);
+    };
+    const auto moved = second("s.####.exr", "o.####.exr", with(n.changing));
+    EXPECT_EQ(moved, second("s.0002.exr", "o.0002.exr", with(n.second))) << n.option;
+    EXPECT_NE(moved, second("s.0002.exr", "o.0002.exr", with(n.other))) << n.option;
+  }
+  expect_refused("s.####.exr -o o.####.exr --cats-eye 0:1,2:3" + optics, 2, {"--cats-eye", "2"});
+  expect_refused("s.####.exr -o o.####.exr --max-coc 1:1,-2:3" + optics, 2,
+                 {"--max-coc is -0.5 px: it must be above 0"});
+}
+
+TEST_F(Sequences, LensesOfEachKindChange) {
+  const std::string lens = "--focus 2.5 --fstop 2 --focal-length 50 ";
+  const auto number = [&](const std::string& options, const std::string& key) {
+    std::vector<double> all;
+    for (const json& frame : frames(options)) all.push_back(frame[key]);
+    return all;
+  };
+  const auto diameters =
+      number("--focus 2.5 --focal-length 50 --aperture-diameter 10:1,20:3", "aperture_diameter_mm");
+  EXPECT_EQ(diameters, (std::vector<double>{10, 15, 20}));
+  const double width = 48, aspect = width / 32;
+  const auto widths = number(lens + "--sensor-height 20:1,10:3", "sensor_width_mm");
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(widths[i], (20 - 5 * i) * aspect, 1e-9);
+  const auto of_fov = number(lens + "--fov 60:1,40:3", "sensor_width_mm");
+  EXPECT_NEAR(of_fov[1], 100 * std::tan(25 * M_PI / 180), 1e-9);
+  const auto of_scale = number(lens + "--pixel-scale 1000:1,2000:3", "pixels_per_metre");
+  EXPECT_NEAR(of_scale[1], 1500, 1e-9);
+  for (const std::string display :
+       {"--display-distance 0.5:1,1:3", "--display-resolution 3000:1,6000:3"}) {
+    const auto by_display = number("--eye=display --focus 2.5 " + display, "pixels_per_metre");
+    EXPECT_NE(by_display[0], by_display[2]) << display;
+  }
 }
 
 TEST_F(Sequences, ARangeChanges) {
