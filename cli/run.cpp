@@ -135,9 +135,13 @@ void refuse_empty_values(const CLI::App& command) {
   }
 }
 
-/// Commands that do nothing but print; others write files beside what they print.
+/// Commands of which nothing is left but what they print; others write files beside it.
 bool is_for_its_text(const CLI::App& command) {
-  return command.get_name() == "info" || command.get_name() == "devices";
+  const std::string name = command.get_name();
+  const bool writes = name == "psf" && (command.count("--output") || command.count("--csv"));
+  const bool shows = name == "tune" && command.count("--show");
+  return name == "info" || name == "devices" || name == "compare" || shows ||
+         (name == "psf" && !writes);
 }
 
 int run_command(int argc, char** argv) {

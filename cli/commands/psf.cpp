@@ -11,6 +11,7 @@
 #include "image/safe_output.h"
 #include "lens/camera.h"
 #include "measure/psf_report.h"
+#include "options/camera_file.h"
 #include "options/lens_rows.h"
 #include "progress.h"
 
@@ -45,7 +46,7 @@ void check_outputs(const PsfOptions& o) {
 Lens lens_of(const PsfOptions& o) {
   CameraValues values = o.camera;
   if (!o.camera_file.empty()) {
-    values = read_camera_json(o.camera_file, o.focus_setting, 1).overridden_by(values);
+    values = read_camera_file(o.camera_file, o.focus_setting, 1).overridden_by(values);
   }
   return make_lens(values, 1, LensModel::breathing, 0);
 }

@@ -9,6 +9,7 @@
 #include "lens/camera.h"
 #include "lens/depth.h"
 #include "measure/edge_band.h"
+#include "options/camera_file.h"
 #include "reference/twin_backend.h"
 
 namespace defray::cli {
@@ -22,8 +23,8 @@ Mask read_band(const CompareOptions& o, const ColourFile& picture) {
   const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
   require_same_size({o.depth, {}, part.data, part.display}, picture);
-  const Lens lens =
-      make_lens(read_camera_json(o.camera, o.focus_setting, 1), 1, LensModel::cg, 0, part.display);
+  const CameraValues camera = read_camera_file(o.camera, o.focus_setting, 1);
+  const Lens lens = make_lens(camera, 1, LensModel::cg, 0, part.display);
   Plane depth = file.plane(name.part, name.channel);
   const int width = part.display.width;
   convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);

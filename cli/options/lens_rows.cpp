@@ -3,11 +3,9 @@
 namespace defray::cli {
 namespace {
 
-/// False where options win over everything that a camera can say.
-bool is_camera_heard(const Given& given) {
-  const bool has_focus = given("--focus") || given("--focus-at") || given("--focus-range");
-  return !(has_focus && (has_optics(given) || given("--eye")));
-}
+const WordTable<SensorFit> fit_words{{"auto", SensorFit::longer},
+                                     {"horizontal", SensorFit::horizontal},
+                                     {"vertical", SensorFit::vertical}};
 
 }  // namespace
 
@@ -15,6 +13,11 @@ bool has_optics(const Given& given) {
   return given("--focal-length") && (given("--fstop") || given("--aperture-diameter")) &&
          (given("--sensor-width") || given("--sensor-height") || given("--fov") ||
           given("--pixel-scale"));
+}
+
+bool is_camera_heard(const Given& given) {
+  const bool has_focus = given("--focus") || given("--focus-at") || given("--focus-range");
+  return !(has_focus && (has_optics(given) || given("--eye")));
 }
 
 LensNumber number_of(CameraValues& camera, CameraField field) {
@@ -69,6 +72,28 @@ std::vector<OptionRow> lens_rows(CameraValues& v, const std::string& unit, Anima
                   fmt::format("{}", Lens().sensor_width_mm)),
        "mm across the display window",
        {.field = "sensor_width_mm"}},
+  };
+}
+
+std::vector<OptionRow> sensor_rows(CameraValues& v, AnimatedLens* animated) {
+  return {
+      {"--sensor-height",
+       lens_value(v, &CameraValues::sensor_height_mm, animated),
+       "mm over the display window, instead of --sensor-width",
+       {.field = "sensor_height_mm"}},
+      {"--fov",
+       lens_value(v, &CameraValues::fov_deg, animated),
+       "Degrees that the picture spans, instead of a sensor",
+       {.field = "fov_deg"}},
+      {"--sensor-fit",
+       word<SensorFit>([&v](SensorFit fit) { v.fit = fit; }, fit_words, ""),
+       "Which side the sensor or --fov spans: horizontal (default), vertical, or auto, the longer "
+       "(with --sensor-width on either, as Blender has it)",
+       {.field = "fit"}},
+      {"--pixel-scale",
+       lens_value(v, &CameraValues::pixels_per_metre, animated),
+       "Pixels per metre of image plane, instead of --sensor-width",
+       {.field = "pixels_per_metre"}},
   };
 }
 

@@ -35,8 +35,14 @@ OptionValue lens_value(CameraValues& camera, CameraField field, AnimatedLens* an
 std::vector<OptionRow> lens_rows(CameraValues& camera, const std::string& unit,
                                  AnimatedLens* animated = nullptr);
 
+/// What the picture spans, other than by --sensor-width.
+std::vector<OptionRow> sensor_rows(CameraValues& camera, AnimatedLens* animated);
+
 /// Whether these say everything that a lens's optics have.
 bool has_optics(const Given& given);
+
+/// False where options win over everything that a camera can say.
+bool is_camera_heard(const Given& given);
 
 /// --camera and --focus-setting. `others` says what else --camera can be than a file.
 std::vector<OptionRow> camera_rows(std::string& file, std::string& focus_setting,

@@ -76,6 +76,16 @@ OptionGroup main_options(RenderCommand& job) {
         {.field = "output", .is_required = true}}}};
 }
 
+OptionRow full_size_row(RenderCommand& job) {
+  return {"--full-size",
+          parsed<std::string>([&job](const auto& text) {
+            job.settings.full_size = parse_window("--full-size", text);
+          }),
+          "The picture is cut out of a frame of this size, 3840x2160+100+50: what the lens's field "
+          "of view spans",
+          {.field = "full_size", .scope = Scope{.methods = lens_methods}}};
+}
+
 OptionGroup file_options(RenderCommand& job) {
   return {
       "Files",
@@ -114,14 +124,7 @@ OptionGroup file_options(RenderCommand& job) {
         "How far a data window grows by the blur of what lies in it: not at all, up to the display "
         "window, beyond",
         {.scope = of_depth}},
-       {"--full-size",
-        parsed<std::string>([&job](const auto& text) {
-          job.settings.full_size = parse_window("--full-size", text);
-        }),
-        "The picture is cut out of a frame of this size, 3840x2160+100+50: what the lens's field "
-        "of "
-        "view spans",
-        {.field = "full_size", .scope = of_depth}},
+       full_size_row(job),
        {"--mkdir",
         flag(job.make_folders),
         "Make the outputs' folders where there are none",

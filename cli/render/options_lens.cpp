@@ -54,33 +54,6 @@ CameraValues eye_of(const EyeOptions& e) {
   return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
 }
 
-const WordTable<SensorFit> fit_words{{"auto", SensorFit::longer},
-                                     {"horizontal", SensorFit::horizontal},
-                                     {"vertical", SensorFit::vertical}};
-
-std::vector<OptionRow> sensor_rows(RenderCommand& job) {
-  CameraValues& v = job.settings.camera;
-  return {
-      {"--sensor-height",
-       lens_value(v, &CameraValues::sensor_height_mm, &job.animated),
-       "mm over the display window, instead of --sensor-width",
-       {.field = "sensor_height_mm"}},
-      {"--fov",
-       lens_value(v, &CameraValues::fov_deg, &job.animated),
-       "Degrees that the picture spans, instead of a sensor",
-       {.field = "fov_deg"}},
-      {"--sensor-fit",
-       word<SensorFit>([&v](SensorFit fit) { v.fit = fit; }, fit_words, ""),
-       "Which side the sensor or --fov spans: horizontal (default), vertical, or auto, the longer "
-       "(with --sensor-width on either, as Blender has it)",
-       {.field = "fit"}},
-      {"--pixel-scale",
-       lens_value(v, &CameraValues::pixels_per_metre, &job.animated),
-       "Pixels per metre of image plane, instead of --sensor-width",
-       {.field = "pixels_per_metre"}},
-  };
-}
-
 /// "2,4.5", or "2,4.5:1,3,6:24": what is kept sharp, of all frames or from frame to frame.
 void set_range(RenderCommand& job, const std::string& text) {
   std::vector<std::string> parts = split(text, ',');
@@ -147,7 +120,7 @@ OptionGroup lens_options(RenderCommand& job) {
   const auto add = [&](std::vector<OptionRow> rows) {
     group.rows.insert(group.rows.end(), rows.begin(), rows.end());
   };
-  add(sensor_rows(job));
+  add(sensor_rows(s.camera, &job.animated));
   add(focus_rows(job));
   add(eye_rows(job));
   add({{"--scale",

@@ -56,6 +56,7 @@ inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Metho
 inline const Scope of_chain{{Method::rdb}, false, true};
 
 OptionGroup main_options(RenderCommand& job);
+OptionRow full_size_row(RenderCommand& job);  ///< Of the files.
 OptionGroup file_options(RenderCommand& job);
 OptionGroup channel_options(RenderCommand& job);
 OptionGroup lens_options(RenderCommand& job);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "image/output.h"
+#include "options/lens_rows.h"
 #include "render/sequence_run.h"
 
 namespace defray::cli {
@@ -160,7 +161,11 @@ void ShowSession::handle_key(int key) {
   if (key == 'p') step(-1);
   if (key == 'c') {
     shows_coc_ = !shows_coc_;
-    if (view_.coc_px.empty()) render();
+    if (view_.coc_px.empty()) {
+      const std::vector<Plane> rendered = view_.after;  // not by a preview
+      render();
+      view_.after = rendered;
+    }
   }
   if (!has_lens) return;
   // After a click Qt's view keeps the arrows to itself.
@@ -197,11 +202,24 @@ void ShowSession::step(int frames) {
 std::string ShowSession::command() const {
   const bool has_focus = focus_units_ || place_;
   const auto is_replaced = [&](const std::string& name) {
-    return name == "--show" ||
+    return name == "--show" || name == "--skip-existing" ||
            (has_focus && name.starts_with("--focus") && name != "--focus-setting") ||
            (fstop_ && (name == "--fstop" || name == "--aperture-diameter"));
   };
-  std::string line = render_command_line(job_.given, is_replaced);
+  const Given given = [&](const std::string& name) {
+    if (name == "--focus" && has_focus) return true;
+    if (name == "--fstop" && fstop_) return true;
+    const auto is_it = [&](const auto& option) { return option.first == name; };
+    return !is_replaced(name) && std::any_of(job_.given.begin(), job_.given.end(), is_it);
+  };
+  // render refuses what it would not hear.
+  const auto is_left_out = [&](const std::string& name) {
+    const bool is_camera = name == "--camera" || name == "--focus-setting";
+    const bool is_eye = name == "--eye" || name.starts_with("--display-");
+    return is_replaced(name) || (is_camera && !is_camera_heard(given)) ||
+           (is_eye && has_optics(given));
+  };
+  std::string line = render_command_line(job_.given, is_left_out);
   if (focus_units_) line += fmt::format(" --focus {:.4g}", *focus_units_);
   if (place_) line += fmt::format(" --focus-at {},{}", place_->x, place_->y);
   if (fstop_) line += fmt::format(" --fstop {:.4g}", *fstop_);

@@ -14,6 +14,7 @@
 #include "image/viewer.h"
 #include "lens/camera.h"
 #include "open_device.h"
+#include "options/camera_file.h"
 #include "progress.h"
 #include "splat/splat_command.h"
 #include "splat/splat_report.h"
@@ -64,10 +65,6 @@ CameraPose pose_of(const SplatCommand& job, const SplatModel& model, const Lens&
 /// The lens; without a focus it is on what is looked at, `focus` away.
 Lens lens_of(const SplatCommand& job, double focus) {
   CameraValues values = job.camera;
-  if (!job.camera_file.empty()) {
-    values = read_camera_json(job.camera_file, job.focus_setting, job.metres_per_unit)
-                 .overridden_by(values);
-  }
   if (!values.focus_distance_units) values.focus_distance_units = focus;
   const Window display{0, 0, job.settings.width, job.settings.height};
   return make_lens(values, job.metres_per_unit, LensModel::cg, 0, display);
@@ -122,8 +119,8 @@ void show(const std::vector<Plane>& colour, const SplatSettings& s, const std::s
   }
 }
 
-/// Before anything is read.
-void check(const SplatCommand& job) {
+/// Before the points are read: what is asked for, and the camera file.
+void check(SplatCommand& job) {
   check_output_format(job.output);
   check_can_write(job.turntable > 0 ? frame_path(job.output, 1) : job.output);
   if (job.turntable < 0)
@@ -132,10 +129,14 @@ void check(const SplatCommand& job) {
     fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", job.output,
          job.turntable);
   }
+  if (!job.camera_file.empty()) {
+    job.camera = read_camera_file(job.camera_file, job.focus_setting, job.metres_per_unit)
+                     .overridden_by(job.camera);
+  }
   lens_of(job, infinity);  // what is looked at is not known yet
 }
 
-int run(const SplatCommand& job) {
+int run(SplatCommand& job) {
   check(job);
   Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
   const bool has_bar = !job.quiet && !job.json;

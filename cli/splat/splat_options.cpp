@@ -70,10 +70,7 @@ OptionGroup view_rows(SplatCommand& job) {
 
 OptionGroup lens_group(SplatCommand& job) {
   OptionGroup group{"Lens", lens_rows(job.camera, "scene units; without one, what is looked at")};
-  group.rows.push_back({"--fov",
-                        value(job.camera.fov_deg),
-                        "Degrees that the picture's width spans, instead of a sensor",
-                        {.field = "fov_deg"}});
+  for (OptionRow& row : sensor_rows(job.camera, nullptr)) group.rows.push_back(std::move(row));
   for (OptionRow& row : camera_rows(job.camera_file, job.focus_setting, "")) {
     group.rows.push_back(std::move(row));
   }

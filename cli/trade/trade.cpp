@@ -14,6 +14,7 @@
 #include "prediction/with_error.h"
 #include "progress.h"
 #include "render/render_command.h"
+#include "standard_streams.h"
 #include "trade/trade_report.h"
 
 namespace defray::cli {
@@ -81,6 +82,7 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
              {.field = "target_db"}}}},
           without(channel_options(job), "--channels"),
           without(lens_options(job), "--focus-frame"),
+          {"", {full_size_row(job)}},
           aperture_options(job),
           device_options(job),
           {"Terminal",
@@ -197,6 +199,9 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
   check_lens(job, {std::nullopt});
   check_files(job, all);
   const FrameReport input = inspect_file(job.paths, settings_at(job, std::nullopt));
+  for (const std::string& note : input.notes) {
+    print_error("defray: note: " + with_field_names(note, option_of_field));
+  }
   std::optional<ColourFile> truth;
   if (!job.truth.empty()) check_truth(job, input, truth.emplace(read_truth(job)));
   create_folder(job.folder);

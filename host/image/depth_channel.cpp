@@ -1,6 +1,8 @@
 // Which channel is depth.
 #include <algorithm>
+#include <cctype>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -103,8 +105,17 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
 bool is_mist(const ChannelName& name) {
   static const std::set<std::string> words{"mist", "fog", "atmosphere", "atmospherics",
                                            "atmosphericeffects"};
-  return words.count(bare_word(last_token(name.layer))) > 0 ||
-         words.count(bare_word(name.base)) > 0;
+  if (words.count(bare_word(last_token(name.layer))) > 0) return true;
+  // "mist pass", "AO_fog", "Mist.Z": a word of a name.
+  std::string word;
+  for (const char c : lower_case(last_token(name.layer) + "." + name.base) + ".") {
+    if (std::isalpha(static_cast<unsigned char>(c))) {
+      word += c;
+    } else if (words.count(std::exchange(word, "")) > 0) {
+      return true;
+    }
+  }
+  return words.count(bare_word(name.base)) > 0;
 }
 
 ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& parts,

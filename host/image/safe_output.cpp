@@ -121,7 +121,7 @@ void create_folder(const std::string& path) {
   }
 }
 
-void check_can_write(const std::string& path) {
+void check_can_write(const std::string& path, const std::string& hint) {
   std::error_code names_nothing;  // what is wrong with it then, opening tells
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
@@ -132,7 +132,7 @@ void check_can_write(const std::string& path) {
   if (file < 0) {
     const int code = errno;
     fail(ErrorKind::output, "{}: cannot write in folder {}: {}{}", path, folder_of(path).string(),
-         std::strerror(code), code == ENOENT ? "; " + field("make_folders") + " makes it" : "");
+         std::strerror(code), code == ENOENT && !hint.empty() ? "; " + hint : "");
   }
   close(file);
   unlink(probe.c_str());

@@ -10,8 +10,8 @@ void create_folder(const std::string& path);
 
 /// Throws Error(output) unless a file could be created where `path` is to go, without touching
 /// what is there. For finding out before the work rather than after. Removes what killed processes
-/// of this machine left behind in that folder.
-void check_can_write(const std::string& path);
+/// of this machine left behind in that folder. `hint`: how a missing folder is made.
+void check_can_write(const std::string& path, const std::string& hint = "");
 
 /// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it
 /// to `path`. When anything fails, the temporary file is removed and an old `path` stays.

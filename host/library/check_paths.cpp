@@ -34,15 +34,16 @@ void check_paths(const FramePaths& paths, const std::vector<std::string>& also_r
 }
 
 void check_outputs(const FramePaths& paths, const std::string& compression, Bits bits) {
+  const std::string hint = field("make_folders") + " makes it";
   check_output_format(paths.output);
   check_bits(paths.output, bits);
-  check_can_write(paths.output);
+  check_can_write(paths.output, hint);
   std::vector<std::string> all{paths.output};
   for (const auto& [name, path] : paths.data_outputs()) {
     all.push_back(path);
     if (path.empty()) continue;
     check_plane_format(path, name);
-    check_can_write(path);
+    check_can_write(path, hint);
   }
   check_compression(all, compression);
 }

@@ -1,5 +1,6 @@
 // The main job: one frame from file to file.
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "base/error.h"
@@ -19,18 +20,45 @@
 namespace defray {
 namespace {
 
+/// Rounding leaves traces of light where alpha is 0. Light that was there from the start, such as
+/// that of flames, stays.
+void clear_transparent(const std::vector<Plane>& before, const Plane& alpha_before,
+                       std::vector<Plane>& after, const Plane& alpha_after) {
+  const auto shines = [](const std::vector<Plane>& light, const Plane& alpha, std::size_t i) {
+    return alpha[i] == 0 &&
+           std::any_of(light.begin(), light.end(), [i](const Plane& p) { return p[i] != 0; });
+  };
+  for (std::size_t i = 0; i < alpha_before.size(); ++i) {
+    if (shines(before, alpha_before, i)) return;
+  }
+  for (std::size_t i = 0; i < alpha_after.size(); ++i) {
+    if (!shines(after, alpha_after, i)) continue;
+    for (Plane& plane : after) plane[i] = 0;
+  }
+}
+
 /// The lens once more for each group of light channels: with the colour's depth and CoC, but what
 /// lies behind and mixed pixels are estimated from the group's own values. Puts the planes into
 /// `choice` and `planes`, to be written with the colour.
 void render_light(const Source& source, Frame frame, const RenderSettings& settings,
                   const MethodSettings& method, Backend& backend, FrameReport& report,
                   ColourChoice& choice, std::vector<Plane>& planes) {
+  const bool is_cut_out = has_alpha(source.colour);
+  const Plane alpha = is_cut_out ? planes.back() : Plane();
   for (const LightGroup& group : source.further.light) {
-    frame.channels = read_planes(source, group.channels, settings, report.light_channels, report);
+    const std::vector<Plane> before =
+        read_planes(source, group.channels, settings, report.light_channels, report);
+    frame.channels = Planes::view(before);
     frame.has_alpha = group.has_alpha;
-    const std::vector<Plane> out = apply_method(frame, method, backend).colour;
+    std::vector<Plane> out = apply_method(frame, method, backend).colour;
+    if (group.has_alpha) {
+      clear_transparent(before, before.back(), out, Plane(out.back()));
+    } else if (is_cut_out) {
+      clear_transparent(before, source.colour.back(), out, alpha);
+    }
     choice.channels.insert(choice.channels.end(), group.channels.begin(), group.channels.end());
-    planes.insert(planes.end(), out.begin(), out.end());
+    planes.insert(planes.end(), std::make_move_iterator(out.begin()),
+                  std::make_move_iterator(out.end()));
   }
 }
 
@@ -39,23 +67,6 @@ void move_data(Source& source, const std::vector<std::uint32_t>& nearest, FrameR
   for (const int c : source.further.data) {
     report.data_channels.push_back(source.part().channels[static_cast<std::size_t>(c)]);
     source.file.move_values(source.choice.part, c, nearest);
-  }
-}
-
-/// Rounding leaves traces of colour where alpha is 0. Light that was there from the start, such as
-/// that of flames, stays.
-void clear_transparent(const std::vector<Plane>& before, std::vector<Plane>& colour) {
-  if (!has_alpha(colour)) return;
-  const auto has_light = [](const std::vector<Plane>& planes, std::size_t i) {
-    return planes.back()[i] == 0 &&
-           std::any_of(planes.begin(), planes.end() - 1, [i](const Plane& p) { return p[i] != 0; });
-  };
-  for (std::size_t i = 0; i < before.back().size(); ++i) {
-    if (has_light(before, i)) return;
-  }
-  for (std::size_t i = 0; i < colour.back().size(); ++i) {
-    if (!has_light(colour, i)) continue;
-    for (Plane& plane : colour) plane[i] = 0;
   }
 }
 
@@ -142,7 +153,10 @@ void FileRender::render(Device& device, const Progress& progress) {
   note_target(s.report.expected, error, s.report.notes);
   s.choice = s.source->choice;
   s.planes = std::move(result.colour);
-  clear_transparent(s.source->colour, s.planes);
+  if (has_alpha(s.planes)) {
+    const Plane& alpha = s.source->colour.back();
+    clear_transparent(s.source->colour, alpha, s.planes, Plane(s.planes.back()));
+  }
   render_light(*s.source, frame, s.settings, made.settings, backend, s.report, s.choice, s.planes);
   move_data(*s.source, result.nearest, s.report);
   if (!s.paths.coc.empty()) s.coc_px = radii_px(frame.coc_quanta.host());

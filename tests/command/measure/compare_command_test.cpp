@@ -259,6 +259,13 @@ TEST_F(Compare, DataWindowsThatDiffer) {
   EXPECT_NEAR(all["rms"], 0.5 * std::sqrt(8.0 / 12), 1e-6);
   EXPECT_EQ(all["worst_x"], 2) << "of the display window";
   EXPECT_EQ(compared("l.exr r.exr --crop 6x4+8+0")["worst_x"], 10);
+  const auto width_of_sheet = [&](const std::string& options) {
+    expect_ok(defray(folder_, "sheet l.exr r.exr -o s.png " + options));
+    return read_ldr(folder_ / "s.png", Content::data).width;
+  };
+  EXPECT_EQ(width_of_sheet("--windows overlap"), 2 * 4 + 8);
+  EXPECT_EQ(width_of_sheet("--windows union"), 2 * 12 + 8);
+  EXPECT_EQ(width_of_sheet(""), 2 * 12 + 8);
   write("far.exr", 12, 0.5f);
   refuse("l.exr far.exr --windows overlap", 3, {"the data windows do not overlap"});
   refuse("l.exr a.exr", 3, {"display window 20x4+0+0", "48x32+0+0"});

@@ -147,5 +147,16 @@ TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {
   expect_refusal(defray(folder, "info none.exr"), 3, {"none.exr: no such file"}, "info");
 }
 
+TEST_F(Info, ListsEachPart) {
+  write("a.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
+  write("b.exr", {"glow.R", "glow.G", "glow.B"}, {0.1f, 0.2f, 0.3f});
+  expect_ok(shell(folder, "oiiotool a.exr b.exr --siappend -o both.exr"));
+  const json parts = data("both.exr")["parts"];
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0]["channels"], (std::vector<std::string>{"R", "G", "B", "Z"}));
+  EXPECT_EQ(parts[1]["channels"], (std::vector<std::string>{"glow.R", "glow.G", "glow.B"}));
+  EXPECT_EQ(data("both.exr")["depth_candidates"][0]["part"], 0);
+}
+
 }  // namespace
 }  // namespace defray::test::info_command_test

@@ -56,6 +56,25 @@ TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
   }
 }
 
+TEST_F(TradeCommand, ACutOutsLensSpansItsFrame) {
+  const auto db = [&](const std::string& options) {
+    const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    const json point = json::parse(result.out)["points"][0];
+    EXPECT_NE(point["command"].get<std::string>().find(options), std::string::npos) << point;
+    return point["expected_db"].get<double>();
+  };
+  EXPECT_NE(db(""), db("--full-size 192x128+10+20"));
+}
+
+TEST_F(TradeCommand, NotesOnTheInputAreSaid) {
+  const Result result =
+      defray(folder, "trade pinhole.exr -o t --focus 90 --fstop 2 --focal-length 50");
+  expect_ok(result);
+  EXPECT_NE(result.err.find("defray: note: focus 90 lies outside all depths"), std::string::npos)
+      << result.err;
+}
+
 TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
   const std::string truth = " --truth truth_bg.exr";
   const Result result = defray(folder, "trade pinhole.exr -o t" + truth + lens);

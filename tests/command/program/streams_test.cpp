@@ -34,6 +34,11 @@ TEST_F(Streams, ClosedOnesEndNothingAndGetNoFilesNumber) {
     EXPECT_EQ(run("devices", closed).code, code) << closed;
     EXPECT_EQ(run("info in.exr", closed).code, code) << closed;
   }
+  const std::string psf = "psf --depth 4 --focus 3 --fstop 2 --focal-length 50";
+  for (const std::string prints : {"compare in.exr in.exr", psf.c_str(), "tune --show"}) {
+    EXPECT_EQ(run(prints, ">&-").code, 4) << prints;
+  }
+  EXPECT_EQ(run(psf + " --csv psf.csv", ">&-").code, 0);
   EXPECT_EQ(run("info in.exr", ">&-").err, run("info in.exr", ">/dev/full").err);
 }
 

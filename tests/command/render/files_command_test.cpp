@@ -128,18 +128,26 @@ TEST_F(Files, NamesThatAreNoPatterns) {
 
 TEST_F(Files, SkipExistingLooksAtEveryOutput) {
   shell(folder_, "cp in.exr s.0001.exr; cp in.exr s.0002.exr");
-  const std::string command = "s.####.exr -o o.####.exr --coc-out c.####.exr --skip-existing";
+  const std::string command =
+      "s.####.exr -o o.####.exr --coc-out coc.####.exr --confidence-out confidence.####.exr "
+      "--tiles-out tiles.####.exr --error-out error.####.exr --skip-existing";
   expect_ok(render(command));
-  std::filesystem::remove(folder_ / "c.0002.exr");
-  const Result again = render(command);
-  expect_ok(again);
-  EXPECT_NE(again.out.find("o.0001.exr: exists, skipped"), std::string::npos);
-  EXPECT_EQ(again.out.find("o.0002.exr: exists, skipped"), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "c.0002.exr"));
+  for (const std::string output : {"o", "coc", "confidence", "tiles", "error"}) {
+    std::filesystem::remove(folder_ / (output + ".0002.exr"));
+    const Result again = render(command);
+    expect_ok(again);
+    EXPECT_NE(again.out.find("o.0001.exr: exists, skipped"), std::string::npos) << output;
+    EXPECT_EQ(again.out.find("o.0002.exr: exists, skipped"), std::string::npos) << output;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / (output + ".0002.exr"))) << output;
+  }
 }
 
 TEST_F(Files, FoldersAreMadeWhereAsked) {
   expect_refused("in.exr -o a/b/o.exr", 4, {"cannot write in folder a/b", "--mkdir makes it"});
+  // Of commands without the option nobody says so.
+  const Result other = defray(folder_, "sheet in.exr -o a/b/o.png");
+  EXPECT_EQ(other.code, 4);
+  EXPECT_EQ(other.err.find("--mkdir"), std::string::npos) << other.err;
   expect_ok(render("in.exr -o a/b/o.exr --coc-out c/d.exr --mkdir"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a/b/o.exr"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "c/d.exr"));

@@ -48,6 +48,27 @@ TEST_F(Metadata, NumbersOfAnyType) {
   EXPECT_DOUBLE_EQ(lens["focus_distance_units"], 3.5);
 }
 
+TEST_F(Metadata, EachFrameHasItsOwn) {
+  for (const int frame : {1, 2}) {
+    write(fmt::format("m.000{}.exr", frame), [&](OIIO::ImageSpec& spec) {
+      spec.attribute("cameraFocalLength", 40.0f + static_cast<float>(frame));
+      spec.attribute("cameraFNumber", 2.0f);
+      spec.attribute("focus", 1.5f * static_cast<float>(frame));
+    });
+  }
+  const Result result =
+      defray(folder_, "render m.####.exr -o o.####.exr --camera from-metadata --json");
+  expect_ok(result);
+  std::istringstream lines(result.out);
+  for (int frame = 1; frame <= 2; ++frame) {
+    std::string line;
+    std::getline(lines, line);
+    const json lens = json::parse(line);
+    EXPECT_DOUBLE_EQ(lens["focal_length_mm"], 40 + frame);
+    EXPECT_DOUBLE_EQ(lens["focus_distance_units"], 1.5 * frame);
+  }
+}
+
 TEST_F(Metadata, NamesOfRenderers) {
   write("nuke.exr", [](OIIO::ImageSpec& spec) {
     spec.attribute("nuke/camera/focal", "50.0");

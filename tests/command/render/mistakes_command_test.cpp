@@ -48,8 +48,8 @@ TEST_F(Mistakes, AMistPassIsNeverChosen) {
   EXPECT_NE(said("both.exr -o o.exr" + usual_).find("depth ViewLayer.Depth.Z"), std::string::npos);
   ImageFile::from_planes({"Mist.Z"}, {mist}, width, height).write(folder_ / "alone.exr");
   expect_refused("both.exr --depth alone.exr -o o.exr" + usual_, {"alone.exr", "mist pass"});
-  for (const std::string name :
-       {"VRayAtmosphere.Z", "VRayMist.Z", "AtmosphericEffects.Z", "fog.Z", "mist"}) {
+  for (const std::string name : {"VRayAtmosphere.Z", "VRayMist.Z", "AtmosphericEffects.Z", "fog.Z",
+                                 "mist", "mist pass.Z", "AO_fog.Z"}) {
     write("other.exr", {name}, {mist});
     expect_refused("other.exr -o o.exr" + usual_, {name + " is a mist pass"});
   }
@@ -78,6 +78,24 @@ TEST_F(Mistakes, NegativeDepthsAreCountedAndNamed) {
   expect_note("few.exr -o o.exr" + usual_,
               "depth is negative in 2 px (0.5 %), taken as background; camera-space -z is "
               "--depth-kind negative-z");
+}
+
+TEST_F(Mistakes, AFewPositiveDepthsAmongNegativeOnesAreBackground) {
+  Plane z(pixels, -4.0f);
+  z[3] = 2;
+  write("minus.exr", {"Z"}, {z});
+  expect_note("minus.exr -o o.exr --depth-kind negative-z" + usual_,
+              "depth is positive in 1 px (0.3 %), taken as background\n");
+}
+
+TEST_F(Mistakes, AGpusDepthBufferIsRead) {
+  write("plain.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  write("buffer.exr", {"Z"}, {Plane(pixels, (1 - 1 / 4.0f) / (1 - 1 / 9.0f))});
+  const std::string range = " --depth-kind zbuffer --near 1 --far 9";
+  EXPECT_NE(said("buffer.exr -o o.exr" + range + usual_).find("depth Z, 4 to 4 units"),
+            std::string::npos);
+  expect_ok(defray(folder_, "render plain.exr -o p.exr" + usual_));
+  expect_ok(defray(folder_, "compare o.exr p.exr --min-psnr 60"));
 }
 
 TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
@@ -168,6 +186,7 @@ TEST_F(Mistakes, LensesThatNoOneBuilds) {
   expect_note(in + "--fstop 2 --focal-length 0.05",
               "focal length 0.05 mm is ten times off any real one (1.5 to 2000)");
   expect_note(in + "--fstop 2 --focal-length 0.05 --sensor-width 0.036", "sensor 0.036 mm");
+  expect_note(in + "--fstop 2 --focal-length 0.05 --sensor-height 0.024", "sensor 0.024 mm");
   expect_note(in + "--aperture-diameter 1000 --focal-length 50", "f-number 0.05 is ten times");
   expect_note(in + "--fstop 1000 --focal-length 50",
               "f-number 1000 is ten times off any real one (0.7 to 64): is it right?");
@@ -190,6 +209,19 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
   expect_note(camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
                          "f_stop": 2, "colour": "red"}}})"),
               "camera.json: key 'colour' is not known, and ignored\n");
+  for (const std::string command :
+       {"splat --model plane --model-points 400 -o p.exr --camera camera.json --focus-setting a",
+        "compare in.exr in.exr --depth in.exr --camera camera.json --focus-setting a",
+        "psf --depth 4 --camera camera.json --focus-setting a",
+        "trade in.exr -o trade --camera camera.json --focus-setting a"}) {
+    const Result result = defray(folder_, command);
+    expect_ok(result);
+    EXPECT_NE(
+        result.err.find("defray: note: camera.json: key 'colour' is not known, and ignored\n"),
+        std::string::npos)
+        << command << "\n"
+        << result.err;
+  }
   const std::string incomplete =
       camera(R"({"focal_length_mm": 50, "focusDistance": 3, "fstop": 2})");
   expect_refusal(defray(folder_, "render " + incomplete), 2,

@@ -106,14 +106,16 @@ TEST_F(ShowWindow, KeysAndTheMouseChangeTheLens) {
   SKIP_UNLESS_FULL();
   const Result result =
       show(lens_,
-           "snap begin; key space; titled before; snap before; key space; snap "
+           "snap begin; key c; titled CoC; snap near_coc; key c; key space; titled before; snap "
+           "before; key space; snap "
            "after\n"
            "xdotool mousemove --window $window 30 70 click 4; titled 'focus 8.16,'\n"
            "xdotool click 1; titled 'focus 2,'; snap near\n"
            "key c; titled CoC; snap coc; key c; snap no_coc\n"
            "key plus; titled f/0.5612; key plus; titled f/0.6299; key plus; titled f/0.707; "
            "snap closed\n"
-           "key 1; snap actual; key 1\n"
+           "xdotool windowsize $window 300 225; snap large; key 1; snap actual; key 1; snap again\n"
+           "xdotool windowsize $window 200 150; settle\n"
            "key p; titled 'frame 1,'; snap other");
   const Screen begin = screen("begin");
   EXPECT_GT(difference(begin, screen("before")), 0.02) << "before is sharp";
@@ -121,18 +123,26 @@ TEST_F(ShowWindow, KeysAndTheMouseChangeTheLens) {
   EXPECT_GT(difference(begin, screen("near")), 0.02) << "focus has moved";
   EXPECT_GT(difference(screen("near"), screen("coc")), 0.02);
   EXPECT_EQ(difference(screen("near"), screen("no_coc")), 0);
-  // In focus green on the left, blue behind on the right.
-  std::array<double, 3> left{}, right{};
-  const Screen coc = screen("coc");
-  for (std::size_t y = 0; y < 140; ++y) {
-    for (std::size_t x = 0; x < 200; ++x) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        (x < 80 ? left : right)[c] += (coc.pixels[y * coc.width + x] >> (16 - 8 * c)) & 255;
+  // Near red or in focus green on the left, in focus or behind, blue, on the right.
+  const auto tint = [&](const std::string& name) {
+    std::array<std::array<double, 3>, 2> sides{};
+    const Screen coc = screen(name);
+    for (std::size_t y = 0; y < 140; ++y) {
+      for (std::size_t x = 0; x < 200; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          sides[x < 80 ? 0 : 1][c] += (coc.pixels[y * coc.width + x] >> (16 - 8 * c)) & 255;
+        }
       }
     }
-  }
-  EXPECT_GT(left[1], 1.3 * left[2]);
-  EXPECT_GT(right[2], 1.3 * right[0]);
+    return sides;
+  };
+  const auto coc = tint("coc"), near_coc = tint("near_coc");
+  EXPECT_GT(coc[0][1], 1.3 * coc[0][2]);
+  EXPECT_GT(coc[1][2], 1.3 * coc[1][0]);
+  EXPECT_GT(near_coc[0][0], 1.3 * near_coc[0][1]);
+  EXPECT_GT(near_coc[1][1], 1.3 * near_coc[1][0]);
+  EXPECT_GT(difference(screen("large"), screen("actual")), 0.1) << "pixel for pixel";
+  EXPECT_EQ(difference(screen("large"), screen("again")), 0);
   EXPECT_GT(difference(screen("near"), screen("closed")), 0.01);
   EXPECT_GT(difference(screen("closed"), screen("other")), 0.02) << "the other frame";
   // The command on exit renders what was seen.
@@ -145,11 +155,35 @@ TEST_F(ShowWindow, KeysAndTheMouseChangeTheLens) {
 
 TEST_F(ShowWindow, ArrowsMoveFocusAndFNumber) {
   SKIP_UNLESS_FULL();
-  const Result result = show(lens_,
-                             "key Left; titled 'focus 7.843,'; key Left; titled 'focus 7.689,'\n"
-                             "key Up; titled f/0.5612");
-  EXPECT_NE(result.out.find("--focal-length 50 --focus 7.689 --fstop 0.5612"), std::string::npos)
+  const Result result =
+      show(lens_,
+           "key Right; titled 'focus 8.16,'; key Left; titled 'focus 8,'\n"
+           "key Left; titled 'focus 7.843,'; key Left; titled 'focus 7.689,'\n"
+           "key Up; titled f/0.5612; key Up; titled f/0.6299; key Down; titled f/0.5612\n"
+           "xdotool mousemove --window $window 30 70 click 5; titled 'focus 7.538,'\n"
+           "xdotool keydown ctrl click 4 keyup ctrl; titled f/0.6299\n"
+           "key p; titled 'frame 1,'; key n; titled 'frame 2,'; snap end");
+  EXPECT_NE(result.out.find("--focal-length 50 --focus 7.538 --fstop 0.6299"), std::string::npos)
       << result.out;
+}
+
+/// Where what the keys say and what was typed leave a camera file nothing to say, render refuses
+/// it.
+TEST_F(ShowWindow, TheCommandOnExitRenders) {
+  SKIP_UNLESS_FULL();
+  std::ofstream(folder_ / "camera.json")
+      << R"({"focal_length_mm": 50, "f_stop": 0.5, "focus_distance_m": 8})";
+  const Result result = show(
+      "--camera camera.json --focal-length 50 --sensor-width 36 --focus 8 --skip-existing "
+      "--frames 1-2",
+      "key plus; titled f/0.5612");
+  std::string command = result.out.substr(result.out.rfind("defray render"));
+  command.erase(command.find('\n'));
+  EXPECT_EQ(command.find("--camera"), std::string::npos) << command;
+  EXPECT_EQ(command.find("--skip-existing"), std::string::npos) << command;
+  const std::uint64_t before = file_hash(folder_ / "o.0002.exr");
+  expect_ok(shell(folder_, program() + command.substr(6)));
+  EXPECT_NE(file_hash(folder_ / "o.0002.exr"), before);
 }
 
 }  // namespace

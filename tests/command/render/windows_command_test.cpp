@@ -1,8 +1,11 @@
 // defray render: data windows that grow with the blur, and what transparent pixels hold.
 #include <OpenImageIO/imagebuf.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "base/text.h"
 #include "command/program.h"
 
 namespace defray::test::windows_command_test {
@@ -132,6 +135,28 @@ TEST_F(Windows, NoColourWhereAlphaIsNothing) {
     return count;
   };
   EXPECT_EQ(stray(0), 0u);
+  // Light channels too, which have the colour's alpha, or one of their own.
+  for (const std::string names : {"diffuse.R,diffuse.G,diffuse.B", "diffuse.R,diffuse.A"}) {
+    std::vector<std::string> channels{"R", "G", "B", "A", "Z"};
+    std::vector<Plane> all = planes;
+    for (const std::string& name : split(names, ',')) {
+      channels.push_back(name);
+      all.push_back(planes[name.ends_with("A") ? 3 : 0]);
+    }
+    ImageFile::from_planes(channels, all, 48, 32, Sample::single_float)
+        .write(folder_ / "light.exr");
+    const ImageFile out = rendered("light.exr", "--channels 'diffuse.*'");
+    const auto& found = out.parts()[0].channels;
+    const auto plane = [&](const std::string& name) {
+      return out.plane(
+          0, static_cast<int>(std::find(found.begin(), found.end(), name) - found.begin()));
+    };
+    const Plane red = plane("diffuse.R"), alpha = plane(names.ends_with("A") ? "diffuse.A" : "A");
+    EXPECT_GT(std::accumulate(red.begin(), red.end(), 0.0f), 1);
+    for (std::size_t i = 0; i < red.size(); ++i) {
+      if (alpha[i] == 0) ASSERT_EQ(red[i], 0) << names << " " << i;
+    }
+  }
   EXPECT_GT(stray(0.5f), 0u) << "light without a surface, as flames are, stays";
 }
 

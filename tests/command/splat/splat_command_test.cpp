@@ -37,7 +37,8 @@ TEST_F(SplatCommand, EveryOptionChangesThePicture) {
   for (const std::string option :
        {"--lod off", "--cutoff 3", "--psf disc", "--merge average", "--two-sided",
         "--transparency 0.5", "--focus 3", "--from 1,1,4", "--look-at 0.3,0,0", "--up 1,0,0",
-        "--fov 20", "--sensor-width 30", "--unit ft"}) {
+        "--fov 20", "--sensor-width 30", "--sensor-height 20", "--fov 20 --sensor-fit vertical",
+        "--pixel-scale 3000", "--unit ft"}) {
     EXPECT_NE(hash(wide_lens + option), plain) << option;
   }
   EXPECT_NE(hash("--fstop 0.05 --focal-length 50"), hash("--fstop 0.1 --focal-length 50"));
