@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "base/vec3.h"
 #include "defray/splat.h"
+#include "splat/cloud_columns.h"
 
 namespace defray {
 namespace {
@@ -156,7 +157,10 @@ constexpr Model models[] = {{"plane", 262144, plane},
 PointCloud make_point_cloud(const std::string& name, std::size_t points) {
   std::vector<std::string> names;
   for (const Model& model : models) {
-    if (name == model.name) return model.make(points > 0 ? points : model.points);
+    if (name == model.name) {
+      if (points > 0) check_memory_for(points, "model " + name);
+      return model.make(points > 0 ? points : model.points);
+    }
     names.emplace_back(model.name);
   }
   fail(ErrorKind::usage, "there is no model '{}'; there are {}.{}", name, join(names, ", "),

@@ -180,6 +180,8 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "No such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,
           {"no model 'figur'", "Did you mean 'figure'?"});
+  refused("splat --model figure --model-points 1000000000000 -o o.exr " + wide_lens, 3,
+          {"model figure: says it has 1000000000000 points, which need about 381469727 MiB"});
   refused(figure + "-o o.abc " + wide_lens, 2, {"o.abc"});
   refused(figure + "-o none/o.exr " + wide_lens, 4, {"none"});
   refused(figure + wide_lens, 2, {"--output is missing"});
