@@ -53,9 +53,11 @@
 /// Most samples a side of the square over which `soften` averages.
 #define DEFRAY_SOFTEN_TAPS 7
 
-/// How much brighter than its surroundings a highlight is. Rays through n cells show a source as
-/// dots of 1/n of its brightness: up to here they are fainter than a hundredth or two.
-#define DEFRAY_HIGHLIGHT 10.0f
+/// How much brighter than its surroundings a highlight is, and how much one that is so as a whole:
+/// between them a growing share of its light is. Rays through n cells show a source as dots of 1/n
+/// of its brightness: up to here they are fainter than a hundredth or two.
+#define DEFRAY_HIGHLIGHT 7.0f
+#define DEFRAY_HIGHLIGHT_WHOLE 13.0f
 /// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
 #define DEFRAY_HIGHLIGHT_TILE 16
 /// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens point.

@@ -112,8 +112,9 @@ void take_light(Frame& f, const Values<float>& kept_share, const Values<float>& 
     // Alpha stays with the light: before nothing all of it, before what is opaque none.
     const float around = has_alpha ? alpha_around(f, alpha, i, coc) : 0;
     if (has_alpha && around < alpha[i]) {
-      excess[channels.size() - 1] = (alpha[i] - std::fmax(around, 0.0f)) * share;
-      channels.back()[i] = std::fmax(around, 0.0f);
+      const float least = std::fmax(std::fmax(around, 0.0f), alpha[i] * kept[i]);
+      excess[channels.size() - 1] = (alpha[i] - least) * share;
+      channels.back()[i] = least;
     }
     lights.excess.push_back(excess);
   }

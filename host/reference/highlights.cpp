@@ -38,6 +38,14 @@ std::vector<float> light_around(const Frame& f, int x, int y, float radius, int 
   return light;
 }
 
+/// The share of its light that a highlight before such surroundings keeps.
+float kept_of(float own, float median) {
+  constexpr float range = DEFRAY_HIGHLIGHT_WHOLE - DEFRAY_HIGHLIGHT;
+  const float of_whole = median / own;
+  if (median * DEFRAY_HIGHLIGHT_WHOLE <= own) return of_whole;
+  return 1 - (own - DEFRAY_HIGHLIGHT * median) / (range * median) * (1 - of_whole);
+}
+
 constexpr std::int32_t lens_radius = 1 << DEFRAY_LENS_FRACTION_BITS;
 
 /// Lens coordinates, limited to the square around the lens.
@@ -129,7 +137,7 @@ Values<float> TwinBackend::highlights(const Frame& f, int light_channels, Values
         is_found = true;
       }
     }
-    if (is_found) kept[i] = std::fmax(median, 0.0f) / own;
+    if (is_found) kept[i] = kept_of(own, std::fmax(median, 0.0f));
   }
   return kept;
 }

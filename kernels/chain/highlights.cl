@@ -2,8 +2,9 @@
 //
 // A lens point either sees a source at a pixel or not: far brighter than what is around, it shows
 // as dots. This finds such fragments: brighter than DEFRAY_HIGHLIGHT times the median of 32 pixels
-// around the disc they will fill, those that were seen. What they have above that median goes to
-// `highlights_add`, the median stays with the rays.
+// around the disc they will fill, those that were seen. What they have above that median, from
+// DEFRAY_HIGHLIGHT_WHOLE times on all of it, goes to `highlights_add`, the rest stays with the
+// rays.
 //
 // coc_quanta   [height][layers][width]  signed radius, 1/256 px
 // coverage     [height][layers][width]  2^-16 of the pixel; 0: no fragment. What is made up is no
@@ -26,6 +27,14 @@ float light_of(const float4 c, const uint channels) {
 int2 around(const int2 at, const float radius, const uint i) {
   const float distance = fmax(radius, 3.0f) * (i < 16u ? 0.5f : 1.0f) + 2.0f;
   return at + nearest_px(distance * sixteenth(i % 16u));
+}
+
+// The share of its light that a highlight before such surroundings keeps.
+float kept_of(const float own, const float median) {
+  const float of_whole = median / own;
+  if (median * DEFRAY_HIGHLIGHT_WHOLE <= own) return of_whole;
+  const float range = (DEFRAY_HIGHLIGHT_WHOLE - DEFRAY_HIGHLIGHT) * median;
+  return 1.0f - (own - DEFRAY_HIGHLIGHT * median) / range * (1.0f - of_whole);
 }
 
 __kernel void highlights(const DefrayHighlightParams p, __global const int* restrict coc_quanta,
@@ -58,6 +67,7 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
   }
   if (dim <= count / 2u) return;
   for (uint i = 0; i < count; ++i) {
-    if (rank_of(light, count, i) == count / 2u) kept[own] = fmax(light[i], 0.0f) / own_light;
+    if (rank_of(light, count, i) == count / 2u)
+      kept[own] = kept_of(own_light, fmax(light[i], 0.0f));
   }
 }

@@ -98,5 +98,31 @@ TEST(HighlightsOracle, KeepsOfALampWhatIsAroundIt) {
   }
 }
 
+/// No cliff: what a lamp keeps goes from all to its surroundings' light as it grows brighter.
+TEST(HighlightsOracle, BrighterLampsKeepLessAndLessAndNeverAStepLess) {
+  constexpr int width = 21, height = 21;
+  const std::size_t count = size(width) * size(height);
+  Frame f{width, height, Quanta(std::vector<std::int32_t>(count, 640)), Plane(count, 3.0f),
+          Planes{}};
+  f.coverage = Words(std::vector<std::uint32_t>(count, DEFRAY_WHOLE));
+  const auto kept_at = [&](Backend& backend, float ratio) {
+    Plane colour(count, 0.25f);
+    colour[count / 2] = 0.25f * ratio;
+    f.channels = Planes{colour};
+    return backend.highlights(f, 1)[count / 2];
+  };
+  for (Backend* backend : device_and_twins()) {
+    float before = 1;
+    for (int tenth = 60; tenth <= 200; ++tenth) {
+      const float ratio = 0.1f * static_cast<float>(tenth), kept = kept_at(*backend, ratio);
+      if (ratio <= DEFRAY_HIGHLIGHT) EXPECT_EQ(kept, 1) << ratio;
+      if (ratio >= DEFRAY_HIGHLIGHT_WHOLE) EXPECT_NEAR(kept, 1 / ratio, 1e-6) << ratio;
+      EXPECT_LE(kept, before) << ratio;
+      EXPECT_GE(kept, before - 0.02f) << ratio;
+      before = kept;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace defray::test::stage_oracles_test
