@@ -66,7 +66,7 @@ add_shards(faults 2 90 full faults_tests)
 # which many kernels make, nor long comparisons with twins: validate makes them there; nor what the
 # host decides between whole renders.
 set(left_out "*Picture*:Target.*:HighlightDisc*:Alpha*:Lamp*:Chain*:Repair.Is*:Rdb.SameBitsForEveryMemory*")
-set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*:ExpectedError.*:Progress.*:RdbGather.*EndOfTheChain)
+set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*:ExpectedError.*:Progress.*:ExtremeSums.MeansOfLight*:RdbGather.*EndOfTheChain)
 add_shards(rusticl 2 80 full bash -c
            "env -u DEFRAY_TEST_LONG \"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
 set_property(TEST rusticl_1 rusticl_2 APPEND PROPERTY ENVIRONMENT "RUSTICL_ENABLE=llvmpipe"
