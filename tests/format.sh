@@ -3,4 +3,4 @@
 set -euo pipefail
 cd "$1"
 how=${2:---dry-run --Werror}
-git ls-files '*.cpp' '*.h' '*.cl' '*.clh' '*.def' | xargs -r clang-format $how
+git ls-files '*.cpp' '*.h' '*.c' '*.cl' '*.clh' '*.def' | xargs -r clang-format $how

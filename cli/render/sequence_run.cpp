@@ -1,6 +1,7 @@
 #include "render/sequence_run.h"
 
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 #include "image/display.h"
@@ -50,6 +51,22 @@ Device device_of(const RenderCommand& job) {
     }
   }
   return device;
+}
+
+/// What a budget or a target chose for a frame, as options that choose it by themselves.
+void print_chosen(const RenderCommand& job, const FrameOutcome& outcome) {
+  const FrameReport& r = outcome.report;
+  const bool has_target = r.expected && r.expected->quality;
+  if (!r.budget && !has_target) return;
+  const std::set<std::string> chosen{"--budget-ms", "--target-db", "--strict-target", "--quality",
+                                     "--rdb",       "--frames",    "--stats"};
+  std::string line = render_command_line(
+      job.given, [&](const std::string& name) { return chosen.contains(name); });
+  const Quality quality = r.budget ? r.budget->quality : *r.expected->quality;
+  line += fmt::format(" --quality {} --rdb {}", to_string(quality),
+                      r.budget ? r.budget->cells_per_side : r.expected->cells_per_side);
+  if (outcome.frame) line += fmt::format(" --frames {}", *outcome.frame);
+  fmt::print("  the same again: {}\n", line);
 }
 
 }  // namespace
@@ -165,7 +182,10 @@ void SequenceRun::report(FrameOutcome outcome) {
       print_json_line(outcome, device_->name());
     } else if (!job_.quiet) {
       print_text(outcome, device_->name());
-      if (job_.stats && outcome.status == "ok") print_stats(outcome.report);
+      if (job_.stats && outcome.status == "ok") {
+        print_stats(outcome.report);
+        print_chosen(job_, outcome);
+      }
     }
     is_mute_ = !flush_output();         // a log shows each frame as it is done
   } catch (const std::system_error&) {  // fmt's: the pictures are what counts

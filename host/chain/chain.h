@@ -1,7 +1,7 @@
 #pragma once
 // The lens picture, closer to the truth than the rays of visible pixels alone: what lies behind
 // near surfaces, mixed pixels, highlights, borders. A chain of stages before and after the ray
-// distribution buffers; each can be left out.
+// distribution buffers; those that guess can be left out.
 #include <cstdint>
 #include <vector>
 

@@ -15,7 +15,7 @@ namespace defray {
 class Planes : public std::vector<Values<float>> {
  public:
   using std::vector<Values<float>>::vector;
-  Planes(const std::vector<Plane>& planes) {  // NOLINT: planes in host memory are planes
+  Planes(const std::vector<Plane>& planes) {  // planes in host memory are planes
     for (const Plane& plane : planes) emplace_back(plane);
   }
   /// Somebody else's memory, which must stay alive and unchanged.

@@ -27,7 +27,7 @@ template <typename T>
 class Values {
  public:
   Values() : store_(std::make_shared<Store>()) {}
-  Values(std::vector<T> values) : Values() {  // NOLINT: a vector is values in host memory
+  Values(std::vector<T> values) : Values() {  // a vector is values in host memory
     store_->taken = std::move(values);
     store_->host = store_->taken.data();
     store_->count = store_->taken.size();

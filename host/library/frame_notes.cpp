@@ -90,10 +90,10 @@ void note_target(const std::optional<ExpectedError>& expected, const ErrorSettin
   if (!expected || !expected->misses_target) return;
   const auto most = std::max_element(expected->shares.begin(), expected->shares.end());
   const auto cause = static_cast<Cause>(most - expected->shares.begin());
-  notes.push_back(
-      fmt::format("no quality is expected to reach {:.4g} dB: {:.0f} % of the error is "
-                  "{}",
-                  *wanted.target_db, 100 * *most, about(cause)));
+  notes.push_back(fmt::format(
+      "no quality is expected to reach {:.4g} dB, {:.1f} dB is the most: {:.0f} % of the "
+      "error is {}",
+      *wanted.target_db, expected->psnr_db, 100 * *most, about(cause)));
 }
 
 void note_budget(const BudgetChoice& c, std::vector<std::string>& notes) {

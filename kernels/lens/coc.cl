@@ -10,6 +10,7 @@
 //
 // depth_units  [pixel_count]  planar depth > 0, scene units; anything else is background
 // coc_quanta   [pixel_count]  signed radius, 1/256 px, rounded to nearest even
+// Global size: pixel_count, or more.
 #include "params.h"
 
 // By its bits: devices that take denormals for 0 still see them as depths in front of everything.

@@ -11,9 +11,12 @@
 // rdb_tiles finds the bins of CoC radii that a tile holds, in two sets of bits: those of whole
 // surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other
 // tiles that may reach it, along x and then, on its own result, along y: `near` says which bins
-// reach from how many tiles away, and a square dilates one axis at a time. tiles
-// [tiles_y][tiles_x][2][words] near      [reach_tiles + 1][words] Global size of both: (tiles_x,
-// tiles_y). Integers only: the same on every device.
+// reach from how many tiles away, and a square dilates one axis at a time. Integers only: the same
+// on every device.
+//
+// tiles  [tiles_y][tiles_x][2][words]
+// near   [reach_tiles + 1][words]
+// Global size of both: (tiles_x, tiles_y).
 #include "base/colour.clh"
 #include "base/pcg3d.clh"
 #include "rdb/rays.clh"

@@ -16,6 +16,7 @@
 //
 // nodes   [count]
 // splats  [count]
+// Global size: count, or more.
 #include "splat_params.h"
 
 #define FRAME_VECTOR(p, name) ((float3)((p).name##_x, (p).name##_y, (p).name##_z))

@@ -1,17 +1,17 @@
-/* GEGL's blurs over an EXR, for perf/scripts/gegl.py: gegl_blur OPERATION RADIUS MASK.exr IN.exr OUT.exr.
-   Prints the median time of `runs` blurs in seconds; pictures are in memory before and after. */
+/* GEGL's blurs over an EXR, for perf/scripts/gegl.py: gegl_blur OPERATION RADIUS MASK.exr IN.exr
+   OUT.exr. Prints the median time of `runs` blurs in seconds; pictures are in memory before and
+   after. */
 #include <gegl.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 enum { runs = 7 };
 
-static GeglBuffer *load(const char *path) {
-  GeglBuffer *buffer = NULL;
-  GeglNode *graph = gegl_node_new();
-  GeglNode *source =
-      gegl_node_new_child(graph, "operation", "gegl:load", "path", path, NULL);
-  GeglNode *sink = gegl_node_new_child(graph, "operation", "gegl:buffer-sink", "buffer", &buffer,
+static GeglBuffer* load(const char* path) {
+  GeglBuffer* buffer = NULL;
+  GeglNode* graph = gegl_node_new();
+  GeglNode* source = gegl_node_new_child(graph, "operation", "gegl:load", "path", path, NULL);
+  GeglNode* sink = gegl_node_new_child(graph, "operation", "gegl:buffer-sink", "buffer", &buffer,
                                        "format", babl_format("RGBA float"), NULL);
   gegl_node_link(source, sink);
   gegl_node_process(sink);
@@ -23,17 +23,16 @@ static GeglBuffer *load(const char *path) {
   return buffer;
 }
 
-static double blur(const char *operation, double radius, GeglBuffer *mask, GeglBuffer *in,
-                   GeglBuffer **out) {
-  GeglNode *graph = gegl_node_new();
-  GeglNode *picture =
+static double blur(const char* operation, double radius, GeglBuffer* mask, GeglBuffer* in,
+                   GeglBuffer** out) {
+  GeglNode* graph = gegl_node_new();
+  GeglNode* picture =
       gegl_node_new_child(graph, "operation", "gegl:buffer-source", "buffer", in, NULL);
-  GeglNode *radii =
+  GeglNode* radii =
       gegl_node_new_child(graph, "operation", "gegl:buffer-source", "buffer", mask, NULL);
-  GeglNode *work = gegl_node_new_child(graph, "operation", operation, "radius", radius,
+  GeglNode* work = gegl_node_new_child(graph, "operation", operation, "radius", radius,
                                        "linear-mask", TRUE, NULL);
-  GeglNode *sink =
-      gegl_node_new_child(graph, "operation", "gegl:buffer-sink", "buffer", out, NULL);
+  GeglNode* sink = gegl_node_new_child(graph, "operation", "gegl:buffer-sink", "buffer", out, NULL);
   gegl_node_link_many(picture, work, sink, NULL);
   gegl_node_connect_to(radii, "output", work, "aux");
   gint64 begin = g_get_monotonic_time();
@@ -43,11 +42,11 @@ static double blur(const char *operation, double radius, GeglBuffer *mask, GeglB
   return seconds;
 }
 
-static int ascending(const void *a, const void *b) {
-  return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+static int ascending(const void* a, const void* b) {
+  return (*(const double*)a > *(const double*)b) - (*(const double*)a < *(const double*)b);
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
   gegl_init(NULL, NULL);
   if (argc != 6) {
     fprintf(stderr, "usage: gegl_blur OPERATION RADIUS MASK.exr IN.exr OUT.exr\n");
@@ -60,11 +59,10 @@ int main(int argc, char **argv) {
     out = NULL;
     seconds[i] = blur(argv[1], atof(argv[2]), mask, in, &out);
   }
-  GeglNode *graph = gegl_node_new();
-  GeglNode *source =
+  GeglNode* graph = gegl_node_new();
+  GeglNode* source =
       gegl_node_new_child(graph, "operation", "gegl:buffer-source", "buffer", out, NULL);
-  GeglNode *sink =
-      gegl_node_new_child(graph, "operation", "gegl:exr-save", "path", argv[5], NULL);
+  GeglNode* sink = gegl_node_new_child(graph, "operation", "gegl:exr-save", "path", argv[5], NULL);
   gegl_node_link(source, sink);
   gegl_node_process(sink);
   qsort(seconds, runs, sizeof(double), ascending);

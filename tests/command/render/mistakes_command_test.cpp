@@ -4,40 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "command/program.h"
+#include "command/render/mistakes_fixture.h"
 
 namespace defray::test::mistakes_command_test {
 namespace {
-
-constexpr int width = 24, height = 16, pixels = width * height;
-
-class Mistakes : public testing::Test {
- protected:
-  void write(const std::string& name, const std::vector<std::string>& further,
-             const std::vector<Plane>& planes) const {
-    std::vector<std::string> channels{"R", "G", "B"};
-    std::vector<Plane> all(3, Plane(pixels, 0.5f));
-    channels.insert(channels.end(), further.begin(), further.end());
-    all.insert(all.end(), planes.begin(), planes.end());
-    ImageFile::from_planes(channels, all, width, height, Sample::single_float)
-        .write(folder_ / name);
-  }
-  std::string said(const std::string& arguments) const {
-    const Result result = defray(folder_, "render " + arguments);
-    expect_ok(result);
-    return result.out;
-  }
-  void expect_note(const std::string& arguments, const std::string& words) const {
-    const std::string text = said(arguments);
-    EXPECT_NE(text.find("note: " + words), std::string::npos) << arguments << "\n" << text;
-  }
-  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    expect_refusal(defray(folder_, "render " + arguments), 3, words, arguments);
-  }
-
-  Folder folder_;
-  const std::string usual_ = lens + "--sensor-width 36 ";
-};
 
 TEST_F(Mistakes, AMistPassIsNeverChosen) {
   const Plane mist(pixels, 0.25f), z(pixels, 4.0f);
@@ -117,31 +87,6 @@ TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
   EXPECT_NE(said("in.exr --depth rgb.png --depth-channel R -o o.exr" + range + usual_)
                 .find("depth R, 4.10588"),
             std::string::npos);
-}
-
-TEST_F(Mistakes, DepthOfEightBitsMakesNoTerraces) {
-  expect_ok(defray(folder_, "scene slanted -o . --width 320 --height 200 --truth-samples 1"));
-  const ImageFile scene = ImageFile::read(folder_ / "pinhole.exr");
-  const Plane z = scene.plane(0, 3);
-  const auto [near, far] = std::minmax_element(z.begin(), z.end());
-  cv::Mat stored(200, 320, CV_8UC1);
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    stored.data[i] = static_cast<unsigned char>(std::lround((z[i] - *near) / (*far - *near) * 255));
-  }
-  cv::imwrite(folder_ / "z8.png", stored);
-  const std::string lens = " --focus 3 --focal-length 150 --fstop 1 --json";
-  expect_ok(defray(folder_, "render pinhole.exr -o f.exr" + lens));
-  const Result steps = defray(
-      folder_, fmt::format("render pinhole.exr --depth z8.png --depth-kind normalized --near {} "
-                           "--far {} -o o.exr{}",
-                           *near, *far, lens));
-  expect_ok(steps);
-  EXPECT_NE(steps.out.find("the depth has 8 bits, whose steps change the CoC by up to "),
-            std::string::npos)
-      << steps.out;
-  EXPECT_EQ(steps.out.find("terraces"), std::string::npos) << steps.out;
-  EXPECT_EQ(nlohmann::json::parse(steps.out)["chain"]["behind_px"], 0);
-  expect_ok(defray(folder_, "compare o.exr f.exr --min-psnr 58"));
 }
 
 TEST_F(Mistakes, FocusOutsideAllDepths) {
@@ -234,62 +179,6 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
                             "frame": 3})"))
                 .find("is not known"),
             std::string::npos);
-}
-
-/// An opaque floor seen through a telephoto lens, its depth in floats and in half floats.
-TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
-  constexpr int across = 160, down = 64;
-  std::vector<Plane> planes(5, Plane(across * down, 1.0f));
-  for (std::size_t i = 0; i < planes[4].size(); ++i) {
-    planes[4][i] = 6 + 0.0011f * static_cast<float>(i % across);
-  }
-  const std::vector<std::string> channels{"R", "G", "B", "A", "Z"};
-  ImageFile::from_planes(channels, planes, across, down, Sample::single_float)
-      .write(folder_ / "floats.exr");
-  ImageFile::from_planes(channels, planes, across, down).write(folder_ / "halves.exr");
-  const std::string telephoto = " --focus 3 --fstop 0.5 --focal-length 300 --sensor-width 1.4 ";
-  EXPECT_EQ(said("floats.exr -o f.exr" + telephoto).find("half floats"), std::string::npos);
-  expect_note("halves.exr -o h.exr" + telephoto,
-              "the depth is in half floats, whose steps change the CoC by up to ");
-  const Plane exact = ImageFile::read(folder_ / "f.exr").plane(0, 3);
-  const Plane alpha = ImageFile::read(folder_ / "h.exr").plane(0, 3);
-  for (std::size_t i = 0; i < alpha.size(); ++i)
-    EXPECT_NEAR(alpha[i], exact[i], 0.01) << i % across;
-  EXPECT_EQ(said("halves.exr -o h.exr --focus 6 --fstop 8 --focal-length 50").find("half floats"),
-            std::string::npos);
-}
-
-/// A plane so steep that each pixel's depth is another half float. Where its CoC changes by less
-/// than a pixel a pixel it is one surface, as in floats; where by more, it is what stages
-/// take for edges, and rounding still decides about some of them.
-TEST_F(Mistakes, HalfFloatDepthOfASteepPlane) {
-  const struct {
-    const char *size, *fstop;
-    double psnr;
-    int most_behind;
-  } cases[] = {{"--width 640 --height 96", "0.95", 50, 0},
-               {"--width 640 --height 96", "0.7", 50, 0},
-               {"--width 480 --height 300", "0.7", 40, 0},
-               {"--width 480 --height 300", "0.5", 40, 9000}};
-  for (const auto& c : cases) {
-    if (c.fstop == std::string("0.7") && !takes_long_tests()) continue;
-    expect_ok(defray(folder_, fmt::format("scene slanted -o . {} --truth-samples 1", c.size)));
-    const ImageFile scene = ImageFile::read(folder_ / "pinhole.exr");
-    const Window& data = scene.parts()[0].data;
-    std::vector<Plane> planes;
-    for (int channel = 0; channel < 4; ++channel) planes.push_back(scene.plane(0, channel));
-    ImageFile::from_planes(scene.parts()[0].channels, planes, data.width, data.height)
-        .write(folder_ / "halves.exr");
-    const std::string telephoto =
-        fmt::format(" --focus 3 --focal-length 300 --fstop {} --json", c.fstop);
-    expect_ok(defray(folder_, "render pinhole.exr -o f.exr" + telephoto));
-    const Result halves = defray(folder_, "render halves.exr -o h.exr" + telephoto);
-    expect_ok(halves);
-    const auto report = nlohmann::json::parse(halves.out);
-    EXPECT_NE(halves.out.find("the depth is in half floats"), std::string::npos) << halves.out;
-    EXPECT_LE(report["chain"]["behind_px"], c.most_behind) << c.fstop;
-    expect_ok(defray(folder_, fmt::format("compare h.exr f.exr --min-psnr {}", c.psnr)));
-  }
 }
 
 TEST_F(Mistakes, WeakSpellings) {

@@ -56,6 +56,17 @@ TEST_F(BudgetCommand, TakesTheBestInTheTimeAndSaysHowToRepeatIt) {
   const Result text = defray(folder, job + "--budget-ms 60000", own_cache);
   EXPECT_NE(text.out.find("\n  --quality high --rdb 33: "), std::string::npos) << text.out;
   EXPECT_NE(text.out.find(" taken, of 6e+04\n"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("the same again"), std::string::npos) << text.out;
+
+  // The whole command, with --stats.
+  const Result stats = defray(folder, job + "--stats --budget-ms 60000", own_cache);
+  const std::string marker = "  the same again: defray ";
+  const std::size_t at = stats.out.find(marker);
+  ASSERT_NE(at, std::string::npos) << stats.out;
+  const std::string again = stats.out.substr(at + marker.size());
+  std::filesystem::remove(folder / "out.exr");
+  expect_ok(defray(folder, again.substr(0, again.find('\n'))));
+  EXPECT_EQ(file_hash(folder / "out.exr"), made);
 }
 
 TEST_F(BudgetCommand, LearnsFromRunToRun) {

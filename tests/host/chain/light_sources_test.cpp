@@ -125,7 +125,7 @@ TEST(LightSources, AlphaBelongsToTheLightAsFarAsItStandsOut) {
     Scene s(1, 4);
     s.kept.assign(s.kept.size(), 1);
     const std::size_t light = s.frame.index(75, 50, 0);
-    s.kept[light] = 0.5f;
+    s.kept[light] = 0;
     std::vector<std::int32_t> coc(s.frame.surfaces(), 10 * 256);
     s.frame.coc_quanta = coc;
     Plane alpha(s.frame.surfaces());
@@ -141,6 +141,12 @@ TEST(LightSources, AlphaBelongsToTheLightAsFarAsItStandsOut) {
     ASSERT_EQ(lights.excess.size(), 1u);
     EXPECT_EQ(lights.excess[0][3], (1 - around) / 2);
     EXPECT_EQ(s.frame.channels[3][light], around);
+    // Of what keeps a part of its light no more alpha goes than light.
+    alpha[light] = 1;
+    s.frame.channels[3] = alpha;
+    s.kept[light] = 0.625f;
+    taken(s, 3);
+    EXPECT_EQ(s.frame.channels[3][light], 0.625f);
   }
 }
 
@@ -151,7 +157,7 @@ TEST(LightSources, AroundALightInFocusLiesWhatIsThreePixelsOff) {
     Scene s(1, 4);
     s.kept.assign(s.kept.size(), 1);
     const std::size_t light = s.frame.index(75, 50, 0);
-    s.kept[light] = 0.5f;
+    s.kept[light] = 0;
     std::vector<std::int32_t> coc(s.frame.surfaces());
     s.frame.coc_quanta = coc;
     Plane alpha(s.frame.surfaces());
@@ -175,7 +181,7 @@ TEST(LightSources, InACornerTheFramesFirstAndLastPixelsAreLookedAt) {
     Scene s(1, 4);
     s.kept.assign(s.kept.size(), 1);
     const std::size_t light = s.frame.index(x, y, 0);
-    s.kept[light] = 0.5f;
+    s.kept[light] = 0;
     s.frame.coc_quanta = std::vector<std::int32_t>(s.frame.surfaces());
     Plane alpha(s.frame.surfaces());
     for (int k = 0; k < width; ++k) alpha[s.frame.index(k, y, 0)] = 0.25f;
