@@ -71,7 +71,7 @@ std::vector<OptionRow> rdb_rows(RenderCommand& job) {
                   "goes with --literal: other lens points leave no pattern"}}},
       {"--rays",
        word<RaysBy>([&job, &rdb](RaysBy by) { rdb.rays = job.chain.rays = by; }, rays_words,
-                    "gather"),
+                    word_of(rdb.rays, rays_words)),
        "Follow rays from where they end (gather) or begin (scatter, as the paper; always with "
        "--jitter): the same picture, bit for bit",
        {.scope = of_rdb}},

@@ -142,10 +142,12 @@ void Tuner::run(const Workload& workload, double seconds, const TuneProgress& pr
   }
   tuned_.insert(kernels.begin(), kernels.end());
   if (kernels.empty()) return;
+  double passed = watch.seconds();
   do {
-    progress(watch.seconds(), best_so_far());
-    keep(tries(next_shapes(kernels, watch.seconds() < share_to_explore * seconds)));
-  } while (watch.seconds() < seconds && !is_done(kernels));
+    progress(passed, best_so_far());
+    keep(tries(next_shapes(kernels, passed < share_to_explore * seconds)));
+    passed = watch.seconds();
+  } while (passed < seconds && !is_done(kernels));
   set({});
 }
 

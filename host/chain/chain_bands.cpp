@@ -7,6 +7,7 @@
 #include "chain/patterns.h"
 #include "lens/coc.h"
 #include "lens/lens_grid.h"
+#include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
@@ -30,7 +31,7 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
   if (s.highlights) reach.highlights = highlight_reach(largest);
   if (s.soften) {
     const float side = static_cast<float>(largest) * px_per_quantum / cells_per_side(lens_points);
-    reach.soften = static_cast<int>(side) + 2;
+    reach.soften = static_cast<int>(side) + launch_of("soften").reach_px + 1;
   }
   reach.rays = rdb_reach(largest) + 2;
   return reach;

@@ -4,6 +4,7 @@
 
 #include "chain/tiles.h"
 #include "lens/coc.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
@@ -84,11 +85,13 @@ class CellDistances {
 
 }  // namespace
 
-int fill_reach(std::int32_t farthest, std::int32_t own) { return (farthest - own) / 256 + 2; }
+int fill_reach(std::int32_t farthest, std::int32_t own) {
+  return (farthest - own) / (1 << DEFRAY_COC_FRACTION_BITS) + 2;
+}
 
 int fill_rows(const CocRange& range) {
-  constexpr int around = 20;  // what is found is looked at further on: the launch table's reach
-  return fill_reach(tame(range.largest), tame(range.least)) + around;
+  // What is found is looked at further on.
+  return fill_reach(tame(range.largest), tame(range.least)) + launch_of("fill").reach_px;
 }
 
 Quanta farthest_to_fill(const Frame& f, const Words& mixed) {

@@ -4,11 +4,13 @@
 
 #include "base/parallel.h"
 #include "chain/border.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
 
-constexpr int repair_reach = 3, mixed_reach = 1;  ///< As the launch table has them.
+int repair_reach() { return launch_of("repair").reach_px; }
+int mixed_reach() { return launch_of("mixed").reach_px; }
 
 std::size_t first_of(const Frame& f, Rows rows) { return f.index(0, rows.y); }
 
@@ -29,7 +31,7 @@ void Front::look_at_all() {
   std::size_t between = 0, between_in_picture = 0, edge = 0;
   for (int y = 0; y < frame.height; y += work_.band_rows) {
     const Rows rows{y, std::min(frame.height, y + work_.band_rows)};
-    coc_to(rows.end + repair_reach);
+    coc_to(rows.end + repair_reach());
     before_.wanted = rows;
     mixed = work_.backend.mixed(before_, std::move(mixed));
     const auto is_mixed = mixed.host();
@@ -47,7 +49,7 @@ void Front::look_at_all() {
       }
       work_.done("repair");
     }
-    if (work_.is_banded) give_back_to(rows.end - repair_reach);
+    if (work_.is_banded) give_back_to(rows.end - repair_reach());
   }
   has_edges_ = edge > 0;
   constexpr std::size_t mixed_a_ramp = 20;
@@ -70,7 +72,7 @@ void Front::coc_to(int end) {
 void Front::sources_to(int end) {
   const Rows rows = go_on(sources_done_, end, frame.height);
   if (rows.empty()) return;
-  coc_to(rows.end + repair_reach);
+  coc_to(rows.end + repair_reach());
   before_.wanted = rows;
   source_ = work_.backend.repair(before_, std::move(source_));
   work_.done("repair");
@@ -116,10 +118,10 @@ void Front::surfaces_to(int end) {
 }
 
 void Front::to(int end) {
-  surfaces_to(end + mixed_reach);
+  surfaces_to(end + mixed_reach());
   const Rows rows = go_on(mixed_done_, end, frame.height);
   if (rows.empty()) return;
-  surfaces_to(rows.end + mixed_reach);
+  surfaces_to(rows.end + mixed_reach());
   frame.wanted = rows;
   mixed = work_.backend.mixed(frame, std::move(mixed));
   work_.done("mixed");

@@ -24,7 +24,7 @@ constexpr int farthest_tiles = 16;
 
 int highlight_reach(std::int32_t coc_quanta) {
   // The disc, of three pixels at least, two pixels further out, and one for rounding.
-  return std::max(std::abs(tame(coc_quanta)) / 256 + 1, 3) + 3;
+  return std::max(std::abs(tame(coc_quanta)) / (1 << DEFRAY_COC_FRACTION_BITS) + 1, 3) + 3;
 }
 
 Values<float> darkest_around(const Frame& f, int light_channels) {

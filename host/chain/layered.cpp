@@ -9,11 +9,12 @@
 #include "chain/layers.h"
 #include "lens/aperture.h"
 #include "lens/aperture_table.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
 
-constexpr int split_reach = 3;  ///< As the launch table has it.
+int split_reach() { return launch_of("split").reach_px; }
 
 }  // namespace
 
@@ -63,7 +64,7 @@ void Layered::split_to(int end) {
   const Rows rows = go_on(split_done_, end, height());
   if (rows.empty()) return;
   if (has_two()) behind_.to(rows.end);
-  front_.to(rows.end + split_reach);
+  front_.to(rows.end + split_reach());
   split(rows);
   work_.done("split");
   describe(rows);
@@ -159,7 +160,8 @@ void Layered::give_back_to(int end) {
   const int margin = is_margin_left ? height() - rows_to_continue(front_.frame) - 1 : height();
   const int soften = work_.settings.soften ? soften_done_ - work_.reach.soften - 1 : rays;
   const int rows = std::min(rays, margin), colours = std::min(soften, margin);
-  const int front = std::min(split_done_ - split_reach, has_two() ? behind_.front_needed() : rows);
+  const int front =
+      std::min(split_done_ - split_reach(), has_two() ? behind_.front_needed() : rows);
   front_.give_back_to(std::min(front - band_step, has_two() ? height() : colours));
   behind_.give_back_to(split_done_);
   if (has_two()) {
