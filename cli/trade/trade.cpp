@@ -200,7 +200,7 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
   check_files(job, all);
   const FrameReport input = inspect_file(job.paths, settings_at(job, std::nullopt));
   for (const std::string& note : input.notes) {
-    print_error("defray: note: " + with_field_names(note, option_of_field));
+    if (!job.quiet) print_error("defray: note: " + with_field_names(note, option_of_field));
   }
   std::optional<ColourFile> truth;
   if (!job.truth.empty()) check_truth(job, input, truth.emplace(read_truth(job)));

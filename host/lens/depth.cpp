@@ -22,14 +22,6 @@ bool is_in_range(DepthKind kind) {
   return kind == DepthKind::normalized || kind == DepthKind::zbuffer;
 }
 
-bool is_background(double stored, const DepthSettings& s) {
-  if (s.background) return stored == static_cast<double>(static_cast<float>(*s.background));
-  if (is_in_range(s.kind)) return std::isinf(stored);
-  if (s.kind == DepthKind::inverse) return stored <= 0;
-  const double z = s.kind == DepthKind::negative_z ? -stored : stored;
-  return z == largest_half || z >= far_away || z <= 0;
-}
-
 /// A number of the wrong sign, and so only by rule background.
 bool is_behind_camera(double stored, const DepthSettings& s) {
   if (s.background || is_in_range(s.kind) || s.kind == DepthKind::inverse) return false;
@@ -79,6 +71,14 @@ void refuse_wrong_sign(const DepthReport& r, const DepthSettings& s, std::size_t
 }
 
 }  // namespace
+
+bool is_background(double stored, const DepthSettings& s) {
+  if (s.background) return stored == static_cast<double>(static_cast<float>(*s.background));
+  if (is_in_range(s.kind)) return std::isinf(stored);
+  if (s.kind == DepthKind::inverse) return stored <= 0;
+  const double z = s.kind == DepthKind::negative_z ? -stored : stored;
+  return z == largest_half || z >= far_away || z <= 0;
+}
 
 void validate(const DepthSettings& s) {
   if (s.kind == DepthKind::normalized) {

@@ -9,6 +9,9 @@
 
 namespace defray {
 
+/// Whether a stored finite number says that there is nothing.
+bool is_background(double stored, const DepthSettings& settings);
+
 /// Converts `depth` in place to planar depth > 0, +inf for background. `data` and `display` are the
 /// picture's windows: distances along rays need the pixel's place in the frame.
 /// Throws Error(input), naming the file and the pixel, where a depth makes no sense.

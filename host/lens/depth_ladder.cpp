@@ -21,21 +21,14 @@ float of_half(std::int32_t half) {
                                 : std::bit_cast<float>((bits + rebias) << dropped_bits);
 }
 
-/// Its bits as a half; no_step: a float with more digits, or beyond them.
+/// Its bits as a half; no_step: a float with more digits, beyond them, or below 0.
 std::int32_t half_of(float value) {
+  if (value < 0) return DepthLadder::no_step;
   const std::uint32_t normal = (std::bit_cast<std::uint32_t>(value) >> dropped_bits) - rebias;
   const bool is_normal = normal >= smallest_normal && normal < beyond_halves;
   const float half = is_normal ? static_cast<float>(normal) : std::fmin(value / smallest, 0x1p10f);
   const auto step = static_cast<std::int32_t>(half);
   return of_half(step) == value ? step : DepthLadder::no_step;
-}
-
-/// 1 or -1: camera-space -z is negative everywhere.
-float sign_of(const Plane& stored) {
-  return std::any_of(stored.begin(), stored.end(),
-                     [](float v) { return std::isfinite(v) && v > 0; })
-             ? 1.0f
-             : -1.0f;
 }
 
 }  // namespace
@@ -61,14 +54,14 @@ float DepthLadder::depth(std::int32_t step, float height) const {
   return inverse > 0 ? static_cast<float>(1 / inverse) : here;
 }
 
-DepthLadder ladder_of_stored(const Plane& stored, int bits) {
-  const float sign = bits > 0 ? 1 : sign_of(stored);
+DepthLadder ladder_of_stored(const Plane& stored, int bits, const DepthSettings& settings) {
+  const float sign = settings.kind == DepthKind::negative_z && bits == 0 ? -1.0f : 1.0f;
   const auto last = static_cast<float>((1 << bits) - 1);
   DepthLadder ladder;
   std::int32_t largest = 0;
   for (const float value : stored) {
     std::int32_t step = DepthLadder::no_step;
-    if (std::isfinite(value)) {
+    if (std::isfinite(value) && !is_background(static_cast<double>(value), settings)) {
       step = bits > 0 ? static_cast<std::int32_t>(std::nearbyint(value * last))
                       : half_of(sign * value);
       if (step == DepthLadder::no_step) return {};
@@ -84,6 +77,7 @@ DepthLadder ladder_of_stored(const Plane& stored, int bits) {
 
 void convert(DepthLadder& ladder, DepthSettings settings) {
   if (settings.kind == DepthKind::distance) settings.kind = DepthKind::z;
+  settings.background.reset();  // steps that no pixel is on, 0 among them, may be no depth
   const bool is_range =
       settings.kind == DepthKind::normalized || settings.kind == DepthKind::zbuffer;
   if (is_range && ladder.depths.back() > 1) ladder.depths.pop_back();  // beyond what means a depth

@@ -25,14 +25,13 @@ struct DepthLadder {
   float depth(std::int32_t step, float height) const;
 };
 
-/// The steps of a plane as it is stored, with the values of those up to one above the
-/// largest: of whole numbers
-/// of so many bits, scaled to 0 to 1; with 0 bits of half floats, if all are, of one sign. Else
-/// empty.
-DepthLadder ladder_of_stored(const Plane& stored, int bits);
+/// The steps of a plane as it is stored, with the values of those up to one above the largest: of
+/// whole numbers of so many bits, scaled to 0 to 1; with 0 bits of half floats, if all are of which
+/// `settings` make depths, else empty. Background is on no step.
+DepthLadder ladder_of_stored(const Plane& stored, int bits, const DepthSettings& settings);
 
-/// From stored values to depths; distances along rays stay as they are. What `settings` take for
-/// background is on no step. Values must be such that convert_depth takes them.
+/// From stored values to depths; distances along rays stay as they are. Values must be such that
+/// convert_depth takes them.
 void convert(DepthLadder& ladder, DepthSettings settings);
 
 }  // namespace defray

@@ -21,7 +21,7 @@ namespace defray {
 namespace {
 
 /// Rounding leaves traces of light where alpha is 0. Light that was there from the start, such as
-/// that of flames, stays.
+/// that of flames, stays. Alpha may be one of the planes.
 void clear_transparent(const std::vector<Plane>& before, const Plane& alpha_before,
                        std::vector<Plane>& after, const Plane& alpha_after) {
   const auto shines = [](const std::vector<Plane>& light, const Plane& alpha, std::size_t i) {
@@ -52,7 +52,7 @@ void render_light(const Source& source, Frame frame, const RenderSettings& setti
     frame.has_alpha = group.has_alpha;
     std::vector<Plane> out = apply_method(frame, method, backend).colour;
     if (group.has_alpha) {
-      clear_transparent(before, before.back(), out, Plane(out.back()));
+      clear_transparent(before, before.back(), out, out.back());
     } else if (is_cut_out) {
       clear_transparent(before, source.colour.back(), out, alpha);
     }
@@ -155,7 +155,7 @@ void FileRender::render(Device& device, const Progress& progress) {
   s.planes = std::move(result.colour);
   if (has_alpha(s.planes)) {
     const Plane& alpha = s.source->colour.back();
-    clear_transparent(s.source->colour, alpha, s.planes, Plane(s.planes.back()));
+    clear_transparent(s.source->colour, alpha, s.planes, s.planes.back());
   }
   render_light(*s.source, frame, s.settings, made.settings, backend, s.report, s.choice, s.planes);
   move_data(*s.source, result.nearest, s.report);

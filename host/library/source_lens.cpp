@@ -102,7 +102,9 @@ void take_lens(const ImageFile& file, const PartInfo& part, DepthPlane& depth,
   };
   report.lens = lens_of(settings.focus_at ? before_focus(camera) : camera);
   DepthLadder ladder;
-  if (depth.integer_bits <= 16) ladder = ladder_of_stored(depth.values, depth.integer_bits);
+  if (depth.integer_bits <= 16) {
+    ladder = ladder_of_stored(depth.values, depth.integer_bits, settings.depth);
+  }
   report.depth =
       convert_depth(depth.values, settings.depth, part.data, report.display, report.lens, path);
   if (settings.focus_at) {

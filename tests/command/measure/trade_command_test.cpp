@@ -73,6 +73,8 @@ TEST_F(TradeCommand, NotesOnTheInputAreSaid) {
   expect_ok(result);
   EXPECT_NE(result.err.find("defray: note: focus 90 lies outside all depths"), std::string::npos)
       << result.err;
+  EXPECT_EQ(defray(folder, "trade pinhole.exr -o t -q --focus 90 --fstop 2 --focal-length 50").err,
+            "");
 }
 
 TEST_F(TradeCommand, ATruthTellsOfAllMethods) {

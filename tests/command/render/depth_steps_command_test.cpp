@@ -34,6 +34,19 @@ TEST_F(Mistakes, DepthOfEightBitsMakesNoTerraces) {
   expect_ok(defray(folder_, "compare o.exr f.exr --min-psnr 58"));
 }
 
+/// Steps that no pixel is on, 0 among them, need mean no depth.
+TEST_F(Mistakes, HalfFloatDepthHasAnyBackground) {
+  Plane z(pixels, 4.0f);
+  for (const float background : {65504.0f, -1.0f, 0.0f}) {
+    z[7] = background;
+    write("half.exr", {"Z"}, {z});
+    EXPECT_NE(said(fmt::format("half.exr -o o.exr --background {}", background) + usual_)
+                  .find("background 1 px"),
+              std::string::npos)
+        << background;
+  }
+}
+
 /// An opaque floor seen through a telephoto lens, its depth in floats and in half floats.
 TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
   constexpr int across = 160, down = 64;

@@ -84,6 +84,23 @@ TEST_F(ErrorCommand, AFrameANumber) {
                  2, {"e.exr", "put #### in its name"}, "one file for all");
 }
 
+TEST_F(ErrorCommand, StatsSayHowATargetsFrameIsMadeAgain) {
+  expect_ok(shell(folder, "cp pinhole.exr in.0001.exr; cp pinhole.exr in.0002.exr"));
+  const Result both = defray(folder,
+                             "render in.####.exr -o o.####.exr --camera camera.json "
+                             "--focus-setting bg --target-db 5 --stats");
+  expect_ok(both);
+  const std::string marker = "  the same again: defray ";
+  const std::size_t at = both.out.rfind(marker);
+  ASSERT_NE(at, std::string::npos) << both.out;
+  const std::string again = both.out.substr(at + marker.size());
+  const std::uint64_t made = file_hash(folder / "o.0002.exr");
+  for (const char* name : {"o.0001.exr", "o.0002.exr"}) std::filesystem::remove(folder / name);
+  expect_ok(defray(folder, again.substr(0, again.find('\n'))));
+  EXPECT_EQ(file_hash(folder / "o.0002.exr"), made);
+  EXPECT_FALSE(std::filesystem::exists(folder / "o.0001.exr")) << "the last frame alone";
+}
+
 TEST_F(ErrorCommand, NothingToBeSeenIsSaidSo) {
   const Plane black(64, 0), near(64, 2);
   ImageFile::from_planes({"R", "G", "B", "Z"}, {black, black, black, near}, 8, 8)

@@ -46,7 +46,7 @@ Plane halves(Plane z) {
 }
 
 DepthSteps smooth_halves(Plane& z, const Lens& lens = telephoto()) {
-  DepthLadder ladder = ladder_of_stored(z, 0);
+  DepthLadder ladder = ladder_of_stored(z, 0, {});
   if (!ladder.steps.empty()) convert(ladder, {});
   return smooth_steps(z, ladder, width, lens, frame_width);
 }
@@ -167,7 +167,7 @@ TEST(DepthSteps, WholeNumbersBecomeTheSlopeTheyWere) {
       }
     }
     stored[7] = std::numeric_limits<float>::quiet_NaN();
-    DepthLadder ladder = ladder_of_stored(stored, 8);
+    DepthLadder ladder = ladder_of_stored(stored, 8, settings);
     ASSERT_EQ(ladder.steps.size(), stored.size());
     EXPECT_EQ(ladder.steps[7], DepthLadder::no_step);
     const Window frame{0, 0, width, height};
@@ -193,9 +193,9 @@ TEST(DepthSteps, WholeNumbersBecomeTheSlopeTheyWere) {
 TEST(DepthSteps, DistancesKeepTheirShare) {
   Plane z = halves(slope());
   const Plane before = z;
-  DepthLadder ladder = ladder_of_stored(z, 0);
   DepthSettings settings;
   settings.kind = DepthKind::distance;
+  DepthLadder ladder = ladder_of_stored(z, 0, settings);
   convert(ladder, settings);
   for (float& value : z) value *= 0.9f;
   Plane planar = before;
@@ -206,11 +206,43 @@ TEST(DepthSteps, DistancesKeepTheirShare) {
 }
 
 TEST(DepthSteps, HalvesOfEachSignAndSizeAreFound) {
-  EXPECT_EQ(ladder_of_stored({1, 1.5f, 65504}, 0).steps.size(), 3u);
-  EXPECT_EQ(ladder_of_stored({-1, -1.5f}, 0).depths.back(), -as_half(1.5f) - 1.0f / 1024);
-  EXPECT_EQ(ladder_of_stored({0, 0x1p-24f, 0x1.8p-15f}, 0).steps, (std::vector{0, 1, 0x300}));
-  for (const float more : {1.0001f, 65536.0f, 0x1p-25f, -1.0f}) {
-    EXPECT_TRUE(ladder_of_stored({1, more}, 0).steps.empty()) << more;
+  const auto steps = [](const Plane& stored, const DepthSettings& settings = {}) {
+    return ladder_of_stored(stored, 0, settings).steps;
+  };
+  constexpr std::int32_t none = DepthLadder::no_step;
+  EXPECT_EQ(steps({1, 1.5f, 65503, 0x1p-24f, 0x1.8p-15f}).size(), 0u) << "65503 is no half";
+  EXPECT_EQ(steps({1, 0x1p-24f, 0x1.8p-15f, 65472}), (std::vector{0x3c00, 1, 0x300, 0x7bfe}));
+  for (const float more : {1.0001f, 65536.0f, 0x1p-25f}) {
+    EXPECT_TRUE(steps({1, more}).empty()) << more;
+  }
+  // What means that there is nothing is no half, and keeps no other from being one.
+  EXPECT_EQ(steps({1, 65504, 1e10f, -1, 0}), (std::vector{0x3c00, none, none, none, none}));
+  DepthSettings settings;
+  settings.background = -1.0001;
+  EXPECT_EQ(steps({1, -1.0001f}, settings), (std::vector{0x3c00, none}));
+  settings = {};
+  settings.kind = DepthKind::negative_z;
+  EXPECT_EQ(steps({-1, 2}, settings), (std::vector{0x3c00, none}));
+  settings.kind = DepthKind::normalized;  // out of its range, if a number
+  EXPECT_TRUE(steps({0.5f, -1e30f}, settings).empty());
+  settings.kind = DepthKind::negative_z;
+  const DepthLadder minus = ladder_of_stored({-1, -1.5f}, 0, settings);
+  EXPECT_EQ(minus.depths.back(), -1.5f - 1.0f / 1024);
+}
+
+TEST(DepthSteps, AStatedBackgroundIsNoStepAndStopsNone) {
+  Plane stored = halves(slope());
+  for (const double background : {-1.0, 65504.0, 1234567.0}) {
+    stored[5] = static_cast<float>(background);
+    DepthSettings settings;
+    settings.background = background;
+    DepthLadder ladder = ladder_of_stored(stored, 0, settings);
+    Plane z = stored;
+    const Window frame{0, 0, width, height};
+    convert_depth(z, settings, frame, frame, 0, "");
+    convert(ladder, settings);
+    EXPECT_GT(smooth_steps(z, ladder, width, telephoto(), frame_width).smoothed, z.size() / 2);
+    EXPECT_TRUE(std::isinf(z[5])) << background;
   }
 }
 
