@@ -7,7 +7,7 @@ set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 packages=(g++ cmake ninja-build clang libclang-common-14-dev pkg-config
           ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-          libopenimageio-dev openimageio-tools libimath-dev libopencv-dev
+          libopenimageio-dev openimageio-tools libimath-dev libopencv-dev qtbase5-dev
           libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev)
 
 install_missing() {

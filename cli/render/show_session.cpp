@@ -168,7 +168,6 @@ void ShowSession::handle_key(int key) {
     }
   }
   if (!has_lens) return;
-  // After a click Qt's view keeps the arrows to itself.
   if (key == key_left || key == '[') change_focus(-1);
   if (key == key_right || key == ']') change_focus(1);
   if (key == key_down || key == '-') change_fstop(-1);

@@ -24,7 +24,8 @@ std::optional<double> number_of(const std::string& text) {
   return number;
 }
 
-/// The first number of a value of any type.
+}  // namespace
+
 std::optional<double> number_of(const ParamValue& value) {
   if (value.type() == OIIO::TypeRational) {
     const int* parts = static_cast<const int*>(value.data());
@@ -51,16 +52,15 @@ std::optional<double> number_of(const ParamValue& value) {
     case TypeDesc::INT64:
       return first_as<std::int64_t>(value);
     case TypeDesc::HALF:
-    case TypeDesc::FLOAT:
       return static_cast<double>(value.get_float());
+    case TypeDesc::FLOAT:
+      return first_as<float>(value);
     case TypeDesc::DOUBLE:
       return first_as<double>(value);
     default:
       return std::nullopt;
   }
 }
-
-}  // namespace
 
 std::optional<double> ImageFile::metadata_number(const std::string& name) const {
   for (const Part& part : parts_) {

@@ -5,9 +5,11 @@
 #include <deque>
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "base/srgb.h"
 #include "image/mat.h"
+#include "image/viewer_qt.h"
 
 namespace defray {
 namespace {
@@ -55,6 +57,7 @@ struct Viewer::State {
   bool is_actual_size = false;
   Placement placement;
   std::deque<ViewerEvent> events;
+  std::optional<QtViews> qt_views;
 
   void draw(const cv::Size& window) {
     placement = place(picture.size(), window, is_actual_size);
@@ -89,13 +92,16 @@ struct Viewer::State {
         s.events.push_back(e);
       }
     } else if (event == cv::EVENT_MOUSEWHEEL) {
-      // Qt's view, whatever the window's flags, scales itself by a tenth as well, up and down to
-      // where it was; OpenCV 4.6 has no call that undoes it. Places of the mouse are the picture's.
-      e.kind = ViewerEvent::Kind::wheel;
-      e.steps = cv::getMouseWheelDelta(flags) > 0 ? 1 : -1;
-      e.has_control = (flags & cv::EVENT_FLAG_CTRLKEY) != 0;
-      s.events.push_back(e);
+      s.on_wheel(cv::getMouseWheelDelta(flags) > 0 ? 1 : -1, (flags & cv::EVENT_FLAG_CTRLKEY) != 0);
     }
+  }
+
+  void on_wheel(int steps, bool has_control) {
+    ViewerEvent e;
+    e.kind = ViewerEvent::Kind::wheel;
+    e.steps = steps;
+    e.has_control = has_control;
+    events.push_back(e);
   }
 };
 
@@ -110,6 +116,8 @@ Viewer::Viewer(const std::string& title, int width, int height)
   cv::resizeWindow(title, std::max(64, static_cast<int>(width * scale)),
                    std::max(64, static_cast<int>(height * scale)));
   cv::setMouseCallback(title, State::on_mouse, state_.get());
+  state_->qt_views.emplace(
+      [s = state_.get()](int steps, bool has_control) { s->on_wheel(steps, has_control); });
 }
 
 Viewer::~Viewer() { cv::destroyWindow(state_->title); }

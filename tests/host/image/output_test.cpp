@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 
+#include "image/image_file_part.h"
 #include "image/nonfinite.h"
 #include "image/safe_output.h"
 #include "support.h"
@@ -174,6 +175,16 @@ TEST(Output, AnInterruptedWriteLeavesTheOldFileAlone) {
   }
 }
 
+/// A picture of one pixel with this metadata.
+ImageFile with_metadata(const std::string& path, const OIIO::ImageSpec& spec) {
+  const auto out = OIIO::ImageOutput::create(path);
+  EXPECT_TRUE(out->open(path, spec));
+  const Plane pixel(3, 0.5f);
+  EXPECT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, pixel.data()));
+  EXPECT_TRUE(out->close());
+  return ImageFile::read(path);
+}
+
 TEST(Metadata, IsANumberOrATextThatBeginsWithOne) {
   const Folder folder;
   OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::HALF);
@@ -181,17 +192,46 @@ TEST(Metadata, IsANumberOrATextThatBeginsWithOne) {
   spec.attribute("broken", 2.8f);
   spec.attribute("text", "85.5 mm");
   spec.attribute("words", "mm 85");
-  const auto out = OIIO::ImageOutput::create("exr");
-  ASSERT_TRUE(out->open(folder / "in.exr", spec));
-  const Plane pixel(3, 0.5f);
-  ASSERT_TRUE(out->write_image(OIIO::TypeDesc::FLOAT, pixel.data()));
-  ASSERT_TRUE(out->close());
-  const ImageFile file = ImageFile::read(folder / "in.exr");
+  const int half[] = {1, 2}, unknown[] = {1, 0};
+  const float pair[] = {1.5f, 2};
+  const double exact = 5.6;
+  spec.attribute("half", OIIO::TypeRational, half);
+  spec.attribute("unknown", OIIO::TypeRational, unknown);
+  spec.attribute("whole pair", OIIO::TypeDesc("int[2]"), half);
+  spec.attribute("pair", OIIO::TypeDesc("float[2]"), pair);
+  spec.attribute("exact", OIIO::TypeDesc("double"), &exact);
+  const ImageFile file = with_metadata(folder / "in.exr", spec);
   EXPECT_EQ(file.metadata_number("whole"), 35);
   EXPECT_FLOAT_EQ(static_cast<float>(file.metadata_number("broken").value()), 2.8f);
   EXPECT_EQ(file.metadata_number("text"), 85.5);
   EXPECT_FALSE(file.metadata_number("words"));
   EXPECT_FALSE(file.metadata_number("none"));
+  EXPECT_EQ(file.metadata_number("half"), 0.5);
+  EXPECT_FALSE(file.metadata_number("unknown"));
+  EXPECT_EQ(file.metadata_number("whole pair"), 1);
+  EXPECT_EQ(file.metadata_number("pair"), 1.5);
+  EXPECT_EQ(file.metadata_number("exact"), 5.6);
+}
+
+template <typename T>
+std::optional<double> number_in(OIIO::TypeDesc type, T value) {
+  return number_of(OIIO::ParamValue("x", type, 1, &value));
+}
+
+TEST(Metadata, MayBeOfAnyNumericType) {
+  using OIIO::TypeDesc;
+  EXPECT_EQ(number_in<std::uint8_t>(TypeDesc::UINT8, 200), 200);
+  EXPECT_EQ(number_in<std::int8_t>(TypeDesc::INT8, -5), -5);
+  EXPECT_EQ(number_in<std::uint16_t>(TypeDesc::UINT16, 50000), 50000);
+  EXPECT_EQ(number_in<std::int16_t>(TypeDesc::INT16, -7), -7);
+  EXPECT_EQ(number_in<std::uint32_t>(TypeDesc::UINT32, 4000000001u), 4000000001.0);
+  EXPECT_EQ(number_in<std::int32_t>(TypeDesc::INT32, -9), -9);
+  EXPECT_EQ(number_in<std::uint64_t>(TypeDesc::UINT64, 1ull << 40), std::ldexp(1, 40));
+  EXPECT_EQ(number_in<std::int64_t>(TypeDesc::INT64, -3), -3);
+  EXPECT_EQ(number_in<std::uint16_t>(TypeDesc::HALF, 0x4100), 2.5);
+  EXPECT_EQ(number_in<float>(TypeDesc::FLOAT, 1.5f), 1.5);
+  EXPECT_EQ(number_in<double>(TypeDesc::DOUBLE, 5.6), 5.6);
+  EXPECT_FALSE(number_in<const char*>(TypeDesc::PTR, nullptr));
 }
 
 TEST(NonfiniteColours, AreCountedZeroedOrNamedWithTheirPlace) {
