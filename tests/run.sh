@@ -13,7 +13,7 @@ done
 begin=$SECONDS
 export EXTRA_PACKAGES="libgtest-dev librapidcheck-dev libbenchmark-dev clang-format lld"
 if [ -n "$full" ]; then
-  EXTRA_PACKAGES+=" libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium llvm python3"
+  EXTRA_PACKAGES+=" libclang-rt-14-dev oclgrind mesa-opencl-icd xvfb xdotool chromium blender llvm python3"
 fi
 source "$project/cli/setup.sh"
 
