@@ -1,6 +1,7 @@
 // defray: reads the command line, runs one command, turns an Error into one line and an exit code.
 #include "run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -135,13 +136,27 @@ void refuse_empty_values(const CLI::App& command) {
   }
 }
 
-/// Commands of which nothing is left but what they print; others write files beside it.
+/// Commands of which nothing is left but what they print; others write files beside it, or say by
+/// their exit code whether a bound is kept.
 bool is_for_its_text(const CLI::App& command) {
   const std::string name = command.get_name();
-  const bool writes = name == "psf" && (command.count("--output") || command.count("--csv"));
-  const bool shows = name == "tune" && command.count("--show");
-  return name == "info" || name == "devices" || name == "compare" || shows ||
-         (name == "psf" && !writes);
+  const auto has_any = [&](const std::vector<const char*>& options) {
+    return std::any_of(options.begin(), options.end(),
+                       [&](const char* option) { return command.count(option) > 0; });
+  };
+  if (name == "compare") {
+    return !has_any({"--sheet", "--min-psnr", "--min-ssim", "--max-error", "--max-false-edges",
+                     "--max-false-changes"});
+  }
+  if (name == "psf") return !has_any({"--output", "--csv"});
+  if (name == "tune") return has_any({"--show"});
+  return name == "info" || name == "devices";
+}
+
+/// Help, or the version.
+int print_and_end(const CLI::App& app, const CLI::Success& what) {
+  const int code = app.exit(what);
+  return is_output_lost() ? fail_with(ErrorKind::output, "cannot write to standard output") : code;
 }
 
 int run_command(int argc, char** argv) {
@@ -160,9 +175,9 @@ int run_command(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) {
     return fail_with(ErrorKind::usage, explain_extras(app));
   } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+    return print_and_end(app, help);
   } catch (const CLI::CallForVersion& version) {
-    return app.exit(version);
+    return print_and_end(app, version);
   } catch (const CLI::ParseError& error) {
     return fail_with(ErrorKind::usage, explain_value(error, app));
   }

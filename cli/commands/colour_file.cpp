@@ -28,14 +28,17 @@ void set_region(Region& region, const std::string& windows, const std::string& c
   if (!crop.empty()) region.crop = parse_window("--crop", crop);
 }
 
+void require_same_display(const ColourFile& a, const ColourFile& b) {
+  if (a.display == b.display) return;
+  fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same", a.path,
+       to_string(a.display), b.path, to_string(b.display));
+}
+
 void bring_together(const std::vector<ColourFile*>& pictures, const Region& region) {
   const ColourFile& first = *pictures.front();
   Window all = first.data;
   for (const ColourFile* picture : pictures) {
-    if (picture->display != first.display) {
-      fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same",
-           first.path, to_string(first.display), picture->path, to_string(picture->display));
-    }
+    require_same_display(first, *picture);
     all = region.overlap_only ? intersection(all, picture->data) : hull(all, picture->data);
   }
   if (region.crop) {
@@ -51,13 +54,6 @@ void bring_together(const std::vector<ColourFile*>& pictures, const Region& regi
   for (ColourFile* picture : pictures) {
     picture->planes = to_display_window(picture->planes, picture->data, all);
     picture->data = all;
-  }
-}
-
-void require_same_size(const ColourFile& a, const ColourFile& b) {
-  if (a.data != b.data) {
-    fail(ErrorKind::input, "{} has data window {}, {} has {}: both must be the same", a.path,
-         to_string(a.data), b.path, to_string(b.data));
   }
 }
 

@@ -34,8 +34,8 @@ void set_region(Region& region, const std::string& windows, const std::string& c
 /// nothing is left.
 void bring_together(const std::vector<ColourFile*>& pictures, const Region& region);
 
-/// Throws Error(input) unless the data windows are the same.
-void require_same_size(const ColourFile& a, const ColourFile& b);
+/// Throws Error(input) unless the display windows are the same.
+void require_same_display(const ColourFile& a, const ColourFile& b);
 
 /// Before the work: throws Error(usage) unless `path` is a PNG or JPEG and none of the inputs,
 /// Error(output) unless it can be written.

@@ -135,7 +135,7 @@ int run(const CompareOptions& o) {
 }
 
 /// --depth.
-CLI::Option* add_edge_band(CLI::App* command, const std::shared_ptr<CompareOptions>& o) {
+void add_edge_band(CLI::App* command, const std::shared_ptr<CompareOptions>& o) {
   auto* depth = command->add_option(
       "--depth", o->depth, "Planar depth in metres: also give the errors in the edge band");
   auto* camera = command->add_option("--camera", o->camera, "camera.json: the lens, for --depth");
@@ -149,7 +149,6 @@ CLI::Option* add_edge_band(CLI::App* command, const std::shared_ptr<CompareOptio
       ->add_option("--edge-step", o->edge_step,
                    "An edge is where neighbours' depths differ by more than this share")
       ->needs(depth);
-  return depth;
 }
 
 void add_false_edges(CLI::App* command, const std::shared_ptr<CompareOptions>& o) {
@@ -180,16 +179,12 @@ Run add_compare(CLI::App& app) {
   command->add_option("--min-ssim", o->min_ssim, "Exit with 1 below this SSIM, -1 to 1");
   command->add_option("--max-error", o->max_error,
                       "Exit with 1 if a linear value differs by more than this");
-  CLI::Option* depth = add_edge_band(command, o);
+  add_edge_band(command, o);
   command->add_option(
       "--windows", o->windows,
       "Where data windows differ: union, 0 where a picture has nothing, or overlap");
-  auto* crop = command->add_option("--crop", o->crop,
-                                   "Only this part, 320x200+100+50, of the display window");
-  command->add_option("--mask", o->mask,
-                      "PSNR and RMS where this picture's first channel is above a half; SSIM and "
-                      "energy with all outside it alike");
-  depth->excludes(crop);
+  command->add_option("--crop", o->crop, "Only this part, 320x200+100+50, of the display window");
+  command->add_option("--mask", o->mask, "Only where this picture's first channel is above a half");
   add_false_edges(command, o);
   auto* sheet = command->add_option("--sheet", o->sheet,
                                     "Write A, B and their difference side by side, PNG or JPEG");

@@ -17,19 +17,24 @@ namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-/// The edge band of the pinhole frame that `picture` was rendered from.
+/// The edge band of the pinhole frame that `picture` was rendered from, whose window may be
+/// another.
 Mask read_band(const CompareOptions& o, const ColourFile& picture) {
   const ImageFile file = ImageFile::read(o.depth, Content::data);
   const ChannelName name = choose_depth(o.depth, file.parts(), {"", "", o.depth_channel}, {});
   const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
-  require_same_size({o.depth, {}, part.data, part.display}, picture);
+  require_same_display({o.depth, {}, part.data, part.display}, picture);
   const CameraValues camera = read_camera_file(o.camera, o.focus_setting, 1);
   const Lens lens = make_lens(camera, 1, LensModel::cg, 0, part.display);
-  Plane depth = file.plane(name.part, name.channel);
+  // Where there is no depth, 0, there is background.
+  const Window all = hull(hull(part.data, part.display), picture.data);
+  Plane depth = to_display_window({file.plane(name.part, name.channel)}, part.data, all).front();
   const int width = part.display.width;
-  convert_depth(depth, {}, part.data, part.display, pixel_focal_length(lens, width), o.depth);
-  return edge_band(depth, part.data.width, reference::TwinBackend().coc(lens, width, depth).host(),
-                   o.edge_step);
+  convert_depth(depth, {}, all, part.display, pixel_focal_length(lens, width), o.depth);
+  const Mask band = edge_band(depth, all.width,
+                              reference::TwinBackend().coc(lens, width, depth).host(), o.edge_step);
+  const Plane seen = to_display_window({{band.begin(), band.end()}}, all, picture.data).front();
+  return {seen.begin(), seen.end()};
 }
 
 /// 1 where the mask's first channel is above a half.
@@ -56,28 +61,20 @@ Pair masked(Pair pair, const Mask& mask) {
   return pair;
 }
 
-/// Of all pixels; places are of the pictures.
-Found compare_all(const CompareOptions& o, const Pair& pair, const Pair* before) {
-  const std::vector<Plane>&a = pair.a.planes, &b = pair.b.planes;
-  const int width = pair.a.data.width;
-  Found found;
-  found.comparison = compare(a, b, width);
-  if (!o.false_edges) return found;
-  found.false_edges = false_edges(a, b, width);
-  if (!before) return found;
-  require_same_size(before->a, pair.a);
-  found.false_changes = false_changes(before->a.planes, a, before->b.planes, b, width);
-  return found;
-}
-
-/// The same of a mask's pixels.
-Found compare_masked(const CompareOptions& o, const Pair& pair, const Pair* before) {
-  const Mask mask = read_mask(o, pair.a.data);
-  std::optional<Pair> seen_before;
-  if (before) seen_before = masked(*before, mask);
-  Found found = compare_all(o, masked(pair, mask), seen_before ? &*seen_before : nullptr);
-  static_cast<Errors&>(found.comparison) = errors_where(pair.a.planes, pair.b.planes, mask, 1);
-  return found;
+/// Of the mask's pixels, if there is one; the place is of the pair's pictures.
+Excess changes_since(const CompareOptions& o, Pair before, Pair pair) {
+  const Window data = pair.a.data;
+  bring_together({&before.a, &before.b, &pair.a, &pair.b}, {});
+  if (!o.mask.empty()) {
+    const Mask mask = read_mask(o, pair.a.data);
+    before = masked(std::move(before), mask);
+    pair = masked(std::move(pair), mask);
+  }
+  Excess changes = false_changes(before.a.planes, pair.a.planes, before.b.planes, pair.b.planes,
+                                 pair.a.data.width);
+  changes.worst_x += pair.a.data.x - data.x;
+  changes.worst_y += pair.a.data.y - data.y;
+  return changes;
 }
 
 }  // namespace
@@ -94,14 +91,21 @@ Pair read_pair(const CompareOptions& o) {
   Pair pair{read_colour_file(o.a), read_colour_file(o.b)};
   Region region;
   set_region(region, o.windows, o.crop);
-  if (!o.depth.empty()) require_same_size(pair.a, pair.b);
   bring_together({&pair.a, &pair.b}, region);
   return pair;
 }
 
 Found compare_pair(const CompareOptions& o, const Pair& pair, const Pair* before) {
-  Found found = o.mask.empty() ? compare_all(o, pair, before) : compare_masked(o, pair, before);
   const ColourFile& a = pair.a;
+  const int width = a.data.width;
+  const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a.data);
+  Found found;
+  found.comparison = compare(a.planes, pair.b.planes, width, mask);
+  if (o.false_edges) {
+    const Pair seen = mask.empty() ? pair : masked(pair, mask);
+    found.false_edges = false_edges(seen.a.planes, seen.b.planes, width);
+    if (before) found.false_changes = changes_since(o, *before, pair);
+  }
   if (!o.depth.empty()) {
     const Mask band = read_band(o, a);
     found.band = {errors_where(a.planes, pair.b.planes, band, 1),

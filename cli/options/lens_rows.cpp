@@ -1,11 +1,26 @@
 #include "options/lens_rows.h"
 
+#include <cmath>
+
+#include "base/error.h"
+
 namespace defray::cli {
 namespace {
 
+const WordTable<Eye> eye_words{{"retina", Eye::retina}, {"display", Eye::display}};
 const WordTable<SensorFit> fit_words{{"auto", SensorFit::longer},
                                      {"horizontal", SensorFit::horizontal},
                                      {"vertical", SensorFit::vertical}};
+
+double above_zero(const char* option, double value) {
+  if (value > 0 && !std::isinf(value)) return value;
+  fail(ErrorKind::usage, "{} is {}: it must be a finite number above 0", option, value);
+}
+
+double coc_limit(double px) {
+  if (!(px > 0)) fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", px);
+  return px;
+}
 
 }  // namespace
 
@@ -95,6 +110,58 @@ std::vector<OptionRow> sensor_rows(CameraValues& v, AnimatedLens* animated) {
        "Pixels per metre of image plane, instead of --sensor-width",
        {.field = "pixels_per_metre"}},
   };
+}
+
+std::vector<OptionRow> scale_rows(CameraValues& v, AnimatedLens& animated) {
+  return {{"--scale",
+           lens_value(v, &CameraValues::perceived_scale, &animated),
+           "Make the scene look this much of its size: divides the aperture",
+           {.field = "perceived_scale"}},
+          {"--perceived-distance",
+           lens_value(v, &CameraValues::perceived_distance_m, &animated),
+           "m; as --scale, so that the plane of focus seems this far away",
+           {.field = "perceived_distance_m"}}};
+}
+
+std::vector<OptionRow> eye_rows(EyeOptions& e, AnimatedLens& animated) {
+  const auto number = [&](double EyeOptions::*field) {
+    return lens_value({[&e, field](double v) { e.*field = v; },
+                       [field](FrameLens& lens, double v) { lens.eye.*field = v; }},
+                      &animated, fmt::format("{}", e.*field));
+  };
+  const Needs display{[&e](const Given&) { return e.eye == Eye::display; },
+                      "goes with --eye=display"};
+  return {
+      {"--eye",
+       optional_word(e.eye, eye_words, "retina"),
+       "An eye's lens: 4.6 mm, 17 mm, 28000 px/m; --eye=display: 4 mm, 24 mm, by a display",
+       {.needs = {[](const Given& given) { return !has_optics(given); },
+                  "means nothing beside an aperture, a focal length and a sensor: "
+                  "they win over all it says"}}},
+      {"--display-distance",
+       number(&EyeOptions::display_distance_m),
+       "m, of --eye=display",
+       {.needs = display}},
+      {"--display-resolution",
+       number(&EyeOptions::display_px_per_metre),
+       "px per metre, of --eye=display",
+       {.needs = display}},
+  };
+}
+
+CameraValues eye_of(const EyeOptions& e) {
+  const double distance = above_zero("--display-distance", e.display_distance_m);
+  const double resolution = above_zero("--display-resolution", e.display_px_per_metre);
+  return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
+}
+
+OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated) {
+  return {"--max-coc",
+          lens_value({[&max_coc_px](double px) { max_coc_px = coc_limit(px); },
+                      [](FrameLens& lens, double px) { lens.max_coc_px = coc_limit(px); }},
+                     &animated, "none"),
+          "Limit of the CoC radius, px",
+          {.field = "max_coc_px"}};
 }
 
 std::vector<OptionRow> camera_rows(std::string& file, std::string& focus_setting,

@@ -38,6 +38,18 @@ std::vector<OptionRow> lens_rows(CameraValues& camera, const std::string& unit,
 /// What the picture spans, other than by --sensor-width.
 std::vector<OptionRow> sensor_rows(CameraValues& camera, AnimatedLens* animated);
 
+/// --scale and --perceived-distance.
+std::vector<OptionRow> scale_rows(CameraValues& camera, AnimatedLens& animated);
+
+/// --eye and its display.
+std::vector<OptionRow> eye_rows(EyeOptions& eye, AnimatedLens& animated);
+
+/// What the eye says; nothing without one. Throws Error(usage).
+CameraValues eye_of(const EyeOptions& eye);
+
+/// --max-coc.
+OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated);
+
 /// Whether these say everything that a lens's optics have.
 bool has_optics(const Given& given);
 

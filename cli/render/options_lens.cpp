@@ -9,50 +9,7 @@
 namespace defray::cli {
 namespace {
 
-const WordTable<Eye> eye_words{{"retina", Eye::retina}, {"display", Eye::display}};
 const WordTable<LensModel> model_words{{"cg", LensModel::cg}, {"breathing", LensModel::breathing}};
-
-/// An eye says aperture, focal length and pixel scale.
-bool is_eye_heard(const Given& given) { return !has_optics(given); }
-
-double above_zero(const char* option, double value) {
-  if (value > 0 && !std::isinf(value)) return value;
-  fail(ErrorKind::usage, "{} is {}: it must be a finite number above 0", option, value);
-}
-
-std::vector<OptionRow> eye_rows(RenderCommand& job) {
-  EyeOptions& e = job.eye;
-  const auto number = [&](double EyeOptions::*field) {
-    return lens_value({[&e, field](double v) { e.*field = v; },
-                       [field](FrameLens& lens, double v) { lens.eye.*field = v; }},
-                      &job.animated, fmt::format("{}", e.*field));
-  };
-  const Needs display{[&e](const Given&) { return e.eye == Eye::display; },
-                      "goes with --eye=display"};
-  return {
-      {"--eye",
-       optional_word(e.eye, eye_words, "retina"),
-       "An eye's lens: 4.6 mm, 17 mm, 28000 px/m; --eye=display: 4 mm, 24 mm, by a display",
-       {.needs = {is_eye_heard,
-                  "means nothing beside an aperture, a focal length and a sensor: "
-                  "they win over all it says"}}},
-      {"--display-distance",
-       number(&EyeOptions::display_distance_m),
-       "m, of --eye=display",
-       {.needs = display}},
-      {"--display-resolution",
-       number(&EyeOptions::display_px_per_metre),
-       "px per metre, of --eye=display",
-       {.needs = display}},
-  };
-}
-
-/// What the eye says; nothing without one.
-CameraValues eye_of(const EyeOptions& e) {
-  const double distance = above_zero("--display-distance", e.display_distance_m);
-  const double resolution = above_zero("--display-resolution", e.display_px_per_metre);
-  return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
-}
 
 /// "2,4.5", or "2,4.5:1,3,6:24": what is kept sharp, of all frames or from frame to frame.
 void set_range(RenderCommand& job, const std::string& text) {
@@ -106,11 +63,6 @@ std::vector<OptionRow> focus_rows(RenderCommand& job) {
   };
 }
 
-double coc_limit(double px) {
-  if (!(px > 0)) fail(ErrorKind::usage, "--max-coc is {} px: it must be above 0", px);
-  return px;
-}
-
 }  // namespace
 
 OptionGroup lens_options(RenderCommand& job) {
@@ -122,24 +74,12 @@ OptionGroup lens_options(RenderCommand& job) {
   };
   add(sensor_rows(s.camera, &job.animated));
   add(focus_rows(job));
-  add(eye_rows(job));
-  add({{"--scale",
-        lens_value(s.camera, &CameraValues::perceived_scale, &job.animated),
-        "Make the scene look this much of its size: divides the aperture",
-        {.field = "perceived_scale"}},
-       {"--perceived-distance",
-        lens_value(s.camera, &CameraValues::perceived_distance_m, &job.animated),
-        "m; as --scale, so that the plane of focus seems this far away",
-        {.field = "perceived_distance_m"}}});
+  add(eye_rows(job.eye, job.animated));
+  add(scale_rows(s.camera, job.animated));
   add(camera_rows(job.camera, job.focus_setting, ", or " + from_metadata + ", the image's own"));
   add({{"--lens-model", word(s.model, model_words),
-        "cg: a renderer's thin lens; breathing: field of view follows focus"},
-       {"--max-coc",
-        lens_value({[&s](double px) { s.max_coc_px = coc_limit(px); },
-                    [](FrameLens& lens, double px) { lens.max_coc_px = coc_limit(px); }},
-                   &job.animated, "none"),
-        "Limit of the CoC radius, px",
-        {.field = "max_coc_px"}}});
+        "cg: a renderer's thin lens; breathing: field of view follows focus"}});
+  group.rows.push_back(max_coc_row(s.max_coc_px, job.animated));
   return group;
 }
 

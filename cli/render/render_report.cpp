@@ -110,7 +110,7 @@ std::vector<std::string> notes_of(const FrameReport& r) {
                                 r.nonfinite_kept ? "kept" : "set to 0"));
   }
   if (r.depth.outside_range > 0) {
-    notes.push_back(fmt::format("{} stored depths lie outside 0...1: is this normalized depth?",
+    notes.push_back(fmt::format("{} stored depths lie outside 0...1: are they of this kind?",
                                 r.depth.outside_range));
   }
   if (r.coc_limited > 0) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "defray/splat.h"
+#include "options/curve.h"
 #include "options/option_table.h"
 
 namespace defray::cli {
@@ -16,10 +17,14 @@ struct SplatCommand {
   std::string output;
   std::optional<std::array<double, 3>> from, look_at, up;
   CameraValues camera;
+  EyeOptions eye;
+  double max_coc_px = 0;
+  AnimatedLens animated;
   std::string camera_file, focus_setting;
   double metres_per_unit = 1;
   SplatSettings settings;
-  int turntable = 0;  ///< Frames of a turn; 0: a single picture.
+  int turntable = 0;  ///< Frames of a turn; 0: none.
+  std::string frames;
   std::string device;
   bool no_tuning = false;
   bool has_depth = false, has_fragments = false;  ///< Channels beside R G B A.

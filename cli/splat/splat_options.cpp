@@ -60,6 +60,8 @@ OptionGroup view_rows(SplatCommand& job) {
        {"--up", with_default(place(job.up), "0,1,0"), "What is up in the picture"},
        {"--turntable", with_default(value(job.turntable), ""),
         "So many frames of a turn around what is looked at"},
+       {"--frames", with_default(value(job.frames), "the turn's, or every --camera that matches"),
+        "1-8, 1-10x2, 1,5,9-12"},
        {"--unit",
         parsed<std::string>(
             [&job](const std::string& text) { job.metres_per_unit = parse_unit(text); },
@@ -69,11 +71,18 @@ OptionGroup view_rows(SplatCommand& job) {
 }
 
 OptionGroup lens_group(SplatCommand& job) {
-  OptionGroup group{"Lens", lens_rows(job.camera, "scene units; without one, what is looked at")};
-  for (OptionRow& row : sensor_rows(job.camera, nullptr)) group.rows.push_back(std::move(row));
-  for (OptionRow& row : camera_rows(job.camera_file, job.focus_setting, "")) {
-    group.rows.push_back(std::move(row));
-  }
+  OptionGroup group{
+      "Lens", lens_rows(job.camera, "scene units; without one, what is looked at", &job.animated)};
+  const auto add = [&](std::vector<OptionRow> rows) {
+    group.rows.insert(group.rows.end(), rows.begin(), rows.end());
+  };
+  add(sensor_rows(job.camera, &job.animated));
+  add(eye_rows(job.eye, job.animated));
+  add(scale_rows(job.camera, job.animated));
+  std::vector<OptionRow> camera = camera_rows(job.camera_file, job.focus_setting, "");
+  camera.front().details.needs = {};  // whatever the lens, it says where the camera stands
+  add(camera);
+  add({max_coc_row(job.max_coc_px, job.animated)});
   return group;
 }
 

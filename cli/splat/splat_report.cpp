@@ -14,6 +14,7 @@ void print_json(const std::string& path, const Lens& lens, const CameraPose& pos
                                     {"points", r.points},
                                     {"drawn", r.drawn},
                                     {"seen", r.seen},
+                                    {"from_behind", r.from_behind},
                                     {"fragments", r.fragments},
                                     {"from", pose.from},
                                     {"look_at", pose.look_at},

@@ -1,9 +1,11 @@
 // defray trade: what speed costs in accuracy, on the user's own picture.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <set>
 
+#include "chain/quality.h"
 #include "commands.h"
 #include "commands/colour_file.h"
 #include "defray/defray.h"
@@ -21,7 +23,8 @@ namespace defray::cli {
 namespace {
 
 constexpr const char* trade_footer =
-    R"(Renders one picture in every quality, and by the other methods where there is a truth, three times each:
+    R"(Renders one picture in every quality and between them, as --target-db would where one is given,
+and by the other methods where there is a truth, three times each:
 pictures, a plot of error against time (trade.png), a table with the command of each (index.html,
 trade.csv). Errors are expected ones, told from how the pictures look, and true ones with --truth.
 
@@ -37,17 +40,39 @@ struct TradeCommand : RenderCommand {
 struct Candidate {
   std::string name, options;
   MethodSettings method;
+  std::optional<double> target_db = {};
 };
 
-/// Every quality; with a truth, which alone tells of them, the other methods.
+/// What --target-db and --budget-ms choose from, a few of them: every quality, and lens points
+/// between those of one and the next.
+constexpr std::array<Rung, 3> between{Rung{Quality::draft, 13}, Rung{Quality::normal, 18},
+                                      Rung{Quality::normal, 25}};
+
+std::vector<Candidate> of_quality(Quality quality, const TradeCommand& job) {
+  const std::string word = to_string(quality);
+  MethodSettings method = job.settings.method;
+  method.chain = settings_for(quality);
+  method.chain->aperture = job.chain.aperture;
+  std::vector<Candidate> all{{word, "--quality " + word, method}};
+  for (const Rung& rung : between) {
+    if (rung.quality != quality) continue;
+    method.chain->cells_per_side = rung.cells_per_side;
+    all.push_back({fmt::format("{}-{}", word, rung.cells_per_side),
+                   fmt::format("--quality {} --rdb {}", word, rung.cells_per_side), method});
+  }
+  return all;
+}
+
+/// The front of every quality, and what the target takes, which has to look for its quality; with a
+/// truth, which alone tells of them, the other methods.
 std::vector<Candidate> candidates(const TradeCommand& job) {
   std::vector<Candidate> all;
   for (const Quality quality : all_qualities) {
-    const std::string name = to_string(quality);
-    MethodSettings method = job.settings.method;
-    method.chain = settings_for(quality);
-    method.chain->aperture = job.chain.aperture;
-    all.push_back({name, "--quality " + name, method});
+    for (Candidate& c : of_quality(quality, job)) all.push_back(std::move(c));
+  }
+  if (job.target_db) {
+    const MethodSettings method = of_quality(Quality::normal, job).front().method;
+    all.push_back({"target", fmt::format("--target-db {}", *job.target_db), method, job.target_db});
   }
   // Bokeh of another shape than a circle is of the stages alone.
   if (job.truth.empty() || job.chain.aperture != Aperture()) return all;
@@ -126,6 +151,7 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
   RenderSettings settings = common;
   settings.method = candidate.method;
   settings.error.wants_expected = true;
+  settings.error.target_db = candidate.target_db;
   FramePaths paths = job.paths;
   paths.output = job.folder + "/" + candidate.name + ".png";
   std::vector<double> seconds;
@@ -136,7 +162,9 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
     frame.read();
     frame.render(device, [&](double share) { progress((run + share) / runs); });
     result = frame.write();
-    seconds.push_back(result.report.render_seconds);
+    // What is expected tells a target's search how to go on.
+    const double search = candidate.target_db ? result.report.predict_seconds : 0;
+    seconds.push_back(result.report.render_seconds + search);
   }
   std::sort(seconds.begin(), seconds.end());
   TradePoint point{candidate.name,

@@ -53,7 +53,9 @@ ImageFile ImageFile::read(const std::string& path, Content content) {
   if (!std::filesystem::exists(path, error)) {
     const bool is_glob = path.find_first_of("*?") != std::string::npos;
     fail(ErrorKind::input, "{}: no such file{}", path,
-         is_glob ? "; #### stands for the numbers of a sequence" : "");
+         path == "-" ? "; standard input can be the picture that is rendered, nothing else"
+         : is_glob   ? "; #### stands for the numbers of a sequence"
+                     : "");
   }
   if (std::filesystem::is_directory(path, error)) {
     fail(ErrorKind::input, "{}: is a folder, not an image", path);

@@ -46,8 +46,7 @@ const json& choose_setting(const std::string& path, const json& root, const std:
     fail(ErrorKind::input, "{}: has several focus settings: {}; choose with {}", path,
          join(names, " "), field("focus_setting"));
   }
-  static const json nothing = json::object();
-  return names.empty() ? nothing : settings[names.front()];
+  return names.empty() ? root : settings[names.front()];
 }
 
 /// The known key that has the key's first word, without underscores and units: "fstop" and
@@ -77,14 +76,24 @@ const std::set<std::string> other_keys{"scene",  "width",          "height",
                                        "blades", "defray_options", "truth_noise_psnr_srgb_db",
                                        "notes",  "blender",        "truth_noise_psnr_linear_db"};
 
-/// Notes the keys of an object that are none of `known`.
+/// Notes the keys of an object that are none of its own: those of another place, `there`, and those
+/// of none.
 void note_unknown_keys(const std::string& path, const json& object,
-                       const std::vector<std::string>& known, std::vector<std::string>& notes) {
+                       const std::vector<std::string>& own, const std::vector<std::string>& others,
+                       const char* there, std::vector<std::string>& notes) {
   if (!object.is_object()) return;
+  const auto has = [](const std::vector<std::string>& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  std::vector<std::string> known = own;
+  known.insert(known.end(), others.begin(), others.end());
   for (const auto& item : object.items()) {
     const std::string& key = item.key();
-    const bool is_known = std::find(known.begin(), known.end(), key) != known.end();
-    if (is_known || other_keys.count(key) > 0) continue;
+    if (has(own, key) || other_keys.count(key) > 0) continue;
+    if (has(others, key)) {
+      notes.push_back(fmt::format("{}: key '{}' is ignored here: it belongs {}", path, key, there));
+      continue;
+    }
     std::string nearest = nearest_spelling(key, known);
     if (nearest.empty()) nearest = same_words(key, known);
     notes.push_back(
@@ -157,10 +166,11 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   if (&focus == &root) {
     std::vector<std::string> all = camera_keys;
     all.insert(all.end(), focus_keys.begin(), focus_keys.end());
-    note_unknown_keys(path, root, all, values.notes);
+    note_unknown_keys(path, root, all, {}, "", values.notes);
   } else {
-    note_unknown_keys(path, root, camera_keys, values.notes);
-    note_unknown_keys(path, focus, focus_keys, values.notes);
+    note_unknown_keys(path, root, camera_keys, focus_keys, "into a focus setting", values.notes);
+    note_unknown_keys(path, focus, focus_keys, camera_keys, "beside the focus settings",
+                      values.notes);
   }
   return values;
 }

@@ -1,5 +1,6 @@
 #include "lens/camera_metadata.h"
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -10,6 +11,8 @@ namespace defray {
 namespace {
 
 constexpr double degrees_in_radian = 180 / std::numbers::pi;
+/// Fields of view are below this.
+constexpr double half_turn_deg = 180;
 /// V-Ray's distance to a target that the camera has not.
 constexpr double no_distance = 1e17;
 
@@ -23,15 +26,27 @@ const std::pair<const char*, MetadataField> metadata_fields[] = {
     {"focus_distance_units", &CameraValues::focus_distance_units},
 };
 
+bool is_fov(const CameraAttribute& a) { return a.field == std::string("fov_deg"); }
+
+/// What a number says; nothing where it cannot be meant.
+std::optional<double> value_of(const CameraAttribute& a, double number) {
+  const bool is_focus = a.field == std::string("focus_distance_units");
+  if (!(number > 0) || (std::isinf(number) && !is_focus)) return std::nullopt;
+  double factor = a.factor > 0 ? a.factor : 1;
+  // Redshift's manual says radians; what scripts find in its files is degrees.
+  if (a.factor == degrees_in_radian && number > std::numbers::pi) factor = 1;
+  const double value = number * factor;
+  return is_fov(a) && value >= half_turn_deg ? std::nullopt : std::optional(value);
+}
+
 double usable_value(const ImageFile& file, const FoundAttribute& found) {
   if (found.value) return *found.value;
   const CameraAttribute& attribute = found.attribute;
-  fail(
-      ErrorKind::input,
-      "{}: its metadata has '{}' = '{}', which is no {} ({}): it must be a number above 0; {} wins "
-      "over it",
-      file.path(), attribute.name, found.text, attribute.field, attribute.written,
-      field(attribute.field));
+  fail(ErrorKind::input,
+       "{}: its metadata has '{}' = '{}', which is no {} ({}): it must be a number above 0{}; {} "
+       "wins over it",
+       file.path(), attribute.name, found.text, attribute.field, attribute.written,
+       is_fov(attribute) ? ", below 180 degrees" : "", field(attribute.field));
 }
 
 /// Whether these say what the field does, by this number or another.
@@ -53,7 +68,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"focal_length_mm", "pinholeFocalLength", 1, "OpenEXR"},
       {"focal_length_mm", "exr/nuke/camera/focal", 1, "Nuke"},
       {"focal_length_mm", "nuke/camera/focal", 1, "Nuke"},
-      {"focal_length_mm", "cameraFocalLength", 1, "V-Ray"},
+      {"focal_length_mm", "cameraFocalLength", 1, "V-Ray, Arnold"},
       {"focal_length_mm", "vray/cameraFocalLength", 1, "V-Ray"},
       {"focal_length_mm", "IFM_focalLength", 1, "Iray"},
       {"focal_length_mm", "Lens", 1, "Blender"},
@@ -61,6 +76,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"sensor_width_mm", "nuke/camera/haperture", 1, "Nuke"},
       {"sensor_width_mm", "cameraAperture", 1, "V-Ray"},
       {"sensor_width_mm", "vray/cameraAperture", 1, "V-Ray"},
+      {"sensor_width_mm", "CameraFilmApertureHorizontal", 1, "Arnold"},
       {"fov_deg", "cameraFov", 1, "V-Ray"},
       {"fov_deg", "rs/camera/fov", degrees_in_radian, "Redshift"},
       {"fstop", "FNumber", 1, "OpenEXR"},
@@ -70,6 +86,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"fstop", "vray/cameraFNumber", 1, "V-Ray"},
       {"fstop", "exr/nuke/camera/fstop", 1, "Nuke"},
       {"fstop", "nuke/camera/fstop", 1, "Nuke"},
+      {"fstop", "rs/camera/FStop", 1, "Redshift"},
       {"focus_distance_units", "focus", 0, "OpenEXR"},
       {"focus_distance_units", "Exif:SubjectDistance", 0, "EXIF"},
       {"focus_distance_units", "exr/nuke/camera/focal_point", 1, "Nuke"},
@@ -77,6 +94,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"focus_distance_units", "cameraFocusDistance", 1, "V-Ray"},
       {"focus_distance_units", "cameraTargetDistance", 1, "V-Ray"},
       {"focus_distance_units", "vray/cameraFocusDistance", 1, "V-Ray"},
+      {"focus_distance_units", "rs/camera/DOFFocusDistance", 1, "Redshift"},
   };
   return all;
 }
@@ -87,10 +105,10 @@ std::optional<FoundAttribute> find_attribute(const ImageFile& file,
   if (!text) return std::nullopt;
   const std::optional<double> number = file.metadata_number(attribute.name);
   FoundAttribute found{attribute, *text, {}};
-  if (!number || !(*number > 0)) return found;
+  if (!number) return found;
   const bool is_focus = attribute.field == std::string("focus_distance_units");
-  if (is_focus && *number >= no_distance) return std::nullopt;
-  found.value = *number * (attribute.factor > 0 ? attribute.factor : 1);
+  if (is_focus && *number >= no_distance && !std::isinf(*number)) return std::nullopt;
+  found.value = value_of(attribute, *number);
   return found;
 }
 

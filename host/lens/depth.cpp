@@ -24,7 +24,7 @@ bool is_in_range(DepthKind kind) {
 
 /// A number of the wrong sign, and so only by rule background.
 bool is_behind_camera(double stored, const DepthSettings& s) {
-  if (s.background || is_in_range(s.kind) || s.kind == DepthKind::inverse) return false;
+  if (s.background || is_in_range(s.kind)) return false;
   return s.kind == DepthKind::negative_z ? stored > 0 && stored < far_away : stored < 0;
 }
 
@@ -56,6 +56,13 @@ double planar_depth(double stored, const DepthSettings& s, double share) {
   fail(ErrorKind::internal, "a depth kind that is not known");
 }
 
+/// What to do about depths of the wrong sign.
+std::string remedy(DepthKind kind) {
+  if (kind == DepthKind::negative_z) return field("depth.kind") + " z is the usual sign";
+  if (kind == DepthKind::inverse) return "1/z is above 0, 0 is background; turn its sign";
+  return "it looks like camera-space -z; say so with " + field("depth.kind") + " negative-z";
+}
+
 /// Depths of the wrong sign, more of them than others, make no picture.
 void refuse_wrong_sign(const DepthReport& r, const DepthSettings& s, std::size_t pixels,
                        const std::string& path) {
@@ -64,10 +71,7 @@ void refuse_wrong_sign(const DepthReport& r, const DepthSettings& s, std::size_t
   fail(ErrorKind::input, "{}: depth is {} in {} px ({:.1f} % of all), {} in {} px only: {}", path,
        is_minus ? "negative" : "positive", r.behind_camera,
        100.0 * static_cast<double>(r.behind_camera) / static_cast<double>(pixels),
-       is_minus ? "positive" : "negative", pixels - r.background,
-       is_minus
-           ? "it looks like camera-space -z; say so with " + field("depth.kind") + " negative-z"
-           : field("depth.kind") + " z is the usual sign");
+       is_minus ? "positive" : "negative", pixels - r.background, remedy(s.kind));
 }
 
 }  // namespace

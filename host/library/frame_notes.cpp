@@ -25,7 +25,7 @@ void note_depth(const DepthPlane& depth, const DepthSettings& settings, const De
     notes.push_back(
         "the depth has 8 bits, 256 steps: surfaces become terraces; render it as 32-bit float");
   }
-  if (depth.integer_bits > 0 && !is_range) {
+  if (depth.integer_bits > 0 && settings.kind == DepthKind::z) {  // others were asked for
     notes.push_back(fmt::format(
         "the depth is stored as whole numbers of {} bits, 0 to 1, and taken as {:g} to "
         "{:g} units: a range from near to far is {} normalized",
@@ -39,12 +39,13 @@ void note_depth(const DepthPlane& depth, const DepthSettings& settings, const De
   }
   if (report.behind_camera > 0) {
     const bool is_negative = settings.kind != DepthKind::negative_z;
-    notes.push_back(fmt::format(
-        "depth is {} in {} px ({:.1f} %), taken as background{}",
-        is_negative ? "negative" : "positive", report.behind_camera,
-        100.0 * static_cast<double>(report.behind_camera) /
-            static_cast<double>(depth.values.size()),
-        is_negative ? "; camera-space -z is " + field("depth.kind") + " negative-z" : ""));
+    notes.push_back(fmt::format("depth is {} in {} px ({:.1f} %), taken as background{}",
+                                is_negative ? "negative" : "positive", report.behind_camera,
+                                100.0 * static_cast<double>(report.behind_camera) /
+                                    static_cast<double>(depth.values.size()),
+                                settings.kind == DepthKind::z
+                                    ? "; camera-space -z is " + field("depth.kind") + " negative-z"
+                                    : ""));
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/core/ocl.hpp>
 #include <opencv2/quality/qualityssim.hpp>
 
@@ -51,13 +50,14 @@ Errors errors_over(const std::vector<Plane>& a, const std::vector<Plane>& b,
   return errors;
 }
 
+template <typename IsCounted>
 void find_worst(const std::vector<Plane>& a, const std::vector<Plane>& b, int width,
-                Comparison& result) {
+                const IsCounted& is_counted, Comparison& result) {
   std::size_t at = 0;
   for (std::size_t c = 0; c < rgb && !std::isnan(result.worst); ++c) {
     for (std::size_t i = 0; i < a[c].size() && !std::isnan(result.worst); ++i) {
       const double error = std::fabs(difference(a[c][i], b[c][i]));
-      if (error <= result.worst) continue;  // a NaN is worse than anything
+      if (error <= result.worst || !is_counted(i)) continue;  // a NaN is worse than anything
       result.worst = error;
       at = i;
     }
@@ -77,20 +77,27 @@ cv::Mat encoded_bytes(const Plane& plane, int width) {
   return image;
 }
 
-double mean_ssim(const std::vector<Plane>& a, const std::vector<Plane>& b, int width) {
+/// Where a mask is, which may be empty.
+double mean_ssim(const std::vector<Plane>& a, const std::vector<Plane>& b, int width,
+                 const std::vector<std::uint8_t>& mask) {
   cv::ocl::setUseOpenCL(false);  // one result, whatever devices there are
   double sum = 0;
   for (std::size_t c = 0; c < rgb; ++c) {
-    sum += cv::quality::QualitySSIM::compute(encoded_bytes(a[c], width), encoded_bytes(b[c], width),
-                                             cv::noArray())[0];
+    cv::Mat map;
+    const double all = cv::quality::QualitySSIM::compute(encoded_bytes(a[c], width),
+                                                         encoded_bytes(b[c], width), map)[0];
+    sum += mask.empty() ? all : cv::mean(map, cv::Mat(mask, false).reshape(1, map.rows))[0];
   }
   return sum / rgb;
 }
 
-double energy(const std::vector<Plane>& picture) {
+template <typename IsCounted>
+double energy(const std::vector<Plane>& picture, const IsCounted& is_counted) {
   double sum = 0;
   for (std::size_t c = 0; c < rgb; ++c) {
-    sum = std::accumulate(picture[c].begin(), picture[c].end(), sum);
+    for (std::size_t i = 0; i < picture[c].size(); ++i) {
+      if (is_counted(i)) sum += static_cast<double>(picture[c][i]);
+    }
   }
   return sum;
 }
@@ -104,12 +111,14 @@ void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b)
   }
 }
 
-Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width) {
+Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width,
+                   const std::vector<std::uint8_t>& mask) {
   require_same_size(a, b);
-  Comparison result{errors_over(a, b, [](std::size_t) { return true; })};
-  find_worst(a, b, width, result);
-  result.ssim = mean_ssim(a, b, width);
-  result.energy_ratio = energy(a) / energy(b);
+  const auto is_counted = [&](std::size_t i) { return mask.empty() || mask[i] == 1; };
+  Comparison result{errors_over(a, b, is_counted)};
+  find_worst(a, b, width, is_counted, result);
+  result.ssim = mean_ssim(a, b, width, mask);
+  result.energy_ratio = energy(a, is_counted) / energy(b, is_counted);
   return result;
 }
 

@@ -32,8 +32,10 @@ struct Comparison : Errors {
 /// Throws Error(usage) when sizes differ or R G B lack.
 void require_same_size(const std::vector<Plane>& a, const std::vector<Plane>& b);
 
-/// Compares two pictures of equal size. Throws Error(usage) when sizes differ or R G B lack.
-Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width);
+/// Compares two pictures of equal size where `mask` is 1; empty: everywhere. (SSIM: of the windows
+/// around those pixels.) Throws Error(usage) when sizes differ or R G B lack.
+Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int width,
+                   const std::vector<std::uint8_t>& mask = {});
 
 /// Errors over the pixels where `mask` has `value`. PSNR and RMS are NaN where there are none.
 Errors errors_where(const std::vector<Plane>& a, const std::vector<Plane>& b,

@@ -23,14 +23,15 @@ std::optional<std::size_t> find(const std::vector<std::string>& names, const std
 
 }  // namespace
 
-void check_memory_for(std::uint64_t points, const std::string& path) {
+void check_memory_for(std::uint64_t points, const std::string& path, const std::string& how_known) {
   const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
                                static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
   if (points <= memory / bytes_a_point && points < 0xffffffffu) return;
   fail(ErrorKind::input,
-       "{}: says it has {} points, which need about {:.0f} MiB of memory; there are {}: thin it "
+       "{}: {} {} points, which need about {:.0f} MiB of memory; there are {}: thin it "
        "out, or split it",
-       path, points, static_cast<double>(points) * bytes_a_point / 1048576, memory >> 20);
+       path, how_known, points, static_cast<double>(points) * bytes_a_point / 1048576,
+       memory >> 20);
 }
 
 CloudColumns::CloudColumns(const std::vector<std::string>& given_names,

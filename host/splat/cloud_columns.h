@@ -11,7 +11,8 @@
 namespace defray {
 
 /// Throws Error(input) where that many points need more memory than the machine has.
-void check_memory_for(std::uint64_t points, const std::string& path);
+void check_memory_for(std::uint64_t points, const std::string& path,
+                      const std::string& how_known = "says it has");
 
 /// Rows to points.
 class CloudColumns {

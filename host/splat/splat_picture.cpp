@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/stopwatch.h"
+#include "base/vec3.h"
 #include "splat/cut.h"
 #include "splat/view.h"
 
@@ -24,6 +25,16 @@ void describe(const std::vector<DefraySplat>& splats, const DefraySplatParams& p
   report.farthest_units = farthest;
   report.nearest_coc_px = splat_coc_px(p, nearest);
   report.farthest_coc_px = splat_coc_px(p, farthest);
+}
+
+/// The share of nodes whose normals point away from the camera.
+double share_from_behind(const std::vector<DefraySplatNode>& nodes, const DefraySplatParams& p) {
+  const auto is_away = [&](const DefraySplatNode& n) {
+    const Vec3 from_eye = Vec3{n.x, n.y, n.z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
+    return dot({n.area_x, n.area_y, n.area_z}, from_eye) >= 0;
+  };
+  const auto count = std::count_if(nodes.begin(), nodes.end(), is_away);
+  return nodes.empty() ? 0 : static_cast<double>(count) / static_cast<double>(nodes.size());
 }
 
 void make_transparent(std::vector<DefraySplatNode>& nodes, double transparency) {
@@ -67,6 +78,7 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   std::vector<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
   make_transparent(nodes, transparency);
   report.drawn = nodes.size();
+  if (params.one_sided) report.from_behind = share_from_behind(nodes, params);
   done("cut");
   std::vector<DefraySplat> splats = backend.splat_project(nodes, params);
   done("project");

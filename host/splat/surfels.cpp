@@ -74,6 +74,33 @@ void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t
   }
 }
 
+/// What is estimated has no outside: that of the given ones around it.
+void take_sides(const std::vector<std::uint8_t>& is_given, CloudPoints& cloud) {
+  parallel_for_each(cloud.points.size(), [&](std::size_t i) {
+    if (is_given[i]) return;
+    double same = 0;
+    for (const std::uint32_t other : cloud.around.of(i)) {
+      if (is_given[other]) same += dot(cloud.points[i].normal, cloud.points[other].normal);
+    }
+    if (same < 0) cloud.points[i].normal = -cloud.points[i].normal;
+  });
+}
+
+/// Points whose normal most of those around point against: flipped. Of two sheets closer to each
+/// other than their points are, about half do.
+std::size_t count_flipped(const CloudPoints& cloud) {
+  const auto is_flipped = [&](std::size_t i) {
+    const auto around = cloud.around.of(i);
+    const auto against = std::count_if(around.begin(), around.end(), [&](std::uint32_t other) {
+      return dot(cloud.points[i].normal, cloud.points[other].normal) < -0.5;
+    });
+    return 4 * static_cast<std::size_t>(against) > 3 * around.size();
+  };
+  std::vector<std::uint8_t> flipped(cloud.points.size());
+  parallel_for_each(flipped.size(), [&](std::size_t i) { flipped[i] = is_flipped(i); });
+  return static_cast<std::size_t>(std::count(flipped.begin(), flipped.end(), 1));
+}
+
 /// Unit normals, given or estimated.
 void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>& kept,
                  CloudPoints& cloud, Surfels& out) {
@@ -87,11 +114,19 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
     }
     if (!is_given[i]) points[i].normal = estimated_normal(cloud, i);
   });
+  take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
   out.has_normals = given > 0;
   if (out.has_normals && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));
+  }
+  const std::size_t flipped = out.has_normals ? count_flipped(cloud) : 0;
+  if (flipped > 0) {
+    out.notes.push_back(
+        fmt::format("{} points have normals against those around, and are seen from the other "
+                    "side alone: flipped?",
+                    flipped));
   }
 }
 

@@ -90,7 +90,6 @@ CloudColumns columns_of(const Columns& names, const std::vector<double>& row,
 }  // namespace
 
 PointCloud read_text_cloud(std::istream& file, std::uint64_t bytes, const std::string& path) {
-  check_memory_for(bytes / 16, path);  // the shortest usual lines
   Columns names;
   std::optional<CloudColumns> columns;
   std::uint64_t line_number = 0;
@@ -113,7 +112,10 @@ PointCloud read_text_cloud(std::istream& file, std::uint64_t bytes, const std::s
       fail(ErrorKind::input, "{}: line {} has {} columns, others have {}", path, line_number,
            row->size(), names.size());
     }
-    if (!columns) columns.emplace(columns_of(names, *row, path));
+    if (!columns) {
+      check_memory_for(bytes / (line.size() + 1), path, "has, if lines are as long as the first,");
+      columns.emplace(columns_of(names, *row, path));
+    }
     columns->add(*row);
   }
   if (!columns) fail(ErrorKind::input, "{}: holds no points", path);

@@ -180,7 +180,8 @@ TEST_F(Compare, RefusesHalfAnEdgeBand) {
   refuse("a.exr b.exr --edge-step 1", 2, {"--edge-step requires --depth"});
   refuse("a.exr b.exr --depth-channel Z", 2, {"--depth-channel requires --depth"});
   const std::string lens = " --camera camera.json";
-  refuse("a.exr b.exr --depth small.exr" + lens, 3, {"small.exr has data window 20x10", "48x32"});
+  refuse("a.exr b.exr --depth small.exr" + lens, 3,
+         {"small.exr has display window 20x10", "48x32"});
   refuse("a.exr b.exr --depth a.exr" + lens, 3, {"a.exr", "no depth"});
   refuse("a.exr b.exr --depth none.exr" + lens, 3, {"none.exr"});
   refuse("a.exr b.exr --depth z.exr --camera none.json", 3, {"none.json"});
@@ -237,6 +238,17 @@ TEST_F(Compare, OnlyWhereAMaskIs) {
   EXPECT_NEAR(line["rms"], 0.5 / std::sqrt(3), 1e-6);
   EXPECT_NEAR(line["worst"], 0.5, 1e-6);
   EXPECT_EQ(code("a.exr b.exr --mask column.exr --max-error 0.1"), 1);
+  // All measures are of these pixels alone.
+  const json all = compared("a.exr b.exr");
+  EXPECT_LT(line["ssim"].get<double>() + 0.02, all["ssim"].get<double>());
+  EXPECT_LT(line["energy_ratio"].get<double>() + 0.02, all["energy_ratio"].get<double>());
+  EXPECT_EQ(compared("a.exr b.exr --mask left.exr")["energy_ratio"], 1);
+  Plane everywhere(48 * 32, 1.0f);
+  ImageFile::from_planes({"Y"}, {everywhere}, 48, 32).write(folder_ / "all.exr");
+  json masked = compared("a.exr b.exr --mask all.exr");
+  EXPECT_NEAR(masked["ssim"], all["ssim"], 1e-6);
+  masked["ssim"] = all["ssim"];
+  EXPECT_EQ(masked, all);
   refuse("a.exr b.exr --mask nothing.exr", 3, {"no pixel of the mask"});
 }
 
@@ -266,6 +278,25 @@ TEST_F(Compare, DataWindowsThatDiffer) {
   EXPECT_EQ(width_of_sheet("--windows overlap"), 2 * 4 + 8);
   EXPECT_EQ(width_of_sheet("--windows union"), 2 * 12 + 8);
   EXPECT_EQ(width_of_sheet(""), 2 * 12 + 8);
+  // Depth of another window: beyond it there is background.
+  Plane depth(8 * 4, 3.0f);
+  ImageFile::from_planes({"Z"}, {depth}, 8, 4).write(folder_ / "d.exr");
+  OIIO::ImageBuf moved(folder_ / "d.exr");
+  moved.read(0, 0, true, OIIO::TypeDesc::FLOAT);
+  moved.specmod().x = 4;
+  moved.specmod().full_width = 20;
+  moved.specmod().full_height = 4;
+  moved.write(folder_ / "d.exr");
+  const std::string by_depth = "l.exr r.exr --depth d.exr --camera camera.json";
+  const json band = compared(by_depth)["edge_band"];
+  EXPECT_GT(band["pixels"], 0);
+  EXPECT_LT(band["pixels"], 12 * 4);
+  // Cut out, the band is that of the whole.
+  EXPECT_EQ(compared(by_depth + " --crop 2x4+10+0")["edge_band"]["pixels"].get<int>() +
+                compared(by_depth + " --crop 10x4+0+0")["edge_band"]["pixels"].get<int>() +
+                compared(by_depth + " --crop 8x4+12+0")["edge_band"]["pixels"].get<int>(),
+            band["pixels"].get<int>());
+  refuse("a.exr b.exr --depth d.exr --camera camera.json", 3, {"display window 20x4+0+0"});
   write("far.exr", 12, 0.5f);
   refuse("l.exr far.exr --windows overlap", 3, {"the data windows do not overlap"});
   refuse("l.exr a.exr", 3, {"display window 20x4+0+0", "48x32+0+0"});

@@ -1,4 +1,7 @@
 // defray compare over sequences: false edges and changes.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -62,6 +65,28 @@ TEST_F(CompareSequences, PlacesAreTheDisplayWindows) {
   EXPECT_NEAR(part[1]["false_edges"]["worst_y"], 9, 1);
   EXPECT_NEAR(part[1]["false_edges"]["worst_x"], 30, 1);
   EXPECT_EQ(part[1]["false_changes"]["worst_y"], 9);
+}
+
+/// As those of tight renders whose blur grows from frame to frame.
+TEST_F(CompareSequences, WindowsThatChangeFromFrameToFrame) {
+  for (const std::string name : {"a", "b"}) {
+    OIIO::ImageBuf whole(folder_ / (name + ".0002.exr"));
+    const OIIO::ROI part(6, 40, 4, 28, 0, 1, 0, 3);
+    OIIO::ImageBuf cut = OIIO::ImageBufAlgo::cut(whole, part);
+    cut.specmod().x = 6, cut.specmod().y = 4;
+    cut.specmod().full_width = 48, cut.specmod().full_height = 32;
+    cut.write(folder_ / (name + ".0002.exr"));
+  }
+  const json line = frames("b.####.exr a.####.exr --false-edges")[1];
+  EXPECT_EQ(line["worst_x"], 30);
+  const double dot = 255 * (shown_value(0.8f) - shown_value(0.2f));
+  EXPECT_NEAR(line["false_changes"]["worst"], dot, 1e-3);
+  EXPECT_EQ(line["false_changes"]["worst_x"], 10) << "of the display window";
+  EXPECT_EQ(line["false_changes"]["worst_y"], 9);
+  ImageFile::from_planes({"Y"}, {Plane(48 * 32, 1.0f)}, 48, 32).write(folder_ / "mask.exr");
+  const json masked = frames("b.####.exr a.####.exr --false-edges --mask mask.exr")[1];
+  EXPECT_EQ(masked["false_changes"], line["false_changes"]);
+  EXPECT_EQ(masked["rms"], line["rms"]);
 }
 
 TEST_F(CompareSequences, OnlyWhereAMaskIs) {
@@ -132,7 +157,7 @@ TEST_F(CompareSequences, Mistakes) {
       .write(folder_ / "c.0002.exr");
   const Result resized = defray(folder_, "compare c.####.exr c.####.exr --false-edges");
   EXPECT_EQ(resized.code, 3);
-  EXPECT_NE(resized.err.find("c.0001.exr has data window 48x32+0+0, c.0002.exr has 3x3+0+0"),
+  EXPECT_NE(resized.err.find("c.0001.exr has display window 48x32+0+0, c.0002.exr has 3x3+0+0"),
             std::string::npos)
       << resized.err;
 }

@@ -26,6 +26,14 @@ class TradeCommand : public testing::Test {
     expect_ok(defray(folder, "scene fence -o . --width 96 --height 64 --truth-samples 4"));
   }
 
+  static json named(const json& trade, const std::string& picture) {
+    for (const json& point : trade["points"]) {
+      if (point["picture"] == picture) return point;
+    }
+    ADD_FAILURE() << "no " << picture << " in " << trade;
+    return {};
+  }
+
   void expect_refused(const std::string& options, int code, const std::vector<std::string>& words) {
     expect_refusal(defray(folder, "trade " + options), code, words, options);
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
@@ -36,24 +44,46 @@ TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
   const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens);
   ASSERT_EQ(result.code, 0) << result.err;
   const json trade = json::parse(result.out);
-  ASSERT_EQ(trade["points"].size(), 4u);
-  for (const json& point : trade["points"]) {
-    const std::string name = point["picture"];
+  const std::map<std::string, std::string> options{{"preview", "preview"},
+                                                   {"draft", "draft"},
+                                                   {"draft-13", "draft --rdb 13"},
+                                                   {"normal", "normal"},
+                                                   {"normal-18", "normal --rdb 18"},
+                                                   {"normal-25", "normal --rdb 25"},
+                                                   {"high", "high"}};
+  ASSERT_EQ(trade["points"].size(), options.size());
+  for (const auto& [name, quality] : options) {
+    const json point = named(trade, name);
     EXPECT_LT(point["low_db"], point["expected_db"]);
     EXPECT_GT(point["render_s"], 0.0);
     EXPECT_FALSE(point.contains("true_db"));
     const Result by_hand =
-        defray(folder, "render pinhole.exr -o t/hand.png" + lens + "--json " + "--quality " + name);
+        defray(folder, "render pinhole.exr -o t/hand.png" + lens + "--json --quality " + quality);
     EXPECT_EQ(json::parse(by_hand.out)["expected"]["psnr_srgb_db"], point["expected_db"]);
     EXPECT_EQ(file_hash(folder / "t/hand.png"), file_hash(folder / ("t/" + name + ".png")));
     EXPECT_EQ(point["command"],
               "defray render pinhole.exr --camera camera.json --focus-setting bg "
               "-o t/" +
-                  name + ".exr --quality " + name);
+                  name + ".exr --quality " + quality);
   }
   for (const char* file : {"index.html", "trade.png", "trade.csv"}) {
     EXPECT_GT(std::filesystem::file_size(folder / ("t/" + std::string(file))), 100u) << file;
   }
+}
+
+/// The dial among what it chooses from: its picture, and the time of its search, too.
+TEST_F(TradeCommand, ATargetIsAPointOfItsOwn) {
+  const std::string command = "trade pinhole.exr -o t --json --target-db 26" + lens;
+  const json trade = json::parse(defray(folder, command).out);
+  const json point = named(trade, "target");
+  EXPECT_GE(point["expected_db"], 26);
+  std::string by_hand = point["command"];
+  EXPECT_EQ(by_hand,
+            "defray render pinhole.exr --camera camera.json --focus-setting bg -o t/target.exr "
+            "--target-db 26");
+  by_hand.replace(by_hand.find("t/target.exr"), 12, "t/hand.png");
+  expect_ok(defray(folder, by_hand.substr(7)));
+  EXPECT_EQ(file_hash(folder / "t/hand.png"), file_hash(folder / "t/target.png"));
 }
 
 TEST_F(TradeCommand, ACutOutsLensSpansItsFrame) {
@@ -87,7 +117,7 @@ TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
   }
   const json trade =
       json::parse(defray(folder, "trade pinhole.exr -o t --json" + truth + lens).out);
-  ASSERT_EQ(trade["points"].size(), 7u);
+  ASSERT_EQ(trade["points"].size(), 10u);
   for (const json& point : trade["points"]) {
     const std::string name = point["picture"];
     const std::string command = point["command"];
@@ -99,8 +129,8 @@ TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
   // The stages' bokeh is not the others'.
   const json bladed =
       json::parse(defray(folder, "trade pinhole.exr -o t --json --blades 5" + truth + lens).out);
-  EXPECT_EQ(bladed["points"].size(), 4u);
-  EXPECT_NE(bladed["points"][2]["true_db"], trade["points"][2]["true_db"]);
+  EXPECT_EQ(bladed["points"].size(), 7u);
+  EXPECT_NE(named(bladed, "normal")["true_db"], named(trade, "normal")["true_db"]);
   EXPECT_EQ(defray(folder, "trade pinhole.exr -o t -q" + lens).out, "");
 }
 
@@ -158,7 +188,7 @@ TEST_F(TradeCommand, ATruthOfAPartIsComparedThere) {
   expect_ok(defray(folder, "render pinhole.exr -o out.exr --quality draft" + lens));
   const json there =
       json::parse(defray(folder, "compare out.exr truth_bg.exr --crop 30x20+30+20 --json").out);
-  EXPECT_NEAR(trade["points"][1]["true_db"], there["psnr_srgb_db"], 0.01);
+  EXPECT_NEAR(named(trade, "draft")["true_db"], there["psnr_srgb_db"], 0.01);
 }
 
 TEST_F(TradeCommand, WhatIsNoTruthOrNoFileIsRefused) {
@@ -206,7 +236,7 @@ TEST_F(TradeCommand, ATruthsLayerIsTheInputs) {
       defray(folder, "trade in.exr -o t --json --layer a --truth layers.exr" + lens).out);
   const json plain =
       json::parse(defray(folder, "trade pinhole.exr -o t --json --truth truth_bg.exr" + lens).out);
-  EXPECT_NEAR(layered["points"][2]["true_db"], plain["points"][2]["true_db"], 0.01);
+  EXPECT_NEAR(named(layered, "normal")["true_db"], named(plain, "normal")["true_db"], 0.01);
   expect_refused("in.exr -o none --layer b --truth lost.exr" + lens, 3, {"lost.exr"});
 }
 

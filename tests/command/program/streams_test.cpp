@@ -39,6 +39,16 @@ TEST_F(Streams, ClosedOnesEndNothingAndGetNoFilesNumber) {
     EXPECT_EQ(run(prints, ">&-").code, 4) << prints;
   }
   EXPECT_EQ(run(psf + " --csv psf.csv", ">&-").code, 0);
+  // A bound is told by the exit code, a sheet is a file.
+  EXPECT_EQ(run("compare in.exr in.exr --min-psnr 40", ">&-").code, 0);
+  EXPECT_EQ(run("compare in.exr in.exr --min-ssim 1.0 --max-error 0", ">&-").code, 0);
+  expect_ok(run("render in.exr -o blurred.exr --focus 3 --fstop 0.1 --focal-length 50", ""));
+  EXPECT_EQ(run("compare in.exr blurred.exr --min-psnr 90", ">&-").code, 1);
+  EXPECT_EQ(run("compare in.exr in.exr --sheet sheet.png", ">&-").code, 0);
+  for (const std::string prints : {"--help", "render --help", "--version"}) {
+    EXPECT_EQ(run(prints, ">/dev/full").code, 4) << prints;
+    EXPECT_EQ(run(prints, "").code, 0) << prints;
+  }
   EXPECT_EQ(run("info in.exr", ">&-").err, run("info in.exr", ">/dev/full").err);
 }
 
@@ -47,6 +57,18 @@ TEST_F(Streams, APictureForAClosedOutputIsRefused) {
   EXPECT_EQ(closed.code, 4);
   EXPECT_EQ(closed.err,
             "defray: error: standard output: is closed: no picture can be written there\n");
+}
+
+TEST_F(Streams, OnlyThePictureOfARenderComesFromThere) {
+  const std::string depth = "render in.exr --depth - -o o.exr" + lens;
+  for (const std::string& reads : {std::string("info -"), std::string("compare in.exr -"), depth}) {
+    const Result result = run(reads, "<in.exr");
+    EXPECT_EQ(result.code, 3) << reads;
+    EXPECT_NE(result.err.find("-: no such file; standard input can be the picture that is "
+                              "rendered, nothing else"),
+              std::string::npos)
+        << result.err;
+  }
 }
 
 TEST_F(Streams, MessagesCallTheStreamsByTheirNames) {

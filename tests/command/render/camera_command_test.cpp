@@ -86,6 +86,10 @@ TEST_F(Camera, ACutOutIsBlurredAsTheWholeFrame) {
   EXPECT_NEAR(cropped["farthest_coc_px"].get<double>() / alone["farthest_coc_px"].get<double>(),
               48.0 / 20, 0.05);
   EXPECT_EQ(ImageFile::read(folder_ / "o.exr").parts()[0].display, (Window{0, 0, 20, 12}));
+  // Places are the picture's, as any viewer shows them.
+  const std::string at = " -o o.exr --focus-at 15,7 --fstop 1 --focal-length 50";
+  EXPECT_EQ(report("part.exr --full-size 48x32+10+8" + at)["focus_distance_units"],
+            report("part.exr" + at)["focus_distance_units"]);
   expect_refused("part.exr --full-size 48x32+30+8" + options, 3,
                  {"part.exr: has 20x12 pixels, which do not fit into --full-size 48x32+30+8"});
   for (const std::string bad : {"48x32", "48x32+1", "0x32+0+0", "48x32-1+0", "ax2+0+0"}) {

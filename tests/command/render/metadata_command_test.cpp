@@ -103,6 +103,27 @@ TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
                   "exr/nuke/camera/focal"});
 }
 
+TEST_F(Metadata, WhatNoLensHasIsRefused) {
+  for (const std::string name : {"cameraFov", "rs/camera/fov"}) {
+    write("wide_angle.exr", [&](OIIO::ImageSpec& spec) { spec.attribute(name, 180.0f); });
+    expect_refused(
+        "wide_angle.exr -o o.exr --camera from-metadata --focus 3 --fstop 2", 3,
+        {"wide_angle.exr: its metadata has '" + name + "' = '180'", "above 0, below 180 degrees"});
+  }
+  write("long.exr", [](OIIO::ImageSpec& spec) { spec.attribute("cameraFocalLength", HUGE_VALF); });
+  expect_refused("long.exr -o o.exr --camera from-metadata --focus 3 --fstop 2", 3,
+                 {"'cameraFocalLength' = 'inf'"});
+}
+
+TEST_F(Metadata, FocusMayBeAtInfinity) {
+  write("far.exr", [](OIIO::ImageSpec& spec) { spec.attribute("focus", HUGE_VALF); });
+  const std::string optics = " -o o.exr --fstop 0.1 --focal-length 50";
+  report("far.exr --camera from-metadata" + optics);
+  const std::uint64_t from_metadata = file_hash(folder_ / "o.exr");
+  report("far.exr --focus inf" + optics);
+  EXPECT_EQ(file_hash(folder_ / "o.exr"), from_metadata);
+}
+
 TEST_F(Metadata, OptionsWinOverWhatCannotBeRead) {
   const struct {
     const char *attribute, *option, *stated;

@@ -81,6 +81,9 @@ TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
               "0.457771 units: a range from near to far is --depth-kind normalized");
   EXPECT_EQ(said("in.exr --depth z16.png -o o.exr" + range + usual_).find("whole numbers"),
             std::string::npos);
+  EXPECT_EQ(said("in.exr --depth z16.png -o o.exr --depth-kind inverse" + usual_).find("whole"),
+            std::string::npos)
+      << "asked for";
   EXPECT_EQ(said("in.exr -o o.exr" + usual_).find("bits"), std::string::npos);
   expect_refused("in.exr --depth rgb.png -o o.exr" + usual_,
                  {"rgb.png: no depth", "--depth-channel R where the depth is stored as grey"});
@@ -154,6 +157,28 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
   expect_note(camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
                          "f_stop": 2, "colour": "red"}}})"),
               "camera.json: key 'colour' is not known, and ignored\n");
+  // What is known, but of another place.
+  const std::string misplaced =
+      camera(R"({"focal_length_mm": 50, "f_stop": 2, "fstopp": 2, "focus_settings": {"a":
+                 {"focus_distance_m": 3, "f_stop": 2, "sensor_width_mm": 24}}})");
+  expect_note(misplaced,
+              "camera.json: key 'f_stop' is ignored here: it belongs into a focus setting\n");
+  expect_note(misplaced,
+              "camera.json: key 'fstopp' is not known, and ignored; did you mean "
+              "'f_stop'?");
+  expect_note(misplaced,
+              "camera.json: key 'sensor_width_mm' is ignored here: it belongs beside "
+              "the focus settings\n");
+  const std::string without_settings =
+      camera(R"({"focal_length_mm": 50, "f_stop": 2, "focus_distance_m": 3,
+                 "focus_settings": {}})");
+  EXPECT_EQ(said(without_settings).find("key '"), std::string::npos);
+  camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "fstopp": 2})");
+  const std::string splat =
+      defray(folder_, "splat --model plane -o p.exr --camera camera.json").err;
+  EXPECT_EQ(splat.find("'fstopp'"), splat.rfind("'fstopp'")) << "said once: " << splat;
+  camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
+             "f_stop": 2, "colour": "red"}}})");
   for (const std::string command :
        {"splat --model plane --model-points 400 -o p.exr --camera camera.json --focus-setting a",
         "compare in.exr in.exr --depth in.exr --camera camera.json --focus-setting a",

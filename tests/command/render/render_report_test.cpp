@@ -92,7 +92,7 @@ TEST(RenderReport, TextHasEveryFigure) {
       "12 % detail\n"
       "  note: a note\n"
       "  note: 6 NaN or Inf colour values set to 0\n"
-      "  note: 3 stored depths lie outside 0...1: is this normalized depth?\n"
+      "  note: 3 stored depths lie outside 0...1: are they of this kind?\n"
       "  note: CoC limited in 5 px\n"
       "  note: depth looks anti-aliased: 11 px repaired (--repair off leaves them)\n"
       "  note: the border goes on for 15 px: rays from further out do not count\n"

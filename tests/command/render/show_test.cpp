@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/srgb.h"
 #include "command/program.h"
 
 namespace defray::test::show_test {
@@ -50,15 +51,24 @@ double difference(const Screen& a, const Screen& b) {
   return static_cast<double>(count) / (200 * 150);
 }
 
-/// The mean difference to a file of the window's size, in levels of 255.
-double levels_between(const Screen& screen, const ImageFile& file) {
+/// R G B as they are shown, 0 to 255.
+std::vector<Plane> levels_of(const ImageFile& file) {
+  std::vector<Plane> levels;
+  for (const int channel : {0, 1, 2}) {
+    Plane& plane = levels.emplace_back(file.plane(0, channel));
+    for (float& value : plane) value = std::round(static_cast<float>(255 * shown_value(value)));
+  }
+  return levels;
+}
+
+/// The mean difference to a picture of the window's size.
+double levels_between(const Screen& screen, const std::vector<Plane>& levels) {
   double sum = 0;
-  for (int channel = 0; channel < 3; ++channel) {
-    const Plane plane = file.plane(0, channel);
-    for (std::size_t i = 0; i < plane.size(); ++i) {
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t i = 0; i < levels[channel].size(); ++i) {
       const std::uint32_t pixel = screen.pixels[i / 200 * screen.width + i % 200];
       const auto level = static_cast<float>(pixel >> (16 - 8 * channel) & 255);
-      sum += static_cast<double>(std::fabs(level - 255 * plane[i]));
+      sum += static_cast<double>(std::fabs(level - levels[channel][i]));
     }
   }
   return sum / (3 * 200 * 150);
@@ -87,14 +97,16 @@ class ShowWindow : public testing::Test {
   /// Runs --show on the two frames, does `events` (xdotool's on $window, `snap NAME`), and gives
   /// what the program printed.
   Result show(const std::string& options, const std::string& events) const {
+    return show_command("render s.####.exr -o o.####.exr --show " + options, events);
+  }
+  Result show_command(const std::string& command, const std::string& events) const {
     const std::string display = ":" + std::to_string(100 + getpid() % 800);
     std::ofstream(folder_ / "events.sh")
         << "export DISPLAY=" << display << "; unset WAYLAND_DISPLAY\n"
         << "Xvfb $DISPLAY -screen 0 640x480x24 -fbdir . >/dev/null 2>&1 & server=$!\n"
         << "n=0; until xdotool getdisplaygeometry >/dev/null 2>&1 || [ $n -gt 100 ]; do sleep 0.1; "
            "n=$((n+1)); done\n"
-        << program() << " render s.####.exr -o o.####.exr --show " << options
-        << " >said 2>err & job=$!\n"
+        << program() << " " << command << " >said 2>err & job=$!\n"
         << "window=$(timeout 60 xdotool search --sync --onlyvisible --name defray | head -1)\n"
         << "settle() { old=; for i in $(seq 40); do sleep 0.2; new=$(md5sum <Xvfb_screen0); "
            "[ \"$new\" = \"$old\" ] && break; old=$new; done; }\n"
@@ -191,12 +203,21 @@ TEST_F(ShowWindow, ArrowsMoveFocusAndFNumber) {
                      "render s.0002.exr -o r.png --focal-length 50 --focus-at 30,70 "
                      "--fstop 0.6299 --quality " +
                          quality));
-    return levels_between(screen("clicked"), ImageFile::read(folder_ / "r.png", Content::data));
+    return levels_between(screen("clicked"), levels_of(ImageFile::read(folder_ / "r.png")));
   };
   EXPECT_EQ(levels_from("preview"), 0);
   EXPECT_GT(levels_from("normal"), 1);
   EXPECT_NE(result.out.find("--focal-length 50 --focus 2 --fstop 0.6299"), std::string::npos)
       << result.out;
+}
+
+TEST_F(ShowWindow, APointCloudIsThePictureThatIsWritten) {
+  SKIP_UNLESS_FULL();
+  show_command(
+      "splat --model figure --model-points 2000 --size 200x150 -o o.exr --show "
+      "--aperture-diameter 900 --focal-length 50",
+      "xdotool mousemove 600 400; titled 'defray: o.exr'; snap seen");
+  EXPECT_EQ(levels_between(screen("seen"), levels_of(ImageFile::read(folder_ / "o.exr"))), 0);
 }
 
 /// Where what the keys say and what was typed leave a camera file nothing to say, render refuses

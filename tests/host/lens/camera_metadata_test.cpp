@@ -41,6 +41,7 @@ TEST(CameraMetadata, FocalLengthsAreMillimetres) {
                                                  {"Exif:FocalLength", 35, 35},
                                                  {"cameraFocalLength", 35, 35},
                                                  {"vray/cameraFocalLength", 35, 35},
+                                                 {"CameraFocalLength", 35, 35},
                                                  {"IFM_focalLength", 35, 35},
                                                  {"Lens", 35, 35}});
 }
@@ -49,8 +50,12 @@ TEST(CameraMetadata, SensorsAreMillimetresAndFieldsOfViewDegrees) {
   expect_values(&CameraValues::sensor_width_mm, {{"exr/nuke/camera/haperture", 24, 24},
                                                  {"nuke/camera/haperture", 24, 24},
                                                  {"cameraAperture", 24, 24},
-                                                 {"vray/cameraAperture", 24, 24}});
-  expect_values(&CameraValues::fov_deg, {{"cameraFov", 40, 40}, {"rs/camera/fov", 1.0471976, 60}});
+                                                 {"vray/cameraAperture", 24, 24},
+                                                 {"CameraFilmApertureHorizontal", 24, 24}});
+  // Redshift's may be either.
+  expect_values(
+      &CameraValues::fov_deg,
+      {{"cameraFov", 40, 40}, {"rs/camera/fov", 1.0471976, 60}, {"rs/camera/fov", 40, 40}});
 }
 
 TEST(CameraMetadata, FStopsAreThemselves) {
@@ -60,7 +65,8 @@ TEST(CameraMetadata, FStopsAreThemselves) {
                                        {"cameraFNumber", 2.8, 2.8},
                                        {"vray/cameraFNumber", 2.8, 2.8},
                                        {"exr/nuke/camera/fstop", 2.8, 2.8},
-                                       {"nuke/camera/fstop", 2.8, 2.8}});
+                                       {"nuke/camera/fstop", 2.8, 2.8},
+                                       {"rs/camera/FStop", 2.8, 2.8}});
 }
 
 TEST(CameraMetadata, FocusIsMetresOfCamerasAndUnitsOfScenes) {
@@ -70,7 +76,8 @@ TEST(CameraMetadata, FocusIsMetresOfCamerasAndUnitsOfScenes) {
                                                       {"nuke/camera/focal_point", 3, 3},
                                                       {"cameraFocusDistance", 3, 3},
                                                       {"cameraTargetDistance", 3, 3},
-                                                      {"vray/cameraFocusDistance", 3, 3}});
+                                                      {"vray/cameraFocusDistance", 3, 3},
+                                                      {"rs/camera/DOFFocusDistance", 3, 3}});
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(Depth, Inverse) {
 }
 
 TEST(Depth, WhatIsNoDepthIsNotBehindTheCamera) {
-  for (const DepthKind kind : {DepthKind::inverse, DepthKind::normalized, DepthKind::zbuffer}) {
+  for (const DepthKind kind : {DepthKind::normalized, DepthKind::zbuffer}) {
     DepthSettings settings;
     settings.kind = kind;
     settings.near_units = 1;
@@ -71,6 +71,10 @@ TEST(Depth, WhatIsNoDepthIsNotBehindTheCamera) {
   }
   DepthReport report;
   converted({0.5f, 2, -1, 4, 1}, {}, &report);
+  EXPECT_EQ(report.behind_camera, 1u);
+  DepthSettings inverse;
+  inverse.kind = DepthKind::inverse;
+  converted({0.5f, 2, -1, 0, 1}, inverse, &report);
   EXPECT_EQ(report.behind_camera, 1u);
 }
 
@@ -212,6 +216,12 @@ TEST(Depth, WrongSignsAreCountedAndRefusedWhereTheyAreMost) {
   expect_error(ErrorKind::input, {"positive in 5 px (100.0 % of all), negative in 0 px only"}, [&] {
     converted({2, 3, 4, 5, 6}, turned);
   });
+  DepthSettings inverse;
+  inverse.kind = DepthKind::inverse;
+  expect_error(ErrorKind::input,
+               {"negative in 3 px (60.0 % of all), positive in 2 px only: 1/z is above 0"}, [&] {
+                 converted({2, 3, -4, -5, -6}, inverse);
+               });
   DepthSettings background;
   background.background = -1;
   EXPECT_EQ(converted({-1, -1, -1, -1, 3}, background, &report)[4], 3);

@@ -173,6 +173,21 @@ TEST_F(CloudFile, MorePointsThanMemoryAreRefusedBeforeTheyAreRead) {
   }
 }
 
+/// Of text by the length of its first point's line.
+TEST_F(CloudFile, MorePointsThanMemoryAreRefusedAtTheFirstLine) {
+  const std::string name = write("huge.xyz", "# x y z, and a long line of comment\n0 0 0\n1 0 0\n");
+  std::filesystem::resize_file(name, 600000000000);
+  try {
+    read_point_cloud(name);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("has, if lines are as long as the first, 100000000000 points, which need"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(PointCloudModels, AreWhatTheirNamesSay) {
   for (const std::string name : {"plane", "figure", "crossing", "mask"}) {
     const PointCloud cloud = make_point_cloud(name, 900);

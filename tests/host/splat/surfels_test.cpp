@@ -97,6 +97,28 @@ TEST(Surfels, NotesWhatItLeavesOutOrEstimates) {
   for (const DefraySplatNode& n : surfels.points) EXPECT_GT(area_of(n), 0);
 }
 
+TEST(Surfels, EstimatedNormalsHaveTheSideOfGivenOnes) {
+  for (const float side : {1.0f, -1.0f}) {
+    PointCloud cloud = slope(9);
+    cloud.normals.assign(cloud.positions.size(), {0, 0, side});
+    for (std::size_t i = 0; i < cloud.normals.size(); i += 3) cloud.normals[i] = {0, 0, 0};
+    for (const DefraySplatNode& n : make_surfels(cloud).points) EXPECT_GT(side * n.area_z, 0);
+  }
+}
+
+TEST(Surfels, NotesFlippedNormals) {
+  PointCloud cloud = slope(9);
+  cloud.normals.assign(cloud.positions.size(), {0, 0, 1});
+  EXPECT_TRUE(make_surfels(cloud).notes.empty());
+  for (const std::size_t i : {20, 40, 60}) cloud.normals[i] = {0, 0, -2};
+  EXPECT_EQ(make_surfels(cloud).notes,
+            std::vector<std::string>{"3 points have normals against those around, and are seen "
+                                     "from the other side alone: flipped?"});
+  for (const char* model : {"plane", "figure", "crossing", "mask"}) {
+    EXPECT_TRUE(make_surfels(make_point_cloud(model, 3000)).notes.empty()) << model;
+  }
+}
+
 TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
   PointCloud cloud = slope(9);
   for (int i = 0; i < 40; ++i) cloud.positions.push_back({0.4f, 0.4f, 0.2f});

@@ -144,6 +144,29 @@ TEST(SplatProject, CircumellipseIsTheSmallestAroundLowPassAndBlur) {
   }
 }
 
+/// A scene and a camera that turn together see the same: the ellipse turns with them.
+TEST(SplatProject, CircumellipseTurnsWithTheLowPass) {
+  const DefraySplatParams p = view_of(256, 4, 100);
+  const double scale = 256 * 50.0 / 36 / 2, blur = std::pow(splat_coc_px(p, 2), 2);
+  const auto made_of = [&](double turn) {
+    const double longer = 2 * blur, shorter = 0.1 * blur, c = std::cos(turn), s = std::sin(turn);
+    DefraySplatNode node = surfel(0, 0, 2, {0, 0, 1e-6}, 1e-12);
+    node.low_xx = static_cast<float>((longer * c * c + shorter * s * s) / scale / scale);
+    node.low_xy = static_cast<float>(-(longer - shorter) * c * s / scale / scale);
+    node.low_yy = static_cast<float>((longer * s * s + shorter * c * c) / scale / scale);
+    return variance_of(project(node, p));
+  };
+  const std::array<double, 3> level = made_of(0);
+  for (int i = 1; i < 24; ++i) {
+    const double turn = i * M_PI / 12, c = std::cos(turn), s = std::sin(turn);
+    const std::array<double, 3> turned = made_of(turn);
+    const double tolerance = 1e-4 * level[0];
+    EXPECT_NEAR(turned[0], level[0] * c * c + level[2] * s * s, tolerance) << i;
+    EXPECT_NEAR(turned[1], (level[0] - level[2]) * c * s, tolerance) << i;
+    EXPECT_NEAR(turned[2], level[0] * s * s + level[2] * c * c, tolerance) << i;
+  }
+}
+
 TEST(SplatProject, WhatIsCulled) {
   DefraySplatParams p = view_of(64, 4, 100);
   const std::array<double, 3> facing{0, 0, 0.01}, away{0, 0, -0.01};
