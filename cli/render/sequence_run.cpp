@@ -113,7 +113,9 @@ std::size_t SequenceRun::render() {
     if (i + 1 < frames_.size()) reading = read_ahead(i + 1);
     work.attempt([&] {
       bar_.update(i, 0);
-      work.file->render(*device_, [&](double share) { bar_.update(i, share); });
+      work.file->render(
+          *device_, [&](double share) { bar_.update(i, share); }, before_);
+      before_ = work.file->expected();
     });
     if (writing.valid()) finish(writing.get());
     if (!work.file || work.error) {

@@ -55,7 +55,8 @@ class SequenceRun {
   ProgressBar bar_;
   std::optional<Device> device_;  ///< Opened while the first frame is read.
   std::size_t failed_ = 0, missed_ = 0;
-  bool is_mute_ = false;  ///< Standard output takes no more.
+  std::optional<ExpectedError> before_;  ///< Of the last frame: where a target's search goes on.
+  bool is_mute_ = false;                 ///< Standard output takes no more.
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };

@@ -128,7 +128,10 @@ void FileRender::read() {
   s.report.read_seconds = watch.lap();
 }
 
-void FileRender::render(Device& device, const Progress& progress) {
+const std::optional<ExpectedError>& FileRender::expected() const { return state_->report.expected; }
+
+void FileRender::render(Device& device, const Progress& progress,
+                        const std::optional<ExpectedError>& before) {
   State& s = *state_;
   if (!s.source) fail(ErrorKind::usage, "{}: read() comes before render()", s.paths.input);
   Backend& backend = backend_of(device);
@@ -144,7 +147,11 @@ void FileRender::render(Device& device, const Progress& progress) {
   }
   const MethodSettings method = budget ? budget->settings(s.settings.method) : s.settings.method;
   const bool wants_nearest = !s.source->further.data.empty();
-  const ErrorSettings error = error_settings(s.settings, s.paths);
+  ErrorSettings error = error_settings(s.settings, s.paths);
+  if (before) {
+    error.first_quality = before->next_quality;
+    error.first_cells_per_side = before->next_cells_per_side;
+  }
   ResultWithError made = apply_with_error(frame, method, error, backend, wants_nearest, progress);
   MethodResult& result = made.result;
   s.report.chain = std::move(result.report);

@@ -14,7 +14,8 @@ struct ResultWithError {
   MethodResult result;
   MethodSettings settings;               ///< As used: with the quality that was chosen.
   std::optional<Prediction> prediction;  ///< Where asked for, of the RDB with its stages.
-  std::optional<Rung> rung;              ///< Where a target chose it.
+  std::optional<Rung> rung;              ///< Where a target chose it, with
+  std::optional<Rung> next_rung = {};    ///< what a sequence's next frame begins with.
   double predict_seconds = 0;
 
   /// What is expected, beside what was wanted.
@@ -29,8 +30,9 @@ bool is_predictable(const MethodSettings& method);
 /// not predictable.
 void validate(const MethodSettings& method, const ErrorSettings& error);
 
-/// apply_method. With a target: the fastest of the rungs, then the next that is likely to meet it,
-/// until one is expected to; the last if none is. What the picture holds decides, nothing else.
+/// apply_method. With a target: the fastest of the rungs, or what the frame before says, then the
+/// next that is likely to meet it, until one is expected to; the last if none is. What pictures
+/// hold decides, nothing else.
 ResultWithError apply_with_error(const Frame& frame, const MethodSettings& settings,
                                  const ErrorSettings& error, Backend& backend, bool wants_nearest,
                                  const Progress& progress);

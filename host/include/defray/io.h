@@ -127,8 +127,12 @@ class DEFRAY_API FileRender {
 
   /// Looks whether the outputs can be written, and reads the input. Throws Error.
   void read();
-  /// Throws Error, of kind usage before read().
-  void render(Device& device, const Progress& progress = {});
+  /// `before`: expected() of the frame before in a sequence, for settings with a target. Throws
+  /// Error, of kind usage before read().
+  void render(Device& device, const Progress& progress = {},
+              const std::optional<ExpectedError>& before = {});
+  /// Of what was rendered.
+  const std::optional<ExpectedError>& expected() const;
   /// Throws Error, of kind usage before render().
   FrameResult write();
 

@@ -152,7 +152,12 @@ struct ErrorSettings {
   bool wants_planes = false;    ///< RenderResult::expected_error; with wants_expected or a target.
   /// Expected PSNR, dB: the fastest quality and number of lens points that are expected to reach it
   /// make the picture, the highest where none are; the qualities' own settings do not count then.
-  std::optional<double> target_db;
+  std::optional<double> target_db = {};
+  /// With target_db, of a sequence: ExpectedError::next_quality and next_cells_per_side of the
+  /// frame before. The search begins there, so that the quality changes rarely; else with the
+  /// fastest.
+  std::optional<Quality> first_quality = {};
+  int first_cells_per_side = 0;
 };
 
 /// All that render() is told beside the lens. As they are: the ray distribution buffer with all its

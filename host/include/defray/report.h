@@ -68,6 +68,10 @@ struct ExpectedError {
   std::optional<Quality> quality;  ///< Where ErrorSettings::target_db chose it, with
   int cells_per_side = 0;          ///< ChainSettings::cells_per_side.
   bool misses_target = false;      ///< No quality is expected to reach it.
+  /// With target_db, what the next frame of a sequence begins with: the same, but where much less
+  /// work is likely to do.
+  std::optional<Quality> next_quality = {};
+  int next_cells_per_side = 0;
 };
 
 /// What a budget of time chose.

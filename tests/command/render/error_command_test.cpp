@@ -101,6 +101,33 @@ TEST_F(ErrorCommand, StatsSayHowATargetsFrameIsMadeAgain) {
   EXPECT_FALSE(std::filesystem::exists(folder / "o.0001.exr")) << "the last frame alone";
 }
 
+/// A frame begins with what the one before took: hard, easy, easy.
+TEST_F(ErrorCommand, ATargetsQualityGoesOnFromFrameToFrame) {
+  const ImageFile hard = ImageFile::read(folder / "pinhole.exr");
+  const Window size = hard.parts().front().data;
+  const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
+  const Plane grey(pixels, 0.5f), near(pixels, 2);
+  expect_ok(shell(folder, "cp pinhole.exr s.0001.exr"));
+  for (const char* name : {"s.0002.exr", "s.0003.exr", "alone.exr"}) {
+    ImageFile::from_planes({"R", "G", "B", "Z"}, {grey, grey, grey, near}, size.width, size.height)
+        .write(folder / name);
+  }
+  const std::string options = " --camera camera.json --focus-setting bg --target-db 60 --json";
+  const auto qualities = [&](const std::string& command) {
+    std::istringstream lines(defray(folder, "render " + command + options).out);
+    std::vector<std::string> found;
+    for (std::string line; std::getline(lines, line);) {
+      found.push_back(nlohmann::json::parse(line)["expected"]["quality"]);
+    }
+    return found;
+  };
+  using Qualities = std::vector<std::string>;
+  EXPECT_EQ(qualities("alone.exr -o o.exr"), Qualities{"preview"});
+  EXPECT_EQ(qualities("s.####.exr -o o.####.exr"), (Qualities{"high", "high", "preview"}));
+  EXPECT_EQ(qualities("s.####.exr -o o.####.exr --no-overlap"),
+            (Qualities{"high", "high", "preview"}));
+}
+
 TEST_F(ErrorCommand, NothingToBeSeenIsSaidSo) {
   const Plane black(64, 0), near(64, 2);
   ImageFile::from_planes({"R", "G", "B", "Z"}, {black, black, black, near}, 8, 8)

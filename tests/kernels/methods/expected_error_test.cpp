@@ -237,6 +237,40 @@ TEST(Target, BetweenTheDefaultAndHighTakesWhatLiesBetween) {
   EXPECT_LT(result.rung->cells_per_side, 25);
 }
 
+/// Of a sequence: the frame before says where to begin, and its quality is left for much less only.
+TEST(Target, ASequencesFrameBeginsWithWhatDidBefore) {
+  const Subject s = subject_of("fence", "bg", 160, 104);
+  const MethodSettings settings = chain_of(Quality::normal);
+  const auto at = [&](const Rung& rung) {
+    MethodSettings by_hand = chain_of(rung.quality);
+    by_hand.chain->cells_per_side = rung.cells_per_side;
+    return made(s, by_hand, expects).prediction->of_frame().psnr_db;
+  };
+  ErrorSettings wanted = target(at({Quality::normal, 11}) - 0.001);
+  const auto beginning_with = [&](const Rung& rung) {
+    wanted.first_quality = rung.quality;
+    wanted.first_cells_per_side = rung.cells_per_side;
+    return made(s, settings, wanted);
+  };
+  // What does is kept, though a little less would do.
+  const ResultWithError kept = beginning_with({Quality::normal, 13});
+  EXPECT_EQ(kept.rung, (Rung{Quality::normal, 13}));
+  EXPECT_EQ(kept.next_rung, kept.rung);
+  EXPECT_EQ(kept.expected(wanted)->next_quality, Quality::normal);
+  EXPECT_EQ(kept.expected(wanted)->next_cells_per_side, 13);
+  // What is far too much makes this frame, and the next one takes less.
+  const ResultWithError high = beginning_with(rungs().back());
+  EXPECT_EQ(high.rung, rungs().back());
+  EXPECT_EQ(high.next_rung->quality, Quality::normal);
+  EXPECT_LT(high.next_rung->cells_per_side, 18);
+  // What does not do is left at once.
+  const ResultWithError raised = beginning_with({Quality::draft, 7});
+  EXPECT_GE(raised.prediction->of_frame().psnr_db, *wanted.target_db);
+  // What there is not is the beginning.
+  EXPECT_EQ(beginning_with({Quality::draft, 64}).rung,
+            made(s, settings, target(*wanted.target_db)).rung);
+}
+
 TEST(Target, OfNoUseIsRefused) {
   const MethodSettings chain = chain_of(Quality::normal);
   MethodSettings literal, gather = chain;
