@@ -91,7 +91,7 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   return planes;
 }
 
-std::vector<Plane> mean_of_views(Backend& backend, const Hierarchy& tree,
+std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& layers,
                                  const DefraySplatParams& params, int views,
                                  const Progress& progress) {
   std::vector<std::vector<double>> sums(
@@ -99,13 +99,17 @@ std::vector<Plane> mean_of_views(Backend& backend, const Hierarchy& tree,
   const double golden = M_PI * (3 - std::sqrt(5.0));
   for (int i = 0; i < views; ++i) {
     const double radius = std::sqrt((i + 0.5) / views), angle = golden * i;
-    SplatReport ignored;
     const DefraySplatParams view =
         view_from(params, radius * std::cos(angle), radius * std::sin(angle));
-    const SplatPlanes planes = draw_splats(backend, tree, view, true, 0, ignored);
-    for (std::size_t c = 0; c < 4; ++c) {
-      for (std::size_t k = 0; k < sums[c].size(); ++k) {
-        sums[c][k] += static_cast<double>(planes.colour[c][k]);
+    std::vector<double> left(sums[0].size(), 1);  // of each pixel, for the layers to come
+    for (const Hierarchy* layer : layers) {
+      SplatReport ignored;
+      const SplatPlanes planes = draw_splats(backend, *layer, view, true, 0, ignored);
+      for (std::size_t k = 0; k < left.size(); ++k) {
+        for (std::size_t c = 0; c < 4; ++c) {
+          sums[c][k] += left[k] * static_cast<double>(planes.colour[c][k]);
+        }
+        left[k] *= 1 - static_cast<double>(planes.colour[3][k]);
       }
     }
     if (progress) progress(static_cast<double>(i + 1) / views);

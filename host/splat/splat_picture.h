@@ -15,8 +15,9 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
                         const Progress& progress = {});
 
 /// What the paper compares with: the mean of sharp pictures from points all over the lens, each of
-/// which shows the plane of focus in the same place (its figure 6 has 200). R G B A.
-std::vector<Plane> mean_of_views(Backend& backend, const Hierarchy& tree,
+/// which shows the plane of focus in the same place (its figure 6 has 200). Of layers each is drawn
+/// by itself, over those after it. R G B A.
+std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& layers,
                                  const DefraySplatParams& params, int views,
                                  const Progress& progress = {});
 

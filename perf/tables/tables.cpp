@@ -21,6 +21,7 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"roofline", {"kernels beside the machine's memory and arithmetic", measure_roofline}},
       {"splats", {"point clouds: time and error by aperture", measure_splats}},
       {"splat-speed", {"point clouds: time by points and pixels", measure_splat_speed}},
+      {"splat-close", {"point clouds: surfaces close to each other", measure_close_splats}},
       {"papers", {"the papers' claims beside our figures", measure_papers}},
       {"arithmetic", {"relaxed builds of the kernels", measure_arithmetic}},
       {"validate", {"kernels against twins on every device", measure_validation}},

@@ -45,11 +45,12 @@ Figures measure_prediction(TableBench& bench);   ///< Expected errors beside tru
 Figures measure_roofline(TableBench& bench);     ///< Kernels beside the machine's limits.
 Figures measure_splats(TableBench& bench);       ///< Point clouds: time and error by aperture.
 Figures measure_splat_speed(TableBench& bench);  ///< The same: time by points and pixels.
-Figures measure_papers(TableBench& bench);       ///< The papers' claims beside our figures.
-Figures measure_arithmetic(TableBench& bench);   ///< Other builds of the kernels.
-Figures measure_validation(TableBench& bench);   ///< Kernels against twins, on every device.
-Figures measure_tuning(TableBench& bench);       ///< Work-groups: what `defray tune` found.
-Figures measure_speed(TableBench& bench);        ///< Rays a second, by the benchmark beside us.
+Figures measure_close_splats(TableBench& bench);  ///< The same: surfaces close to each other.
+Figures measure_papers(TableBench& bench);        ///< The papers' claims beside our figures.
+Figures measure_arithmetic(TableBench& bench);    ///< Other builds of the kernels.
+Figures measure_validation(TableBench& bench);    ///< Kernels against twins, on every device.
+Figures measure_tuning(TableBench& bench);        ///< Work-groups: what `defray tune` found.
+Figures measure_speed(TableBench& bench);         ///< Rays a second, by the benchmark beside us.
 
 struct ReadmeTable {
   std::string about;

@@ -73,7 +73,7 @@ TEST(SplatPicture, AFlatPlaneIsTheMeanOfViews) {
   for (const auto& [aperture, gaussian_db, disc_db] :
        {std::tuple{100.0, 43.0, 44.0}, {300.0, 40.5, 44.0}}) {
     const DefraySplatParams p = view_of(256, 3.2, aperture);
-    const std::vector<Plane> views = mean_of_views(device(), tree, p, 200);
+    const std::vector<Plane> views = mean_of_views(device(), {&tree}, p, 200);
     EXPECT_GT(compare(draw(tree, p).colour, views, 256).psnr_srgb_db, gaussian_db) << aperture;
     EXPECT_NEAR(mean_over(views[3], 256, 100, 156, 100, 156), 1, 0.01);
     SplatSettings discs;
@@ -166,7 +166,7 @@ TEST(SplatPicture, NearestMergesCrossingSurfacesBetterThanTheAverage) {
   double better = 0;
   for (const double aperture : {0.0, 300.0}) {
     const std::vector<Plane> views =
-        mean_of_views(device(), tree, view_of(200, 3.6, aperture), 100);
+        mean_of_views(device(), {&tree}, view_of(200, 3.6, aperture), 100);
     SplatSettings average;
     average.merge = SplatMerge::average;
     const auto psnr = [&](const SplatSettings& s) {
