@@ -6,13 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "methods/method.h"
+#include "defray/options.h"
 #include "options/option_value.h"
 
 namespace defray::cli {
-
-inline const std::vector<Method> all_methods{Method::rdb, Method::linear, Method::gather,
-                                             Method::tiltshift};
 
 /// Where an option means something.
 struct Scope {

@@ -16,6 +16,12 @@ std::size_t RenderCommand::memory_bytes() const {
   return static_cast<std::size_t>(memory_mib * 1048576);
 }
 
+std::vector<Method> lens_methods() {
+  std::vector<Method> methods = all_methods();
+  std::erase_if(methods, [](Method method) { return !has_lens(method); });
+  return methods;
+}
+
 std::vector<OptionGroup> render_options(RenderCommand& job) {
   return {main_options(job),     file_options(job),
           channel_options(job),  lens_options(job),

@@ -50,7 +50,7 @@ struct RenderCommand {
 };
 
 /// The methods that have a lens, and so a circle of confusion by depth.
-inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
+std::vector<Method> lens_methods();
 
 /// What only the chain around the RDB has.
 inline const Scope of_chain{{Method::rdb}, false, true};

@@ -141,6 +141,8 @@ void check_methods(Device& device) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) expect(all[i] != all[j], "each method has its own picture");
   }
+  expect(defray::all_methods().size() == 4 && !defray::has_lens(options.method),
+         "methods say whether they have a lens");
   expect(defray::to_string(options.method) == std::string("tiltshift"), "methods have names");
 }
 

@@ -38,6 +38,15 @@ TEST(ApiValues, SettingsAreTheDocumentedOnes) {
   EXPECT_EQ(o.nonfinite, Nonfinite::zero);
 }
 
+TEST(ApiValues, EachMethodHasItsNameAndAllButTiltshiftALens) {
+  std::vector<std::string> names;
+  for (const Method method : all_methods()) {
+    names.push_back(to_string(method));
+    EXPECT_EQ(has_lens(method), method != Method::tiltshift) << names.back();
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"rdb", "linear", "gather", "tiltshift"}));
+}
+
 TEST(ApiValues, QualitiesTradeLensPointsPatternsAndPixelsForTime) {
   struct Row {
     Quality quality;
