@@ -26,7 +26,7 @@ bool is_among(Method method, const std::vector<Method>& methods) {
 std::string note_of(const Scope& scope) {
   if (scope.methods.empty()) return "";
   std::vector<Method> others;
-  for (const Method method : all_methods) {
+  for (const Method method : all_methods()) {
     if (!is_among(method, scope.methods)) others.push_back(method);
   }
   return others.size() == 1 ? fmt::format(" (not {})", names_of(others))

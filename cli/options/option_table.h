@@ -6,13 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "methods/method.h"
+#include "defray/options.h"
 #include "options/option_value.h"
 
 namespace defray::cli {
-
-inline const std::vector<Method> all_methods{Method::rdb, Method::linear, Method::gather,
-                                             Method::tiltshift};
 
 /// Where an option means something.
 struct Scope {
@@ -52,7 +49,7 @@ struct OptionGroup {
 
 /// What a command is asked to do it with: decides what an option can mean.
 struct Setup {
-  Method method = Method::rdb;
+  Method method = MethodSettings().method;
   bool is_literal = false, is_reference = false;
 };
 

@@ -17,7 +17,7 @@ const WordTable<Grow> grow_words{
     {"none", Grow::none}, {"display", Grow::display}, {"full", Grow::full}};
 const WordTable<Nonfinite> nonfinite_words{
     {"error", Nonfinite::error}, {"zero", Nonfinite::zero}, {"keep", Nonfinite::keep}};
-const Scope of_depth{.methods = lens_methods};
+const Scope of_depth{.methods = lens_methods()};
 
 std::vector<OptionRow> depth_rows(RenderSettings& s) {
   DepthSettings& d = s.depth;
@@ -83,7 +83,7 @@ OptionRow full_size_row(RenderCommand& job) {
           }),
           "The picture is cut out of a frame of this size, 3840x2160+100+50: what the lens's field "
           "of view spans",
-          {.field = "full_size", .scope = Scope{.methods = lens_methods}}};
+          {.field = "full_size", .scope = Scope{.methods = lens_methods()}}};
 }
 
 OptionGroup file_options(RenderCommand& job) {

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "image/sequence.h"
+#include "lens/aperture.h"
+#include "lens/camera.h"
 #include "options/lens_rows.h"
 #include "render/render_command.h"
 
@@ -68,7 +70,7 @@ std::vector<OptionRow> focus_rows(RenderCommand& job) {
 OptionGroup lens_options(RenderCommand& job) {
   RenderSettings& s = job.settings;
   OptionGroup group{
-      "Lens", lens_rows(s.camera, "scene units", &job.animated), {.methods = lens_methods}};
+      "Lens", lens_rows(s.camera, "scene units", &job.animated), {.methods = lens_methods()}};
   const auto add = [&](std::vector<OptionRow> rows) {
     group.rows.insert(group.rows.end(), rows.begin(), rows.end());
   };
@@ -109,7 +111,7 @@ void check_lens(const RenderSettings& s) {
 
 RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
   RenderSettings s = job.settings;
-  if (s.method.method == Method::tiltshift) return s;
+  if (!has_lens(s.method.method)) return s;
   std::optional<ChainSettings>& chain = s.method.chain;
   FrameLens lens{s.camera, chain ? chain->aperture : Aperture(), job.eye, s.max_coc_px};
   for (const AnimatedValue& value : job.animated) {
@@ -129,7 +131,7 @@ RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
 }
 
 void check_lens(const RenderCommand& job, const std::vector<std::optional<int>>& frames) {
-  if (job.settings.method.method == Method::tiltshift) return;
+  if (!has_lens(job.settings.method.method)) return;
   // A camera file a frame may be missing, or wrong: that frame's error.
   const bool is_of_frames = frames.front() && has_frame_pattern(job.camera);
   const bool is_constant = job.animated.empty();

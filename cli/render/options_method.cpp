@@ -11,7 +11,7 @@ const Scope of_rdb{{Method::rdb}}, of_gather{{Method::gather}};
 
 WordTable<Method> method_words() {
   WordTable<Method> words;
-  for (const Method method : all_methods) words.emplace_back(to_string(method), method);
+  for (const Method method : all_methods()) words.emplace_back(to_string(method), method);
   return words;
 }
 

@@ -9,7 +9,6 @@
 
 #include "defray/device.h"
 #include "defray/io.h"
-#include "lens/camera.h"
 #include "options/curve.h"
 #include "options/math_words.h"
 #include "options/option_table.h"
@@ -36,7 +35,7 @@ struct RenderCommand {
   };
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
   std::string device;
-  Math math = Math::strict;
+  Math math = DeviceOptions().math;
   std::vector<WorkGroup> work_groups;
   bool no_tuning = false;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;
@@ -50,7 +49,7 @@ struct RenderCommand {
 };
 
 /// The methods that have a lens, and so a circle of confusion by depth.
-inline const std::vector<Method> lens_methods{Method::rdb, Method::linear, Method::gather};
+std::vector<Method> lens_methods();
 
 /// What only the chain around the RDB has.
 inline const Scope of_chain{{Method::rdb}, false, true};
@@ -74,9 +73,6 @@ std::vector<OptionGroup> render_options(RenderCommand& job);
 /// What follows from the options together: memory, stages. Throws Error(usage) on values and
 /// combinations that are not allowed.
 void finish(RenderCommand& job);
-
-/// As a shell takes it.
-std::string shell_quoted(const std::string& text);
 
 /// "defray render" with what was given, but for the options that are left out.
 std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,

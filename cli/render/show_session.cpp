@@ -116,22 +116,20 @@ void ShowSession::draw(Viewer& viewer) const {
   if (shows_coc_ && !view_.coc_px.empty()) planes = with_coc(std::move(planes), view_.coc_px);
   const std::string frame = frames_[at_] ? fmt::format(", frame {}", *frames_[at_]) : "";
   const std::string lens =
-      job_.settings.method.method == Method::tiltshift
-          ? ""
-          : fmt::format(", focus {:.4g}, f/{:.4g}", view_.lens.focus_distance_units,
-                        view_.lens.focal_length_mm / view_.lens.aperture_diameter_mm);
+      has_lens() ? fmt::format(", focus {:.4g}, f/{:.4g}", view_.lens.focus_distance_units,
+                               view_.lens.focal_length_mm / view_.lens.aperture_diameter_mm)
+                 : "";
   viewer.show(planes, view_.display.width, view_.display.height, is_actual_size_,
               fmt::format("defray: {}{}{}{}{}", job_.named(job_.paths.output), frame, lens,
                           shows_before_ ? ", before" : "", shows_coc_ ? ", CoC" : ""));
 }
 
 bool ShowSession::handle(const ViewerEvent& event) {
-  const bool has_lens = job_.settings.method.method != Method::tiltshift;
   switch (event.kind) {
     case ViewerEvent::Kind::closed:
       return true;
     case ViewerEvent::Kind::click:
-      if (!has_lens) break;
+      if (!has_lens()) break;
       place_ = PixelPlace{event.x, event.y};
       focus_units_.reset();
       try {
@@ -142,7 +140,7 @@ bool ShowSession::handle(const ViewerEvent& event) {
       }
       break;
     case ViewerEvent::Kind::wheel:
-      if (!has_lens) break;
+      if (!has_lens()) break;
       event.has_control ? change_fstop(event.steps) : change_focus(event.steps);
       break;
     case ViewerEvent::Kind::key:
@@ -154,7 +152,6 @@ bool ShowSession::handle(const ViewerEvent& event) {
 }
 
 void ShowSession::handle_key(int key) {
-  const bool has_lens = job_.settings.method.method != Method::tiltshift;
   if (key == ' ') shows_before_ = !shows_before_;
   if (key == '1') is_actual_size_ = !is_actual_size_;
   if (key == 'n') step(1);
@@ -167,7 +164,7 @@ void ShowSession::handle_key(int key) {
       view_.after = rendered;
     }
   }
-  if (!has_lens) return;
+  if (!has_lens()) return;
   if (key == key_left || key == '[') change_focus(-1);
   if (key == key_right || key == ']') change_focus(1);
   if (key == key_down || key == '-') change_fstop(-1);

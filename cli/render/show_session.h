@@ -30,6 +30,7 @@ class ShowSession {
     Window display;
   };
 
+  bool has_lens() const { return defray::has_lens(job_.settings.method.method); }
   /// True: the window is to be closed.
   bool handle(const ViewerEvent& event);
   void handle_key(int key);

@@ -21,7 +21,7 @@ struct SplatCommand {
   double max_coc_px = 0;
   AnimatedLens animated;
   std::string camera_file, focus_setting;
-  double metres_per_unit = 1;
+  double metres_per_unit = Lens().metres_per_unit;
   SplatSettings settings;
   int turntable = 0;  ///< Frames of a turn; 0: none.
   std::string frames;

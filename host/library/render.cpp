@@ -37,7 +37,7 @@ void check(const Picture& picture, const Options& options) {
     fail(ErrorKind::usage, "a picture has 1 to 4 planes of colour, not {}", picture.colour.size());
   }
   for (const auto& plane : picture.colour) check_plane("a plane of colour", plane, data);
-  if (options.method != Method::tiltshift) check_plane("the depth plane", picture.depth, data);
+  if (has_lens(options.method)) check_plane("the depth plane", picture.depth, data);
 }
 
 /// A view where every value is finite; else a copy in which handle_nonfinite has seen to them.

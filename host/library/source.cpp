@@ -64,7 +64,7 @@ Source read_source(const FramePaths& paths, const RenderSettings& settings, Fram
   source.colour =
       read_planes(source, source.choice.channels, settings, report.colour_channels, report);
   report.nonfinite_kept = settings.nonfinite == Nonfinite::keep;
-  if (settings.method.method == Method::tiltshift) return source;
+  if (!has_lens(settings.method.method)) return source;
   DepthPlane depth = read_depth(source.file, source.choice, settings.request, paths.depth);
   report.depth_channel = depth.channel;
   take_lens(source.file, part, depth, settings, paths.depth.empty() ? paths.input : paths.depth,

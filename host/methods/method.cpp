@@ -12,6 +12,7 @@ namespace {
 struct Row {
   Method method;
   const char* name;
+  bool has_lens;
   MethodResult (*run)(const Frame&, const MethodSettings&, Backend&, bool wants_nearest,
                       const Progress&);
 };
@@ -53,9 +54,10 @@ MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Backend& backe
   return out;
 }
 
-constexpr std::array rows{
-    Row{Method::rdb, "rdb", run_rdb}, Row{Method::linear, "linear", run_linear},
-    Row{Method::gather, "gather", run_gather}, Row{Method::tiltshift, "tiltshift", run_tiltshift}};
+constexpr std::array rows{Row{Method::rdb, "rdb", true, run_rdb},
+                          Row{Method::linear, "linear", true, run_linear},
+                          Row{Method::gather, "gather", true, run_gather},
+                          Row{Method::tiltshift, "tiltshift", false, run_tiltshift}};
 
 const Row& row_of(Method method) {
   for (const Row& row : rows) {
@@ -66,7 +68,15 @@ const Row& row_of(Method method) {
 
 }  // namespace
 
+std::vector<Method> all_methods() {
+  std::vector<Method> methods;
+  for (const Row& row : rows) methods.push_back(row.method);
+  return methods;
+}
+
 const char* to_string(Method method) { return row_of(method).name; }
+
+bool has_lens(Method method) { return row_of(method).has_lens; }
 
 MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Backend& backend,
                           bool wants_nearest, const Progress& progress) {

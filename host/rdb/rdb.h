@@ -18,8 +18,8 @@ struct RayPlan {
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
   /// lens/cats_eye.h has it. Empty: none.
   std::vector<std::int32_t> rim_x = {}, rim_y = {};
-  bool wants_nearest = false;  ///< RayResult::nearest is filled.
-  RaysBy by = RaysBy::gather;  ///< The same bits.
+  bool wants_nearest = false;      ///< RayResult::nearest is filled.
+  RaysBy by = RdbSettings().rays;  ///< The same bits.
 };
 
 /// Throws Error(usage) as make_lens_grid does.

@@ -1,6 +1,6 @@
-// The whole API as a user sees it: api PICTURE FOLDER. PICTURE has R, G, B and Z. Exits with 1
-// where something is not as the headers say; what it writes to FOLDER is for library_test.sh to
-// compare.
+// The whole API as a user sees it: api PICTURE FOLDER VERSION. PICTURE has R, G, B and Z. Exits
+// with 1 where something is not as the headers say; what it writes to FOLDER is for
+// library_test.sh to compare.
 #include <defray/defray.h>
 
 #include <cmath>
@@ -141,6 +141,8 @@ void check_methods(Device& device) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) expect(all[i] != all[j], "each method has its own picture");
   }
+  expect(defray::all_methods().size() == 4 && !defray::has_lens(options.method),
+         "methods say whether they have a lens");
   expect(defray::to_string(options.method) == std::string("tiltshift"), "methods have names");
 }
 
@@ -280,7 +282,7 @@ void check_files(Device& device, const std::string& input, const std::string& fo
 }  // namespace
 
 int main(int, char** arguments) try {
-  expect(defray::version() == std::string("0.1.0"), "the version is 0.1.0");
+  expect(defray::version() == std::string(arguments[3]), "the version is the project's");
   const auto devices = Device::list();
   expect(!devices.empty() && devices[0].compute_units > 0, "there is a device");
   Device device = Device::open();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "defray/export.h"
 #include "defray/lens.h"
@@ -16,8 +17,14 @@ enum class Method {
   tiltshift,  ///< A mean with `linear`'s weights, its CoC from the pixel's row: no depth.
 };
 
+/// In the order of their rows (host/methods/method.cpp).
+DEFRAY_API std::vector<Method> all_methods();
+
 /// "rdb", as on the command line.
 DEFRAY_API const char* to_string(Method method);
+
+/// Whether its circles of confusion are a lens's, by depth.
+DEFRAY_API bool has_lens(Method method);
 
 /// How rays are followed: the same picture, bit for bit.
 enum class RaysBy {
@@ -56,7 +63,7 @@ struct ChainSettings {
   bool repair = true;
   bool highlights = true;
   bool soften = true;
-  RaysBy rays = RaysBy::gather;
+  RaysBy rays = RdbSettings().rays;
   Border border = Border::clamp;
   Aperture aperture;
   /// Works on a quarter of the pixels, means of four, and puts the detail of sharp ones back.

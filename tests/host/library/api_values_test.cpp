@@ -38,6 +38,15 @@ TEST(ApiValues, SettingsAreTheDocumentedOnes) {
   EXPECT_EQ(o.nonfinite, Nonfinite::zero);
 }
 
+TEST(ApiValues, EachMethodHasItsNameAndAllButTiltshiftALens) {
+  std::vector<std::string> names;
+  for (const Method method : all_methods()) {
+    names.push_back(to_string(method));
+    EXPECT_EQ(has_lens(method), method != Method::tiltshift) << names.back();
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"rdb", "linear", "gather", "tiltshift"}));
+}
+
 TEST(ApiValues, QualitiesTradeLensPointsPatternsAndPixelsForTime) {
   struct Row {
     Quality quality;
@@ -118,6 +127,8 @@ TEST(ApiValues, ARenderFromFileToFileIsThatOfAPicture) {
   const RenderSettings s;
   EXPECT_EQ(s.metres_per_unit, 1);
   EXPECT_EQ(s.max_coc_px, 0);
+  EXPECT_EQ(s.model, Lens().model);
+  EXPECT_EQ(s.nonfinite, Options().nonfinite);
   EXPECT_FALSE(s.camera_from_metadata);
   EXPECT_TRUE(s.method.chain);
   EXPECT_EQ(s.method.method, Method::rdb);
