@@ -25,8 +25,8 @@
 #define DEFRAY_COC_LIMIT_QUANTA (1 << 30)
 /// A cell that no ray has reached: both halves of its (depth, source) key. As depth: no fragment.
 #define DEFRAY_EMPTY 0xffffffffu
-/// Pixels of a row that a work-item takes at once, as one vector, in `mixed`, `fill`, `repair` and
-/// `soften`.
+/// Pixels of a row that a work-item takes at once, as one vector, in `mixed`, `fill`, `repair`,
+/// `soften`, `linear` and the gathers.
 #define DEFRAY_RUN 16
 /// A fragment that covers its whole pixel.
 #define DEFRAY_WHOLE 65536u
@@ -85,8 +85,6 @@
 #define DEFRAY_RAY_WORDS 4
 #define DEFRAY_RAY_BINS (64 * DEFRAY_RAY_WORDS)
 
-/// Pixels of a row that one work-item of `linear` computes, as one vector.
-#define DEFRAY_LINEAR_RUN 16
 /// Side of the square tiles whose largest CoC `gather_reach` finds, in pixels.
 #define DEFRAY_GATHER_TILE 16
 /// Angles of the rotated sample set: a table, so that no device's sine matters.
@@ -206,15 +204,15 @@ typedef struct {
   float share_of_light;  ///< 1 / the aperture table's total.
 } DefrayLightParams;
 
-/// One band of target rows of `linear`. Its source planes hold the band and everything in reach,
-/// the frame's edge pixels repeated outside it.
+/// One band of target rows of `linear`. Its source planes are those of a window: the band and the
+/// rows in reach, with the columns in reach beside them, where the frame's edge pixels repeat.
 typedef struct {
-  DEFRAY_UINT width;          ///< Target pixels in a row.
-  DEFRAY_UINT first_row;      ///< First target row of this launch, in the band.
-  DEFRAY_UINT launch_rows;    ///< Target rows of this launch.
+  DEFRAY_UINT width;  ///< Target pixels in a row.
+  DEFRAY_UINT window_rows;
+  DEFRAY_UINT band_row;  ///< First target row, in the window.
+  DEFRAY_UINT band_rows;
   DEFRAY_UINT source_stride;  ///< Floats from one source row to the next.
-  DEFRAY_UINT target_stride;  ///< Floats from one target row to the next, a multiple of the run.
-  DEFRAY_INT reach;           ///< Columns and rows of source on each side of a target pixel.
+  DEFRAY_INT reach;           ///< Columns of source on each side of the targets'; rows likewise.
 } DefrayLinearParams;
 
 /// The CoC of a tilt-shift: 0 in a horizontal band, growing linearly away from it.
@@ -228,11 +226,13 @@ typedef struct {
   float limit_quanta;         ///< Its end: data may lie beyond the frame's edge.
 } DefrayTiltshiftParams;
 
-/// A Poisson-disk gather over one band of target rows.
+/// A Poisson-disk gather over one band of target rows, from a window: the band and the rows in
+/// reach.
 typedef struct {
   DEFRAY_UINT width;
-  DEFRAY_UINT height;
-  DEFRAY_UINT band_y;
+  DEFRAY_UINT window_y;  ///< First source row, in frame coordinates.
+  DEFRAY_UINT window_rows;
+  DEFRAY_UINT band_y;  ///< First target row, in frame coordinates.
   DEFRAY_UINT band_rows;
   DEFRAY_UINT sample_count;
   DEFRAY_UINT rotates;  ///< 1: each pixel turns the sample set by an angle of its own.
@@ -259,7 +259,7 @@ static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayLinearParams) == 24);
 static_assert(sizeof(DefrayTiltshiftParams) == 28);
-static_assert(sizeof(DefrayGatherParams) == 32);
+static_assert(sizeof(DefrayGatherParams) == 36);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 80);

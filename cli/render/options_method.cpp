@@ -137,10 +137,7 @@ OptionGroup device_options(RenderCommand& job) {
   return {
       "Device",
       {{"--device", value(job.device), "Index or part of the name of 'defray devices'; reference"},
-       {"--memory",
-        value(job.memory_mib),
-        "MiB for buffers",
-        {.scope = Scope{{Method::rdb, Method::linear, Method::tiltshift}, true, false}}},
+       {"--memory", value(job.memory_mib), "MiB for buffers", {.scope = on_devices}},
        {"--math",
         word(job.math, math_words),
         "strict: the same bits on every device; fast: the compiler may fuse and approximate",

@@ -34,8 +34,8 @@ class DeviceBackend : public Backend {
 
   /// `gather_tiles`: the largest |CoC| of each tile, quanta; `gather_reach`: how far light comes
   /// from, for each tile.
-  std::vector<std::int32_t> gather_tiles(const Frame& frame);
-  std::vector<std::int32_t> gather_reach(const Frame& frame);
+  Quanta gather_tiles(const Frame& frame);
+  Quanta gather_reach(const Frame& frame);
 
   /// `rdb_pad`, `rdb_tiles`, `rdb_reach` over a whole frame.
   RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);

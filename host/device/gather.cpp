@@ -1,118 +1,127 @@
-// Kernels `gather_*`: pass after pass, in bands of rows.
+// Kernels `gather_*`: pass after pass, each over all bands.
 #include "methods/gather.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/parallel.h"
 #include "device/device_backend.h"
-#include "lens/coc.h"
+#include "opencl/bands.h"
 #include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
 
-const LaunchRow gather_aware_launch({"gather_aware", WorkGroup{8, 1}});
-const LaunchRow gather_literal_launch({"gather_literal", WorkGroup{8, 1}});
-const LaunchRow gather_reach_launch({"gather_reach", WorkGroup{16, 1}});
-const LaunchRow gather_tiles_launch({"gather_tiles", WorkGroup{16, 1}});
-
-/// Rows of a launch: enough work to fill a device, few enough for a progress bar to move.
-constexpr std::uint32_t gather_rows_per_launch = 128;
-
-/// What stays on the device from pass to pass.
-struct GatherBuffers {
-  cl::Buffer coc, reach, points, turns;
-};
-
-/// Four channels of each pixel together, as samples fetch them; a missing one repeats the last.
-std::vector<cl_float4> packed_colours(const Planes& channels) {
-  std::array<std::span<const float>, 4> planes;
-  for (std::size_t c = 0; c < 4; ++c) planes[c] = channels[std::min(c, channels.size() - 1)].host();
-  std::vector<cl_float4> packed(planes[0].size());
-  parallel_for_each(packed.size(), [&](std::size_t i) {
-    for (std::size_t c = 0; c < 4; ++c) packed[i].s[c] = planes[c][i];
-  });
-  return packed;
+/// What both gathers need: they read radii and packed colours, and write these for the band alone.
+Launch gather_launch(const char* kernel, int reach_px) {
+  return {.kernel = kernel,
+          .group = {8, 1},
+          .reach_px = reach_px,
+          .bytes_a_surface = Launch::plane + Launch::colour,
+          .run_px = DEFRAY_RUN,
+          .bytes_a_target = Launch::colour,
+          .bytes_a_value = Launch::colour,
+          .rows_at_once = 128};
 }
 
-std::vector<Plane> planes_of(std::span<const cl_float4> packed, std::size_t channels) {
-  std::vector<Plane> planes(channels, Plane(packed.size()));
-  parallel_for_each(packed.size(), [&](std::size_t i) {
-    for (std::size_t c = 0; c < channels; ++c) planes[c][i] = packed[i].s[c];
+// 1: a radius ends within a pixel, which samples are rounded to.
+const LaunchRow gather_aware_launch(gather_launch("gather_aware", 1));
+// 2: colours lie between that pixel and the next, and products are rounded.
+const LaunchRow gather_literal_launch(gather_launch("gather_literal", 2));
+const LaunchRow gather_reach_launch({"gather_reach", WorkGroup{16, 1}, 0, 2 * Launch::plane});
+
+// A work-item's surface is a tile.
+constexpr std::size_t tile_bytes = DEFRAY_GATHER_TILE * DEFRAY_GATHER_TILE * Launch::plane;
+const LaunchRow gather_tiles_launch({.kernel = "gather_tiles",
+                                     .group = {16, 1},
+                                     .bytes_a_surface = tile_bytes + Launch::plane,
+                                     .bytes_a_value = tile_bytes});
+
+/// Four channels of each pixel together, as samples fetch them.
+using Packed = Values<cl_float4>;
+
+Packed packed(const Planes& channels) {
+  const auto planes =
+      four_channels(channels.size(), [&](std::size_t c) { return channels[c].host(); });
+  std::vector<cl_float4> colours(planes[0].size());
+  parallel_for_each(colours.size(), [&](std::size_t i) {
+    for (std::size_t c = 0; c < 4; ++c) colours[i].s[c] = planes[c][i];
+  });
+  return colours;
+}
+
+Planes unpacked(const Packed& packed, std::size_t channels) {
+  const std::span<const cl_float4> colours = packed.host();
+  std::vector<Plane> planes(channels, Plane(colours.size()));
+  parallel_for_each(colours.size(), [&](std::size_t i) {
+    for (std::size_t c = 0; c < channels; ++c) planes[c][i] = colours[i].s[c];
   });
   return planes;
 }
 
-/// One pass over the frame.
-void gather_once(Session& session, DefrayGatherParams p, GatherKind kind,
-                 const GatherBuffers& shared, const cl::Buffer& colour, const cl::Buffer& out,
-                 const Progress& progress) {
-  const std::size_t runs = (std::size_t{p.width} + DEFRAY_RUN - 1) / DEFRAY_RUN;
-  for (; p.band_y < p.height; p.band_y += gather_rows_per_launch) {
-    p.band_rows = std::min(gather_rows_per_launch, p.height - p.band_y);
-    if (kind == GatherKind::literal) {
-      session.launch("gather_literal", {runs, p.band_rows}, p, shared.coc, shared.points,
-                     shared.turns, colour, out);
-    } else {
-      session.launch("gather_aware", {runs, p.band_rows}, p, shared.coc, shared.reach,
-                     shared.points, shared.turns, colour, out);
-    }
-    if (!progress) continue;
-    session.finish();
-    progress(static_cast<double>(p.band_y + p.band_rows) / p.height);
-  }
-}
-
 }  // namespace
 
-std::vector<std::int32_t> DeviceBackend::gather_tiles(const Frame& f) {
-  const DefrayTileParams p = tile_params(f.width, f.height, largest_coc(f.coc_quanta.host()));
+Quanta DeviceBackend::gather_tiles(const Frame& f) {
+  const Frame tiles = gather_tiles_of(f);
   Quanta largest;
-  const cl::Buffer out = session_.out(largest, std::size_t{p.tiles_x} * p.tiles_y);
-  session_.launch("gather_tiles", {p.tiles_x, p.tiles_y}, p, session_.in(f.coc_quanta), out);
-  return std::move(largest).take();
-}
-
-std::vector<std::int32_t> DeviceBackend::gather_reach(const Frame& f) {
-  DefrayTileParams p = tile_params(f.width, f.height, largest_coc(f.coc_quanta.host()));
-  const std::vector<std::int32_t> largest = gather_tiles(f);
-  const cl::Buffer along_x = session_.buffer(largest.size() * sizeof(std::int32_t));
-  Quanta reach;
-  const cl::Buffer out = session_.out(reach, largest.size());
-  session_.launch("gather_reach", {p.tiles_x, p.tiles_y}, p, session_.view(largest), along_x);
-  p.along_y = 1;
-  session_.launch("gather_reach", {p.tiles_x, p.tiles_y}, p, along_x, out);
-  return std::move(reach).take();
-}
-
-std::vector<Plane> DeviceBackend::gather(const Frame& f, const GatherSettings& settings,
-                                         const Progress& progress) {
-  validate(settings);
-  const GatherSamples samples = make_gather_samples(settings);
-  std::vector<std::int32_t> reach{0};  // literal looks no farther than its own CoC
-  if (settings.kind == GatherKind::aware) reach = gather_reach(f);
-  const GatherBuffers shared{session_.in(f.coc_quanta), session_.view(reach),
-                             session_.view(samples.points), session_.view(samples.turns)};
-  const std::vector<cl_float4> packed = packed_colours(f.channels);
-  const std::size_t bytes = packed.size() * sizeof(cl_float4);
-  std::array<cl::Buffer, 2> made{session_.buffer(bytes)};
-  if (settings.passes > 1) made[1] = session_.buffer(bytes);
-  cl::Buffer colour = session_.view(packed);
-  for (int pass = 0; pass < settings.passes; ++pass) {
-    const auto share = [&](double done) {
-      if (progress) progress((pass + done) / settings.passes);
-    };
-    const cl::Buffer& out = made[size(pass % 2)];
-    gather_once(session_, gather_params(settings, f.width, f.height, pass), settings.kind, shared,
-                colour, out, share);
-    colour = out;
-  }
-  std::vector<Plane> result;
-  session_.look_at<cl_float4>(colour, packed.size(), [&](std::span<const cl_float4> pixels) {
-    result = planes_of(pixels, f.channels.size());
+  for_each_band(session_, "gather_tiles", tiles, 0, [&](Band& band) {
+    const int y = band.rows().y * DEFRAY_GATHER_TILE;
+    const int rows = std::min(band.rows().rows * DEFRAY_GATHER_TILE, f.height - y);
+    Band pixels(session_, "gather_tiles", f, {y, rows, y, rows});
+    const cl::Buffer made = band.out(largest);
+    band.launch(tile_params(f.width, rows, 0), pixels.in(f.coc_quanta), made);
   });
-  return result;
+  return largest;
+}
+
+Quanta DeviceBackend::gather_reach(const Frame& f) {
+  const Frame tiles = gather_tiles_of(f);
+  DefrayTileParams p = tile_params(f.width, f.height, f.coc_range().largest_radius());
+  Quanta reach = gather_tiles(f);
+  for (p.along_y = 0; p.along_y < 2; ++p.along_y) {
+    Quanta farther;
+    for_each_band(session_, "gather_reach", tiles, p.along_y ? p.reach_tiles : 0, [&](Band& band) {
+      p.tiles_y = word(band.rows().window_rows);
+      const cl::Buffer made = band.out(farther);
+      band.launch(p, band.in(reach), made);
+    });
+    reach = std::move(farther);
+  }
+  return reach;
+}
+
+Planes DeviceBackend::gather(const Frame& f, const GatherSettings& settings,
+                             const Progress& progress) {
+  validate(settings);
+  const bool is_aware = settings.kind == GatherKind::aware;
+  const char* const kernel = is_aware ? "gather_aware" : "gather_literal";
+  const int reach_px = gather_reach_px(f);
+  require_row(session_, kernel, f, reach_px);
+  const GatherSamples samples = make_gather_samples(settings);
+  const cl::Buffer points = session_.view(samples.points), turns = session_.view(samples.turns);
+  const Quanta reach = is_aware ? gather_reach(f) : Quanta();
+  Packed colour = packed(f.channels);
+  for (int pass = 0; pass < settings.passes; ++pass) {
+    DefrayGatherParams p = gather_params(settings, f.width, pass);
+    Packed out;
+    const auto work = [&](Band& band) {
+      const BandRows& rows = band.rows();
+      p.window_y = word(rows.window_y);
+      p.window_rows = word(rows.window_rows);
+      p.band_y = word(rows.y);
+      p.band_rows = word(rows.rows);
+      Band own = band.own();
+      const cl::Buffer made = own.out(out), coc = band.in(f.coc_quanta), source = band.in(colour);
+      if (is_aware) {
+        own.launch(p, coc, session_.in(reach), points, turns, source, made);
+      } else {
+        own.launch(p, coc, points, turns, source, made);
+      }
+    };
+    const auto share = [&](double done) { progress((pass + done) / settings.passes); };
+    for_each_band(session_, kernel, f, reach_px, work, 1, progress ? Progress(share) : Progress());
+    colour = std::move(out);
+  }
+  return unpacked(colour, f.channels.size());
 }
 
 }  // namespace defray

@@ -1,80 +1,48 @@
-// Kernel `linear_psf`: band after band, their source planes with what is in reach around them.
+// Kernel `linear_psf`.
 #include "methods/linear.h"
 
-#include <algorithm>
-#include <array>
-
 #include "device/device_backend.h"
-#include "methods/linear_band.h"
+#include "methods/linear_source.h"
+#include "opencl/bands.h"
 #include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
 
-const LaunchRow linear_psf_launch({"linear_psf", WorkGroup{16, 1}});
-
-/// Rows of a launch: few enough that a progress bar moves.
-constexpr std::uint32_t linear_rows_per_launch = 16;
-
-void blur_band(Session& session, DefrayLinearParams p, const PaddedBand& band, int band_rows,
-               const Plane& radius, const std::vector<Plane>& scaled, std::vector<Plane>& out,
-               const std::function<void(int rows)>& progress) {
-  const auto rows = static_cast<std::uint32_t>(band_rows);
-  const std::size_t bytes = std::size_t{p.target_stride} * rows * sizeof(float);
-  const std::vector<std::int32_t> reaches = row_reaches(radius, band);
-  const cl::Buffer reach = session.view(reaches), r = session.view(radius);
-  std::array<cl::Buffer, 4> in, result;
-  // The kernel always sums four channels; a missing one repeats the last and is not read back.
-  for (std::size_t c = 0; c < 4; ++c) {
-    in[c] = c < scaled.size() ? session.view(scaled[c]) : in[c - 1];
-    result[c] = session.buffer(bytes);
-  }
-  for (p.first_row = 0; p.first_row < rows; p.first_row += linear_rows_per_launch) {
-    p.launch_rows = std::min(linear_rows_per_launch, rows - p.first_row);
-    session.launch("linear_psf", {p.target_stride / DEFRAY_LINEAR_RUN, p.launch_rows}, p, reach, r,
-                   in, result);
-    session.finish();
-    progress(static_cast<int>(p.first_row + p.launch_rows));
-  }
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    out[c].resize(bytes / sizeof(float));
-    session.read(result[c], out[c].data(), bytes);
-  }
-}
+// A radius and scaled colours are read; colours are written.
+const LaunchRow linear_psf_launch({.kernel = "linear_psf",
+                                   .group = {16, 1},
+                                   .bytes_a_surface = Launch::plane + Launch::colour,
+                                   .run_px = DEFRAY_RUN,
+                                   .bytes_a_target = Launch::colour,
+                                   .rows_at_once = 16,
+                                   .reads_padded = true});
 
 }  // namespace
 
-std::vector<Plane> DeviceBackend::linear(const Frame& f, const Progress& progress) {
-  const int width = f.width, height = f.height;
-  const auto coc_quanta = f.coc_quanta.host();
-  const int reach = linear_reach(coc_quanta);
+Planes DeviceBackend::linear(const Frame& f, const Progress& progress) {
+  const int reach = linear_reach(f.coc_quanta.host());
+  require_row(session_, "linear_psf", f, reach);
+  const std::size_t stride = launch_of("linear_psf").row_values(size(f.width), reach);
   const DiscNorms norm(reach + 1);
-  std::vector<Plane> out(f.channels.size(), Plane(coc_quanta.size())), band_out(f.channels.size());
-  for (const BandRows& rows : linear_bands(width, height, reach, session_.memory_bytes())) {
-    const PaddedBand band(width, height, rows, reach);
-    const Plane radius = band.plane([&](std::size_t i) { return radius_px(coc_quanta[i]); });
-    std::vector<Plane> scaled;
-    for (const Values<float>& channel : f.channels) {
-      scaled.push_back(band.plane([&, values = channel.host()](std::size_t i) {
-        const double twice = 2 * norm(static_cast<double>(radius_px(coc_quanta[i])));
-        return values[i] / static_cast<float>(twice);
-      }));
-    }
-    DefrayLinearParams p{};
-    p.width = static_cast<std::uint32_t>(width);
-    p.source_stride = static_cast<std::uint32_t>(band.stride);
-    p.target_stride = static_cast<std::uint32_t>(PaddedBand::target_stride_for(width));
-    p.reach = reach;
-    blur_band(session_, p, band, rows.rows, radius, scaled, band_out, [&](int done) {
-      if (progress) progress(static_cast<double>(rows.y + done) / height);
-    });
-    for (std::size_t c = 0; c < out.size(); ++c) {
-      for (int row = 0; row < rows.rows; ++row) {
-        std::copy_n(band_out[c].begin() + std::int64_t{row} * p.target_stride, width,
-                    out[c].begin() + std::int64_t{rows.y + row} * width);
-      }
-    }
-  }
+  Planes out;
+  const auto work = [&](Band& band) {
+    const BandRows& rows = band.rows();
+    const LinearSource source(f, rows, reach, stride, norm);
+    const DefrayLinearParams p{.width = word(f.width),
+                               .window_rows = word(rows.window_rows),
+                               .band_row = word(rows.y - rows.window_y),
+                               .band_rows = word(rows.rows),
+                               .source_stride = static_cast<std::uint32_t>(stride),
+                               .reach = reach};
+    const auto scaled = four_channels(
+        source.scaled.size(), [&](std::size_t c) { return session_.view(source.scaled[c]); });
+    Band own = band.own();
+    const auto made = own.out(out, f.channels.size());
+    own.launch(p, session_.view(source.row_reach), session_.view(source.radius), scaled, made);
+    session_.finish();  // the source is this function's own
+  };
+  for_each_band(session_, "linear_psf", f, reach, work, 1, progress);
   return out;
 }
 

@@ -74,7 +74,7 @@ Frame DeviceBackend::patterns(const Frame& f, Frame behind, const Words& pixels,
         const cl::Buffer spread_buffer = band.tiles(variance, row_units, DEFRAY_PATTERN_CELL);
         const auto source = band.in(f.channels), target = band.in_out(behind.channels);
         p.height = word(rows.window_rows);
-        for (const BandRows& group : cut_into_bands(cell_rows, most, 0)) {
+        for (const BandRows& group : cut_into_bands({0, cell_rows}, cell_rows, most, 0)) {
           p.first_row = rows.y - rows.window_y + (group.y - margin) * DEFRAY_PATTERN_CELL;
           p.cell_rows = word(group.rows + 2 * margin);
           session_.launch("patterns_difference",

@@ -9,7 +9,9 @@
 namespace defray {
 namespace {
 
-const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}});
+// It writes keys, what sends rays, coverage, and colours.
+const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}, 0,
+                                3 * Launch::plane + Launch::colour});
 const LaunchRow rdb_reach_launch({"rdb_reach", WorkGroup{16, 1}});
 const LaunchRow rdb_tiles_launch({"rdb_tiles", WorkGroup{16, 1}});
 
@@ -46,10 +48,9 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
 }
 
 std::vector<BandRows> RayTileWindow::windows() const {
-  const std::size_t a_surface =
-      sizeof(cl_int) + 4 * sizeof(cl_float) + (params.has_coverage ? 2 * sizeof(cl_uint) : 0);
+  const std::size_t surfaces = params.stride * size(frame_.layers);
   return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + 1, DEFRAY_RAY_TILE,
-                          params.stride * size(frame_.layers) * a_surface,
+                          {surfaces * launch_of("rdb_pad").bytes_a_surface},
                           session_.memory_bytes() / 2);
 }
 
@@ -66,9 +67,7 @@ void RayTileWindow::prepare(const BandRows& rows) {
   keys = plane(true);
   sending = plane(params.has_coverage);
   coverage = plane(params.has_coverage);
-  for (std::size_t c = 0; c < 4; ++c) {
-    channels[c] = c < params.channels ? plane(true) : channels[c - 1];
-  }
+  channels = four_channels(params.channels, [&](std::size_t) { return plane(true); });
   session_.launch("rdb_pad", {params.stride, lines()}, params, planes.coc, planes.depth,
                   planes.coverage, planes.channels, keys, sending, coverage, channels);
 

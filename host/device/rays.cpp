@@ -13,9 +13,7 @@
 namespace defray {
 namespace {
 
-const LaunchRow rdb_gather_launch({"rdb_gather", WorkGroup{1, 1}});
-
-constexpr int rows_at_once = 64;  ///< Of a launch, for the progress bar.
+const LaunchRow rdb_gather_launch({.kernel = "rdb_gather", .group = {1, 1}, .rows_at_once = 64});
 
 /// Cells whose winners somebody asks for: the light sources, or the nearest hits.
 std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
@@ -28,6 +26,7 @@ constexpr std::size_t winners_at_once = 16 << 20;
 
 /// Rows of a band: winners of all its cells take a quarter of the memory at most.
 int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_cells) {
+  const int rows_at_once = launch_of("rdb_gather").rows_at_once;
   if (winner_cells == 0) return rows_at_once;
   const std::size_t row = size(frame.width) * winner_cells * sizeof(RdbWinner);
   const std::size_t strip = row * DEFRAY_RAY_ROWS, memory = session.memory_bytes() / 4;

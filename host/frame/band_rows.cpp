@@ -33,22 +33,18 @@ std::vector<BandRows> cut_into_bands(Rows wanted, int height, int rows, std::int
   return bands;
 }
 
-std::vector<BandRows> cut_into_bands(int height, int rows, std::int64_t reach, int step) {
-  return cut_into_bands({0, height}, height, rows, reach, step);
+std::size_t RowBytes::of_band(int rows, std::int64_t around, int height) const {
+  return size(Rows{0, rows}.with(around, height).count()) * window + size(rows) * own;
 }
 
 std::vector<BandRows> cut_into_windows(Rows wanted, int height, std::int64_t reach, int step,
-                                       std::size_t row_bytes, std::size_t memory_bytes) {
-  // Windows begin up to a step earlier than they need to.
-  const int around = 2 * static_cast<int>(std::min<std::int64_t>(reach, height)) + step;
-  const int rows =
-      rows_that_fit(wanted.count(), memory_bytes, size(around) * row_bytes, row_bytes, step);
+                                       const RowBytes& row_bytes, std::size_t memory_bytes) {
+  const std::int64_t around = 2 * reach + step - 1;  // windows begin at a multiple of `step`
+  int rows = step;
+  while (rows < wanted.count() && row_bytes.of_band(rows + step, around, height) <= memory_bytes) {
+    rows += step;
+  }
   return cut_into_bands(wanted, height, rows, reach, step);
-}
-
-std::vector<BandRows> cut_into_windows(int height, std::int64_t reach, int step,
-                                       std::size_t row_bytes, std::size_t memory_bytes) {
-  return cut_into_windows({0, height}, height, reach, step, row_bytes, memory_bytes);
 }
 
 }  // namespace defray

@@ -30,19 +30,22 @@ struct BandRows {
 int rows_that_fit(int height, std::size_t memory_bytes, std::size_t fixed_bytes,
                   std::size_t row_bytes, int step = 1);
 
-/// Bands of `rows` rows, a multiple of `step`, from the top, with windows of `reach` rows more on
-/// each side that begin at multiples of `step` too.
-std::vector<BandRows> cut_into_bands(int height, int rows, std::int64_t reach, int step = 1);
-
-/// The same of the rows `wanted` of a frame of `height`, whose first is a multiple of `step`.
+/// Bands of `rows` rows, a multiple of `step`, of the rows `wanted` of a frame of `height`, whose
+/// first is a multiple of `step`; their windows have `reach` rows more on each side and begin at
+/// multiples of `step` too.
 std::vector<BandRows> cut_into_bands(Rows wanted, int height, int rows, std::int64_t reach,
                                      int step = 1);
 
-/// Bands whose windows, of `row_bytes` a row, take at most `memory_bytes`: where a kernel reads
-/// what it needs, no more.
-std::vector<BandRows> cut_into_windows(int height, std::int64_t reach, int step,
-                                       std::size_t row_bytes, std::size_t memory_bytes);
+/// Bytes of bands: of each row of a window, and of each of the band's own rows beside.
+struct RowBytes {
+  std::size_t window, own = 0;
+
+  /// Of so many rows of a frame of `height`, with `around` rows in their window beside.
+  std::size_t of_band(int rows, std::int64_t around, int height) const;
+};
+
+/// Bands that take at most `memory_bytes`: where a kernel reads what it needs, no more.
 std::vector<BandRows> cut_into_windows(Rows wanted, int height, std::int64_t reach, int step,
-                                       std::size_t row_bytes, std::size_t memory_bytes);
+                                       const RowBytes& row_bytes, std::size_t memory_bytes);
 
 }  // namespace defray

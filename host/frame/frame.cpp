@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
+#include <utility>
 
 #include "kernels/params.h"
 
@@ -14,6 +15,12 @@ Planes Planes::view(const std::vector<Plane>& planes) {
     views.push_back(Values<float>::view(plane.data(), plane.size()));
   }
   return views;
+}
+
+std::vector<Plane> taken(Planes planes) {
+  std::vector<Plane> all;
+  for (Values<float>& plane : planes) all.push_back(std::move(plane).take());
+  return all;
 }
 
 void CocRange::add(const CocRange& other) {

@@ -1,8 +1,10 @@
 #pragma once
 // The one frame that stages take and give: planes of one size, on the host or on a device.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/plane.h"
@@ -15,12 +17,23 @@ namespace defray {
 class Planes : public std::vector<Values<float>> {
  public:
   using std::vector<Values<float>>::vector;
-  Planes(const std::vector<Plane>& planes) {  // planes in host memory are planes
-    for (const Plane& plane : planes) emplace_back(plane);
+  Planes(std::vector<Plane> planes) {  // planes in host memory are planes
+    for (Plane& plane : planes) emplace_back(std::move(plane));
   }
   /// Somebody else's memory, which must stay alive and unchanged.
   static Planes view(const std::vector<Plane>& planes);
 };
+
+/// As vectors; no copies where nobody else has the planes.
+std::vector<Plane> taken(Planes planes);
+
+/// For four arguments of one to four channels: a missing one repeats the last.
+template <typename Channel>
+auto four_channels(std::size_t count, const Channel& channel) {
+  std::array<decltype(channel(std::size_t{})), 4> all;
+  for (std::size_t c = 0; c < 4; ++c) all[c] = c < count ? channel(c) : all[c - 1];
+  return all;
+}
 
 /// CoC radii of a frame, quanta.
 struct CocRange {

@@ -10,9 +10,7 @@
 namespace defray {
 namespace {
 
-std::uint32_t tiles_across(int pixels) {
-  return static_cast<std::uint32_t>((pixels + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE);
-}
+int tiles_across(int pixels) { return (pixels + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE; }
 
 /// A pass's radius, in CoC radii. The paper repeats the whole blur "to strengthen the effect".
 /// Where depth counts, the passes share it: each after the first fills the discs that single
@@ -52,24 +50,30 @@ GatherSamples make_gather_samples(const GatherSettings& settings) {
   return samples;
 }
 
-DefrayGatherParams gather_params(const GatherSettings& settings, int width, int height, int pass) {
+DefrayGatherParams gather_params(const GatherSettings& settings, int width, int pass) {
   DefrayGatherParams p{};
-  p.width = static_cast<std::uint32_t>(width);
-  p.height = static_cast<std::uint32_t>(height);
-  p.band_rows = p.height;
-  p.sample_count = static_cast<std::uint32_t>(settings.samples);
+  p.width = word(width);
+  p.sample_count = word(settings.samples);
   p.rotates = settings.rotate ? 1 : 0;
   p.seed = settings.seed + static_cast<std::uint32_t>(pass);
   p.radius_scale = static_cast<float>(pass_radius(settings, pass));
   return p;
 }
 
+int gather_reach_px(const Frame& frame) {
+  return frame.coc_range().largest_radius() >> DEFRAY_COC_FRACTION_BITS;
+}
+
+Frame gather_tiles_of(const Frame& frame) {
+  return {.width = tiles_across(frame.width), .height = tiles_across(frame.height)};
+}
+
 DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_quanta) {
   DefrayTileParams p{};
-  p.width = static_cast<std::uint32_t>(width);
-  p.height = static_cast<std::uint32_t>(height);
-  p.tiles_x = tiles_across(width);
-  p.tiles_y = tiles_across(height);
+  p.width = word(width);
+  p.height = word(height);
+  p.tiles_x = word(tiles_across(width));
+  p.tiles_y = word(tiles_across(height));
   const int most = static_cast<int>(std::max(p.tiles_x, p.tiles_y));
   const int reach_px = largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS;
   p.reach_tiles = std::min(most, reach_px / DEFRAY_GATHER_TILE + 1);

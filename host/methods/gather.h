@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "defray/options.h"
+#include "frame/frame.h"
 #include "kernels/params.h"
 
 namespace defray {
@@ -21,8 +22,14 @@ struct GatherSamples {
 };
 GatherSamples make_gather_samples(const GatherSettings& settings);
 
-/// One pass over a whole frame: all fields of the parameters but the band.
-DefrayGatherParams gather_params(const GatherSettings& settings, int width, int height, int pass);
+/// One pass: all fields of the parameters but the window and the band.
+DefrayGatherParams gather_params(const GatherSettings& settings, int width, int pass);
+
+/// Whole pixels of the largest radius: rows in reach, but for those of the launch table.
+int gather_reach_px(const Frame& frame);
+
+/// The tiles of a frame, each as a pixel of a frame of its own, without planes.
+Frame gather_tiles_of(const Frame& frame);
 
 /// Tiles of a frame, and how many of them a CoC of this size spans.
 DefrayTileParams tile_params(int width, int height, std::int32_t largest_coc_quanta);

@@ -17,7 +17,4 @@ float radius_px(std::int32_t coc_quanta);
 /// Reach of `linear`, in whole pixels, for these CoC radii. Throws Error(usage) above the limit.
 int linear_reach(std::span<const std::int32_t> coc_quanta);
 
-/// Memory for a band of so many rows.
-std::size_t linear_band_bytes(int width, int reach, int rows);
-
 }  // namespace defray

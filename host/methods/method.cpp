@@ -31,12 +31,12 @@ MethodResult run_rdb(const Frame& f, const MethodSettings& s, Backend& backend, 
 
 MethodResult run_linear(const Frame& f, const MethodSettings&, Backend& backend, bool,
                         const Progress& progress) {
-  return {backend.linear(f, progress)};
+  return {taken(backend.linear(f, progress))};
 }
 
 MethodResult run_gather(const Frame& f, const MethodSettings& s, Backend& backend, bool,
                         const Progress& progress) {
-  return {backend.gather(f, s.gather, progress)};
+  return {taken(backend.gather(f, s.gather, progress))};
 }
 
 /// Linear filtering divided by the light that each pixel got from a white frame: a lens blur as
@@ -44,10 +44,10 @@ MethodResult run_gather(const Frame& f, const MethodSettings& s, Backend& backen
 /// bands.
 MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Backend& backend, bool,
                            const Progress& progress) {
-  MethodResult out{backend.linear(f, progress)};
+  MethodResult out{taken(backend.linear(f, progress))};
   Frame white_frame = f;
   white_frame.channels = Planes{Values<float>(f.pixels(), 1.0f)};
-  const Plane white = backend.linear(white_frame, progress)[0];
+  const Plane white = std::move(taken(backend.linear(white_frame, progress)).front());
   for (Plane& plane : out.colour) {
     for (std::size_t i = 0; i < plane.size(); ++i) plane[i] /= white[i];
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "defray/report.h"
 #include "frame/band_rows.h"
 #include "frame/frame.h"
 #include "opencl/launch_table.h"
@@ -21,9 +22,13 @@ namespace defray {
 /// the kernel runs over the band's rows alone.
 class Band {
  public:
-  Band(Session& session, const std::string& kernel, const Frame& frame, const BandRows& rows);
+  Band(Session& session, const std::string& kernel, const Frame& frame, const BandRows& rows,
+       const Progress& progress = {});
 
   const BandRows& rows() const { return rows_; }
+
+  /// The band's own rows as their own window: for kernels that write no others.
+  Band own() const;
 
   /// Index of the window's first value in a plane.
   std::size_t first() const { return first_; }
@@ -69,15 +74,20 @@ class Band {
   }
   std::array<cl::Buffer, 4> in_out(Planes& channels);
 
-  /// Runs the kernel over the band's rows; those of a frame of layers are [row][layer].
+  /// Runs the kernel over the band's rows, as many at once as its launch has; those of a frame of
+  /// layers are [row][layer].
   template <typename... Args>
   void launch(const Args&... args) {
+    const Launch& launch = launch_of(kernel_);
     const std::size_t layers = size(frame_.layers);
-    const std::size_t first = size(rows_.y - rows_.window_y) * layers;
-    const std::size_t run = launch_of(kernel_).run_px;
-    session_.launch_from({0, first}, kernel_.c_str(),
-                         {(size(frame_.width) + run - 1) / run, size(rows_.rows) * layers},
-                         args...);
+    const std::size_t runs = (size(frame_.width) + launch.run_px - 1) / launch.run_px;
+    const int most = launch.rows_at_once > 0 ? launch.rows_at_once : rows_.rows;
+    for (int row = 0; row < rows_.rows; row += most) {
+      const int count = std::min(most, rows_.rows - row);
+      const std::size_t first = size(rows_.y - rows_.window_y + row) * layers;
+      session_.launch_from({0, first}, kernel_.c_str(), {runs, size(count) * layers}, args...);
+      report(row + count);
+    }
     collect();
   }
 
@@ -96,21 +106,35 @@ class Band {
     });
   }
 
+  /// The share of the frame that is done with so many of the band's rows.
+  void report(int done) const;
+
   Session& session_;
   std::string kernel_;
   const Frame& frame_;
   BandRows rows_;
+  Progress progress_;
   bool is_whole_;
   std::size_t stride_, first_, count_, total_;
   std::vector<std::function<void()>> reads_;  ///< After the launch.
 };
 
 /// Whether the device holds the kernel's planes of a whole frame: in one band, where they stay.
-bool holds_planes(const Session& session, const char* kernel, const Frame& frame);
+/// `reach_px` rows around a band count beside those of the launch table.
+bool holds_planes(const Session& session, const char* kernel, const Frame& frame,
+                  std::int64_t reach_px = 0);
 
-/// A kernel over a frame's wanted rows: `work` launches it once a band. `reach_px` rows around a
-/// band count beside those of the launch table, and bands begin at multiples of `step` rows.
+/// What bands of so many rows take by the launch table, bytes.
+std::size_t band_bytes(const char* kernel, const Frame& frame, std::int64_t reach_px, int rows);
+
+/// Throws Error(usage) where the frame has to be cut and not even one row fits the memory.
+void require_row(const Session& session, const char* kernel, const Frame& frame,
+                 std::int64_t reach_px);
+
+/// A kernel over a frame's wanted rows: `work` launches it once a band. Bands begin at multiples of
+/// `step` rows.
 void for_each_band(Session& session, const char* kernel, const Frame& frame, std::int64_t reach_px,
-                   const std::function<void(Band&)>& work, int step = 1);
+                   const std::function<void(Band&)>& work, int step = 1,
+                   const Progress& progress = {});
 
 }  // namespace defray

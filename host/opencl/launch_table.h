@@ -2,6 +2,7 @@
 // What a launch of each kernel needs. Each kernel's row stands where it is launched, and nowhere
 // else (`device/`); here they are found by name.
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,26 @@ struct Launch {
   WorkGroup group;
   /// Rows around its own that a work-item looks at beyond what the CoC says.
   int reach_px = 0;
-  /// Of planes that a kernel reads and writes, a surface, on a device with memory of its own: of
-  /// kernels that for_each_band launches.
+  /// Of planes that a kernel reads and writes, a surface of a window, on a device with memory of
+  /// its own: of kernels that for_each_band launches.
   std::size_t bytes_a_surface = 0;
   /// Pixels of a row that a work-item takes, of the same kernels.
   std::size_t run_px = 1;
+  /// Of planes that hold the band's own rows alone (Band::own), a pixel of these.
+  std::size_t bytes_a_target = 0;
+  /// Of the widest plane, a surface: a buffer holds it.
+  std::size_t bytes_a_value = plane;
+  /// Rows of a launch: enough to fill a device, few enough that a progress bar moves. 0: a band's.
+  int rows_at_once = 0;
+  /// It reads copies, whole runs of pixels with the columns in reach beside them: they take memory
+  /// where the device works in host memory, too.
+  bool reads_padded = false;
+
+  /// Values of a row of what it reads.
+  std::size_t row_values(std::size_t width, std::int64_t reach) const {
+    const std::size_t runs = (width + run_px - 1) / run_px;
+    return reads_padded ? runs * run_px + 2 * static_cast<std::size_t>(reach) : width;
+  }
 };
 
 /// Puts a kernel's row into the table, before main: one for each kernel, of the file's own.

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/plane.h"
 #include "kernels/params.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
@@ -23,16 +24,14 @@ int rdb_reach(std::int32_t largest_coc_quanta) {
   return (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) + 1;
 }
 
-std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes, bool whole_lens) {
-  return plan_rdb_passes(width, {0, height}, height, cell_count, reach, memory_bytes, whole_lens);
+std::size_t rdb_bytes_a_pixel(std::size_t cells) {
+  return cells * sizeof(RdbWinner) + launch_of("rdb_merge").bytes_a_target;
 }
 
 std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
                                      std::size_t memory_bytes, bool whole_lens) {
   const std::size_t fewest = whole_lens ? static_cast<std::size_t>(cell_count) : 1;
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(width) * (fewest * rdb_bytes_a_cell + rdb_bytes_a_sum);
+  const std::size_t row_bytes = size(width) * rdb_bytes_a_pixel(fewest);
   if (memory_bytes < row_bytes) {
     fail(ErrorKind::usage,
          "{} is {:.4g} MiB: one row of {} pixels with {} lens points needs at least {:.3f} MiB",
@@ -46,9 +45,9 @@ std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cel
   const std::size_t band = static_cast<std::size_t>(width) * static_cast<std::size_t>(rows);
   const std::size_t pass_bytes = std::max(std::min(memory_bytes, pass_bytes_in_cache),
                                           row_bytes * static_cast<std::size_t>(rows));
-  const std::size_t for_cells = pass_bytes - band * rdb_bytes_a_sum;
+  const std::size_t for_cells = pass_bytes - band * rdb_bytes_a_pixel(0);
   const int cells = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(cell_count),
-                                                           for_cells / (band * rdb_bytes_a_cell)));
+                                                           for_cells / (band * sizeof(RdbWinner))));
   std::vector<RdbPass> passes;
   for (const BandRows& of_band : cut_into_bands(wanted, height, rows, reach)) {
     for (int k = 0; k < cell_count; k += cells) {

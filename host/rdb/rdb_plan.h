@@ -14,10 +14,9 @@ struct RdbWinner {
   std::uint32_t key;     ///< Its signed radius + 2^31: the nearest has the smallest.
 };
 
-/// Memory of one cell of one pixel with the pixel's sums, its nearest hit among them: the least
-/// that a pass can work with.
-inline constexpr std::size_t rdb_bytes_a_cell = sizeof(RdbWinner);
-inline constexpr std::size_t rdb_bytes_a_sum = 4 * sizeof(float) + 4 * sizeof(std::uint32_t);
+/// Memory of so many cells of a pixel with the pixel's sums, its nearest hit among them: of one
+/// cell, the least that a pass can work with.
+std::size_t rdb_bytes_a_pixel(std::size_t cells);
 
 /// One pass: which target rows, which source rows can reach them, and which lens points.
 struct RdbPass : BandRows {
@@ -27,12 +26,9 @@ struct RdbPass : BandRows {
 /// Rows beyond a target row from which a ray can come, for this largest |CoC| in quanta.
 int rdb_reach(std::int32_t largest_coc_quanta);
 
-/// Cuts a frame into passes whose cells and sums fit `memory_bytes`: bands from the top, and in
-/// each band all cells in order, if `whole_lens` in one pass. Throws Error(usage) when one row of
-/// the fewest cells does not fit.
-std::vector<RdbPass> plan_rdb_passes(int width, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes, bool whole_lens = false);
-/// Of the rows `wanted` alone.
+/// Cuts a frame's `wanted` rows into passes whose cells and sums fit `memory_bytes`: bands from the
+/// top, and in each band all cells in order, if `whole_lens` in one pass. Throws Error(usage) when
+/// one row of the fewest cells does not fit.
 std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
                                      std::size_t memory_bytes, bool whole_lens = false);
 

@@ -117,7 +117,7 @@ void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, fl
 std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples& samples,
                                 const std::vector<Plane>& channels, const Frame& f) {
   const auto coc_quanta = f.coc_quanta.host();
-  const GatherFrame frame{static_cast<int>(p.width), static_cast<int>(p.height), channels};
+  const GatherFrame frame{f.width, f.height, channels};
   const float quantum = std::ldexp(1.0f, -DEFRAY_COC_FRACTION_BITS) * p.radius_scale;
   const auto reach = gather_reach(f);
   const int across = (frame.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;

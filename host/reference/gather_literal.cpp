@@ -26,7 +26,7 @@ float literal_pixel(const GatherFrame& frame, std::size_t c, int x, int y, float
 std::vector<Plane> gather_literal(const DefrayGatherParams& p, const GatherSamples& samples,
                                   const std::vector<Plane>& channels, const Frame& f) {
   const auto coc_quanta = f.coc_quanta.host();
-  const GatherFrame frame{static_cast<int>(p.width), static_cast<int>(p.height), channels};
+  const GatherFrame frame{f.width, f.height, channels};
   const float quantum = std::ldexp(1.0f, -DEFRAY_COC_FRACTION_BITS) * p.radius_scale;
   std::vector<Plane> out(channels);
   for (int y = 0; y < frame.height; ++y) {

@@ -66,8 +66,6 @@ std::vector<std::vector<Real>> linear(const Frame& f) {
 template std::vector<std::vector<float>> linear<float>(const Frame&);
 template std::vector<std::vector<double>> linear<double>(const Frame&);
 
-std::vector<Plane> TwinBackend::linear(const Frame& f, const Progress&) {
-  return reference::linear<float>(f);
-}
+Planes TwinBackend::linear(const Frame& f, const Progress&) { return reference::linear<float>(f); }
 
 }  // namespace defray::reference

@@ -34,8 +34,7 @@ Outcome run_add(Backend& backend, const Case& c, const Input& in) {
 
 /// All cells of so many rows in one pass.
 std::size_t add_memory(const Case& c, const Input&) {
-  const std::size_t a_pixel = ray_plan(c).lens.points.size() * rdb_bytes_a_cell + rdb_bytes_a_sum;
-  return size(c.band_rows) * size(c.width) * a_pixel;
+  return size(c.band_rows) * size(c.width) * rdb_bytes_a_pixel(ray_plan(c).lens.points.size());
 }
 
 constexpr const char* rule = "equal bits: + - x / sqrt in one order";

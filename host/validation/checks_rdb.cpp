@@ -44,7 +44,7 @@ Outcome run_rdb_scatter(Backend& backend, const Case& c, const Input& in) {
 
 /// A pass of so many rows with one cell.
 std::size_t rdb_memory(const Case& c, const Input&) {
-  return size(c.band_rows) * size(c.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+  return size(c.band_rows) * size(c.width) * rdb_bytes_a_pixel(1);
 }
 
 /// Means, and how many rays saw what the picture shows.

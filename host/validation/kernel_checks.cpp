@@ -7,7 +7,7 @@
 #include "device/device_backend.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
-#include "opencl/launch_table.h"
+#include "opencl/bands.h"
 #include "reference/reference.h"
 #include "validation/checks_patterns.h"
 #include "validation/stage_input.h"
@@ -48,11 +48,11 @@ double linear_cost(const Case& c) {
 }
 
 std::size_t linear_memory(const Case& c, const Input& in) {
-  return linear_band_bytes(c.width, linear_reach(in.coc_quanta), c.band_rows);
+  return band_bytes("linear_psf", frame_of(c, in), linear_reach(in.coc_quanta), c.band_rows);
 }
 
 Outcome run_linear(Backend& backend, const Case& c, const Input& in) {
-  return {{}, backend.linear(frame_of(c, in))};
+  return {{}, taken(backend.linear(frame_of(c, in)))};
 }
 
 /// A term carries the roundings of its root, its subtraction (both of numbers up to the reach + 1
@@ -76,7 +76,14 @@ Outcome run_tiltshift(Backend& backend, const Case& c, const Input&) {
 
 template <GatherKind kind>
 Outcome run_gather(Backend& backend, const Case& c, const Input& in) {
-  return {{}, backend.gather(frame_of(c, in), gather_case(kind, c))};
+  return {{}, taken(backend.gather(frame_of(c, in), gather_case(kind, c)))};
+}
+
+template <GatherKind kind>
+std::size_t gather_memory(const Case& c, const Input& in) {
+  const Frame f = frame_of(c, in);
+  const char* const kernel = kind == GatherKind::aware ? "gather_aware" : "gather_literal";
+  return band_bytes(kernel, f, gather_reach_px(f), c.band_rows);
 }
 
 /// n samples of differences <= 2 L, their weights from a root 6 u off of distances up to the search
@@ -84,6 +91,17 @@ Outcome run_gather(Backend& backend, const Case& c, const Input& in) {
 double aware_roundings(const Case& c) {
   const double search = std::min(c.coc_px, 65536.0);
   return 4 * c.samples * (6 * search + 12) * std::max(1.0, 4 * square(search) / c.samples);
+}
+
+/// Of rows of tiles.
+std::size_t tiles_memory(const Case& c, const Input& in) {
+  return band_bytes("gather_tiles", gather_tiles_of(frame_of(c, in)), 0, c.band_rows);
+}
+
+std::size_t reach_memory(const Case& c, const Input& in) {
+  const Frame f = frame_of(c, in);
+  const auto p = tile_params(f.width, f.height, f.coc_range().largest_radius());
+  return band_bytes("gather_reach", gather_tiles_of(f), p.reach_tiles, c.band_rows);
 }
 
 Outcome run_tiles(Backend& backend, const Case& c, const Input& in) {
@@ -115,9 +133,8 @@ std::vector<KernelCheck> with_stages(std::vector<KernelCheck> checks) {
 }  // namespace
 
 std::size_t band_memory(const char* kernel, const Case& c, int layers) {
-  const Launch& launch = launch_of(kernel);
-  const int rows = c.band_rows + 2 * launch.reach_px + 1;  // 1: see cut_into_windows
-  return size(rows) * size(c.width) * size(layers) * launch.bytes_a_surface;
+  return band_bytes(kernel, {.width = c.width, .height = c.height, .layers = layers}, 0,
+                    c.band_rows);
 }
 
 const std::vector<KernelCheck>& kernel_checks() {
@@ -125,10 +142,12 @@ const std::vector<KernelCheck>& kernel_checks() {
   static const std::vector<KernelCheck> checks = with_stages({
       {"coc", "within 1/2 quantum + 4 ulp of the exact radius", run_coc, pixels, nullptr,
        exact_coc},
-      {"gather_aware", bits_rule, run_gather<aware>, gather_work, aware_roundings},
-      {"gather_literal", bits_rule, run_gather<literal>, gather_work, one_division},
-      {"gather_reach", integer_rule, run_reach, tiles_work},
-      {"gather_tiles", integer_rule, run_tiles, tiles_work},
+      {"gather_aware", bits_rule, run_gather<aware>, gather_work, aware_roundings, nullptr,
+       gather_memory<aware>},
+      {"gather_literal", bits_rule, run_gather<literal>, gather_work, one_division, nullptr,
+       gather_memory<literal>},
+      {"gather_reach", integer_rule, run_reach, tiles_work, nullptr, nullptr, reach_memory},
+      {"gather_tiles", integer_rule, run_tiles, tiles_work, nullptr, nullptr, tiles_memory},
       {"linear_psf", bits_rule, run_linear, linear_cost, linear_roundings, exact_linear,
        linear_memory},
       {"tiltshift", bits_rule, run_tiltshift, pixels},

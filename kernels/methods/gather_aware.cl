@@ -9,8 +9,8 @@
 // The signed CoC orders surfaces as depth does. Surfaces count as nearer from half a pixel of CoC
 // on, wholly from one and a half, so that slanted surfaces stay whole.
 //
-// coc_quanta  [height][width]                 signed radius, 1/256 px
-// reach       [tiles_y][tiles_x]              largest radius that matters to a tile, quanta
+// coc_quanta  [window_rows][width]  signed radius, 1/256 px
+// reach       [tiles_y][tiles_x]    of the frame: largest radius that matters to a tile, quanta
 // samples, rotations, colour, out         as in gather_literal
 // Samples are taken at whole pixels: no colour is mixed across an edge.
 // Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
@@ -74,8 +74,8 @@ void add_colours(const float16 shares, const uint* source, __global const float4
 // Adds sample `i` of all pixels of the run.
 void add_sample(const DefrayGatherParams p, const Discs d, const uint i, const float2 sample,
                 const RunVectors turn, __global const int* restrict coc_quanta,
-                __global const float4* restrict colour, const uint x, const uint y,
-                const float4* own, Gathered* sums) {
+                __global const float4* restrict colour, const GatherRun run, const float4* own,
+                Gathered* sums) {
   const uint odd = p.sample_count & 1u;  // an odd set begins with its centre, pairs follow
   const bool is_base_pair = (i + odd) / 2u & 1u;
   const int16 none = 0;
@@ -83,8 +83,8 @@ void add_sample(const DefrayGatherParams p, const Discs d, const uint i, const f
               only_near = is_base_pair ? none : d.splits;
   const RunVectors offset = offsets_of(sample, turn, select(d.search, d.own_radius, only_base));
   const int16 away_x = nearest_of(offset.x), away_y = nearest_of(offset.y);
-  const int16 at_x = clamp((int)x + RUN_LANES + away_x, (int16)(0), (int16)((int)p.width - 1));
-  const int16 at_y = clamp((int)y + away_y, (int16)(0), (int16)((int)p.height - 1));
+  const int16 at_x = clamp((int)run.x + RUN_LANES + away_x, (int16)(0), (int16)((int)p.width - 1));
+  const int16 at_y = clamp((int)run.row + away_y, (int16)(0), (int16)((int)p.window_rows - 1));
   uint source[RUN];
   vstore16(as_uint16(at_y) * p.width + as_uint16(at_x), 0, source);
   int lanes[RUN];
@@ -108,39 +108,38 @@ __kernel void gather_aware(const DefrayGatherParams p, __global const int* restr
                            __global const float2* restrict samples,
                            __global const float2* restrict rotations,
                            __global const float4* restrict colour, __global float4* restrict out) {
-  const uint x = (uint)get_global_id(0) * RUN;
-  const uint row = get_global_id(1);
-  if (x >= p.width || row >= p.band_rows) return;
-  const uint y = p.band_y + row;
-  const int count = min(RUN, (int)(p.width - x));
-  const size_t first = (size_t)y * p.width + x;
+  const GatherRun run = gather_run(p);
+  if (run.count <= 0) return;
   const uint tiles_x = (p.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
-  const uint tile = y / DEFRAY_GATHER_TILE * tiles_x + x / DEFRAY_GATHER_TILE;
+  const uint tile = run.y / DEFRAY_GATHER_TILE * tiles_x + run.x / DEFRAY_GATHER_TILE;
   const float search = (float)reach[tile] * (1.0f / 256.0f * p.radius_scale);
   if (!(search >= 0.5f)) {
-    for (int i = 0; i < count; ++i) out[first + (size_t)i] = colour[first + (size_t)i];
+    for (int i = 0; i < run.count; ++i) {
+      out[run.target + (size_t)i] = colour[run.first + (size_t)i];
+    }
     return;
   }
-  const Discs discs = discs_of(p.sample_count, gather_radii(p, coc_quanta, first, count), search);
-  const RunVectors turn = gather_turns(p, rotations, x, y);
+  const Discs discs = discs_of(p.sample_count, gather_radii(p, coc_quanta, run), search);
+  const RunVectors turn = gather_turns(p, rotations, run);
   Gathered sums;
   float4 own[RUN];
   for (int i = 0; i < RUN; ++i) {
-    own[i] = colour[first + (size_t)min(i, count - 1)];
+    own[i] = colour[run.first + (size_t)min(i, run.count - 1)];
     sums.near_sum[i] = sums.base_sum[i] = 0.0f;
   }
   sums.near_weight = 0.0f;
   sums.base_weight = 1.0f / fmax(discs.base_area, (float16)(1.0f));  // the pixel itself: one pixel
   for (uint i = 0; i < p.sample_count; ++i) {
-    add_sample(p, discs, i, samples[i], turn, coc_quanta, colour, x, y, own, &sums);
+    add_sample(p, discs, i, samples[i], turn, coc_quanta, colour, run, own, &sums);
   }
   // Together the near discs cover at most all of the pixel.
   float near_total[RUN], rest[RUN], base_weight[RUN];
   vstore16(fmax(sums.near_weight, (float16)(1.0f)), 0, near_total);
   vstore16(fmax(1.0f - sums.near_weight, (float16)(0.0f)), 0, rest);
   vstore16(sums.base_weight, 0, base_weight);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < run.count; ++i) {
     const float4 near_mean = sums.near_sum[i] / near_total[i];
-    out[first + (size_t)i] = own[i] + (near_mean + rest[i] * (sums.base_sum[i] / base_weight[i]));
+    out[run.target + (size_t)i] =
+        own[i] + (near_mean + rest[i] * (sums.base_sum[i] / base_weight[i]));
   }
 }

@@ -4,10 +4,11 @@
 // Colours are bilinear between pixel centres; outside the frame the nearest edge pixel counts. The
 // mean is taken of differences to the pixel's own colour: one colour stays that colour bit for bit.
 //
-// coc_quanta   [height][width]     signed radius, 1/256 px; its sign does not matter here
-// samples      [sample_count]      (x, y) in the unit disc
+// coc_quanta   [window_rows][width]  signed radius, 1/256 px; its sign does not matter here
+// samples      [sample_count]        (x, y) in the unit disc
 // rotations    [DEFRAY_GATHER_ROTATIONS]  (cos, sin)
-// colour, out  [height][width]     four channels; rows of the band are written
+// colour       [window_rows][width]  four channels
+// out          [band_rows][width]    likewise
 // Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
 #include "methods/gather.clh"
 
@@ -20,7 +21,7 @@ int16 whole_px(const float16 places) {
 // The colour `part` of a pixel beyond `low`, bilinear.
 float4 colour_between(const DefrayGatherParams p, __global const float4* restrict colour,
                       const int2 low, const float2 part) {
-  const int2 last = (int2)((int)p.width - 1, (int)p.height - 1);
+  const int2 last = (int2)((int)p.width - 1, (int)p.window_rows - 1);
   const int2 a = clamp(low, 0, last), b = clamp(low + 1, 0, last);
   const size_t top = (size_t)a.y * p.width, bottom = (size_t)b.y * p.width;
   const float4 c00 = colour[top + (uint)a.x], c10 = colour[top + (uint)b.x];
@@ -35,14 +36,10 @@ __kernel void gather_literal(const DefrayGatherParams p, __global const int* res
                              __global const float2* restrict rotations,
                              __global const float4* restrict colour,
                              __global float4* restrict out) {
-  const uint x = (uint)get_global_id(0) * RUN;
-  const uint row = get_global_id(1);
-  if (x >= p.width || row >= p.band_rows) return;
-  const uint y = p.band_y + row;
-  const int count = min(RUN, (int)(p.width - x));
-  const size_t first = (size_t)y * p.width + x;
-  const float16 radii = fabs(gather_radii(p, coc_quanta, first, count));
-  const RunVectors turn = gather_turns(p, rotations, x, y);
+  const GatherRun run = gather_run(p);
+  if (run.count <= 0) return;
+  const float16 radii = fabs(gather_radii(p, coc_quanta, run));
+  const RunVectors turn = gather_turns(p, rotations, run);
 
   float radius[RUN];
   vstore16(radii, 0, radius);
@@ -56,19 +53,19 @@ __kernel void gather_literal(const DefrayGatherParams p, __global const int* res
     const float16 part_y = offset.y - convert_float16(whole_y);
     int low_x[RUN], low_y[RUN];
     float along_x[RUN], along_y[RUN];
-    vstore16((int)x + RUN_LANES + whole_x, 0, low_x);
-    vstore16((int)y + whole_y, 0, low_y);
+    vstore16((int)run.x + RUN_LANES + whole_x, 0, low_x);
+    vstore16((int)run.row + whole_y, 0, low_y);
     vstore16(part_x, 0, along_x);
     vstore16(part_y, 0, along_y);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < run.count; ++i) {
       if (!(radius[i] > 0.0f)) continue;
       const float4 there =
           colour_between(p, colour, (int2)(low_x[i], low_y[i]), (float2)(along_x[i], along_y[i]));
-      sum[i] += there - colour[first + (size_t)i];
+      sum[i] += there - colour[run.first + (size_t)i];
     }
   }
-  for (int i = 0; i < count; ++i) {
-    const float4 own = colour[first + (size_t)i];
-    out[first + (size_t)i] = radius[i] > 0.0f ? own + sum[i] / (float)p.sample_count : own;
+  for (int i = 0; i < run.count; ++i) {
+    const float4 own = colour[run.first + (size_t)i];
+    out[run.target + (size_t)i] = radius[i] > 0.0f ? own + sum[i] / (float)p.sample_count : own;
   }
 }

@@ -6,13 +6,14 @@
 // source's shares add up to 1. A gather over everything in reach, in one order: no atomics, the
 // same bits on every device with correctly rounded square roots.
 //
-// row_reach   [band_rows + 2 reach]                 how far a source row's largest disc reaches, px
-// radius_px   [band_rows + 2 reach][source_stride]  |CoC| of the source pixels, px
-// channel0..3 the same                              colour / (2 norm(r)), so that r = 0 gives 1
-// out0..3     [band_rows][target_stride]
-// One work-item: DEFRAY_LINEAR_RUN pixels of a row. Global size: (target_stride / run,
-// launch_rows).
+// row_reach   [window_rows]                 how far a source row's largest disc reaches, px
+// radius_px   [window_rows][source_stride]  |CoC| of the source pixels, px
+// channel0..3 the same                      colour / (2 norm(r)), so that r = 0 gives 1
+// out0..3     [band_rows][width]
+// Beyond the frame its first and last row repeat.
+// Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
 #include "base/colour.clh"
+#include "base/run.clh"
 
 // Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
 float16 lit(const float16 weight, const float16 colour) {
@@ -21,19 +22,18 @@ float16 lit(const float16 weight, const float16 colour) {
 
 __kernel void linear_psf(const DefrayLinearParams p, __global const int* restrict row_reach,
                          __global const float* restrict radius_px, CHANNEL_PARAMETERS(channel),
-                         __global float* restrict out0, __global float* restrict out1,
-                         __global float* restrict out2, __global float* restrict out3) {
-  const uint x = get_global_id(0) * DEFRAY_LINEAR_RUN;
-  const uint y = p.first_row + get_global_id(1);
-  if (x >= p.width || get_global_id(1) >= p.launch_rows) return;
+                         WRITTEN_CHANNELS(out)) {
+  const int2 target = run_start();
+  if (target.x >= (int)p.width || target.y >= (int)p.band_rows) return;
+  const int y = target.y + (int)p.band_row;
 
   float16 sum0 = -0.0f, sum1 = -0.0f, sum2 = -0.0f, sum3 = -0.0f;  // -0 + c is c, for c = -0 too
   for (int dy = -p.reach; dy <= p.reach; ++dy) {
-    const int source_row = (int)y + p.reach + dy;
+    const int source_row = clamp(y + dy, 0, (int)p.window_rows - 1);
     const int beyond = row_reach[source_row] + 1;  // no disc of this row reaches so far
     if (abs(dy) >= (uint)beyond) continue;
     const int half_chord = min((int)sqrt((float)(beyond * beyond - dy * dy)), beyond - 1);
-    const size_t row = (size_t)source_row * p.source_stride + x + (uint)p.reach;
+    const size_t row = (size_t)source_row * p.source_stride + (uint)(target.x + p.reach);
     for (int dx = -half_chord; dx <= half_chord; ++dx) {
       const float distance = sqrt((float)(dx * dx + dy * dy));
       const size_t at = (size_t)((long)row + dx);
@@ -45,9 +45,8 @@ __kernel void linear_psf(const DefrayLinearParams p, __global const int* restric
       sum3 += lit(weight, vload16(0, channel3 + at));
     }
   }
-  const size_t target = (size_t)y * p.target_stride + x;
-  vstore16(sum0, 0, out0 + target);
-  vstore16(sum1, 0, out1 + target);
-  vstore16(sum2, 0, out2 + target);
-  vstore16(sum3, 0, out3 + target);
+  store_floats(p.width, out0, target, sum0);
+  store_floats(p.width, out1, target, sum1);
+  store_floats(p.width, out2, target, sum2);
+  store_floats(p.width, out3, target, sum3);
 }

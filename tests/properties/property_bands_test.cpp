@@ -14,7 +14,8 @@ RC_GTEST_PROP(Bands, CoverTheFrameOnceAndFitTheBudget, ()) {
   const auto row_bytes = static_cast<std::size_t>(*rc::gen::inRange(1, 1000));
   const auto memory = static_cast<std::size_t>(*rc::gen::inRange(0, 200000));
   int next = 0;
-  for (const BandRows& b : cut_into_windows(height, reach, step, row_bytes, memory)) {
+  for (const BandRows& b :
+       cut_into_windows({0, height}, height, reach, step, {row_bytes}, memory)) {
     RC_ASSERT(b.y == next && b.rows > 0);
     next = b.y + b.rows;
     const int end = b.window_y + b.window_rows;
@@ -28,13 +29,13 @@ RC_GTEST_PROP(Bands, CoverTheFrameOnceAndFitTheBudget, ()) {
 }
 
 TEST(Bands, AFrameThatFitsIsOne) {
-  const auto bands = cut_into_windows(100, 10, 16, 8, (100 + 2 * 10 + 2 * 16) * 8);
+  const auto bands = cut_into_windows({0, 100}, 100, 10, 16, {8}, 100 * 8);
   ASSERT_EQ(bands.size(), 1u);
   EXPECT_EQ(bands[0].window_rows, 100);
 }
 
 TEST(Bands, AReachBeyondAllFramesIsTheWholeFrame) {
-  const auto bands = cut_into_windows(100, std::int64_t{1} << 40, 1, 8, 1);
+  const auto bands = cut_into_windows({0, 100}, 100, std::int64_t{1} << 40, 1, {8}, 1);
   ASSERT_EQ(bands.size(), 100u);
   EXPECT_EQ(bands[50].window_y, 0);
   EXPECT_EQ(bands[50].window_rows, 100);

@@ -85,22 +85,24 @@ RC_GTEST_PROP(PlaceProperty, ATurnedSceneGivesATurnedPicture, ()) {
   RC_ASSERT(apart <= bound);
 }
 
-// From one row of one cell (rdb) or one row with everything in its reach (linear) on.
+// From one row of one cell (rdb) or one row with everything in its reach (linear, gather) on.
 RC_GTEST_PROP(PlaceProperty, BandsDoNotShow, ()) {
   const RandomFrame frame = any_frame();
   MethodSettings settings = any_method();
-  RC_PRE(settings.method != Method::gather);
   settings.rdb.jitter = *rc::gen::arbitrary<bool>();
   const std::uint64_t whole = bits(render(frame, settings));
   const auto width = static_cast<std::size_t>(frame.size.width);
-  const std::size_t rdb =
-      width * (rdb_bytes_a_cell + rdb_bytes_a_sum) * *rc::gen::inRange<std::size_t>(1, 40);
-  const std::size_t out_row = 16 * (width + DEFRAY_LINEAR_RUN - 1);
-  const std::size_t in_row = 20 * (width + DEFRAY_LINEAR_RUN - 1 + 2 * reach_px);
+  const std::size_t rdb = width * rdb_bytes_a_pixel(1) * *rc::gen::inRange<std::size_t>(1, 40);
+  const std::size_t out_row = 16 * (width + DEFRAY_RUN - 1);
+  const std::size_t in_row = 20 * (width + DEFRAY_RUN - 1 + 2 * reach_px);
   const std::size_t linear =
       2 * reach_px * in_row + (in_row + out_row) * *rc::gen::inRange<std::size_t>(1, 30);
+  const std::size_t gather =  // 2 rows for what lies between pixels, and for rounding
+      width * (2 * (reach_px + 2) * 20 + 36 * *rc::gen::inRange<std::size_t>(1, 30));
   RC_LOG() << name_of(settings) << std::endl;
-  const InBands in_bands(session(), settings.method == Method::rdb ? rdb : linear);
+  const InBands in_bands(session(), settings.method == Method::rdb      ? rdb
+                                    : settings.method == Method::linear ? linear
+                                                                        : gather);
   RC_ASSERT(bits(render(frame, settings)) == whole);
 }
 

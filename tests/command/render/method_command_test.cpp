@@ -149,7 +149,13 @@ TEST_F(MethodCommand, RefusesWhatTheMethodWouldIgnore) {
     expect_refused("--method tiltshift " + option,
                    {option.substr(0, option.find(' ')), "means nothing"});
   }
-  expect_refused(lens + "--method gather --memory 100", {"--memory", "rdb, linear, tiltshift"});
+}
+
+TEST_F(MethodCommand, MemoryChangesNoPicture) {
+  for (const auto& options :
+       {lens + "--method linear", lens + "--method gather", std::string("--method tiltshift")}) {
+    EXPECT_EQ(rendered(folder, options + " --memory 0.1"), rendered(folder, options)) << options;
+  }
 }
 
 TEST_F(MethodCommand, RefusesOneFileForTwoOutputsHoweverSpelt) {

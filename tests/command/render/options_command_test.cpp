@@ -115,9 +115,8 @@ TEST_F(OptionsCommand, WrongWorkGroupsAreRefused) {
 TEST_F(OptionsCommand, HelpTellsDefaultsAndMethodsByTheRows) {
   const std::string help = defray(folder, "render --help").out;
   for (const std::string words :
-       {"1 to 1024 (gather); default 32", "MiB for buffers (not gather); default 512",
-        "default 0.5", "Lens (not tiltshift):", "preview|draft|normal|high",
-        "--rdb 33 --hidden patterns"}) {
+       {"1 to 1024 (gather); default 32", "MiB for buffers; default 512", "default 0.5",
+        "Lens (not tiltshift):", "preview|draft|normal|high", "--rdb 33 --hidden patterns"}) {
     EXPECT_NE(help.find(words), std::string::npos) << words << "\n" << help;
   }
 }

@@ -51,8 +51,8 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
     const std::size_t layers = stage.kernel == "split" ? 2 : 1;
     const std::size_t row_bytes = 40 * layers * launch.bytes_a_surface, given = 200 * row_bytes;
     std::size_t rows = 0;
-    for (const BandRows& band :
-         cut_into_windows(600, launch.reach_px + stage.reach_px, stage.step, row_bytes, given)) {
+    for (const BandRows& band : cut_into_windows({0, 600}, 600, launch.reach_px + stage.reach_px,
+                                                 stage.step, {row_bytes}, given)) {
       rows += static_cast<std::size_t>(band.window_rows);
     }
     const InBands bands(session(), given);
@@ -63,18 +63,46 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
   }
 }
 
+/// They write a band's own rows alone; `linear` reads columns beside the frame.
+TEST(Memory, BandsOfMethodsTakeWhatTheLaunchTableSays) {
+  const Frame frame = tall_frame();
+  GatherSettings literal;
+  literal.kind = GatherKind::literal;
+  literal.passes = 1;
+  struct Method {
+    const char* kernel;
+    int reach_px;  ///< Of the discs of 2 px, with the launch table's.
+    std::size_t source_columns;
+    std::function<void()> run;
+  };
+  for (const Method& method :
+       {Method{"linear_psf", 2, 48 + 2 * 2, [&] { device().linear(frame); }},
+        Method{"gather_literal", 4, 40, [&] { device().gather(frame, literal); }}}) {
+    const std::size_t given = band_bytes(method.kernel, frame, 2, 150);
+    EXPECT_EQ(given,
+              (150 + 2 * size(method.reach_px)) * method.source_columns * 5 * 4 + 150 * 40 * 4 * 4);
+    const InBands bands(session(), given);
+    const std::size_t before = session().traffic().made;
+    method.run();
+    // 4 bands of 150 rows; the first and the last have none around them on one side.
+    const std::size_t read = (600 + 6 * size(method.reach_px)) * method.source_columns * 5 * 4;
+    const auto made = static_cast<double>(session().traffic().made - before);
+    EXPECT_NEAR(made / static_cast<double>(read + 600 * 40 * 4 * 4), 1, 0.01) << method.kernel;
+  }
+}
+
 TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
   const Frame frame = tall_frame_with_depth();
   for (const bool wants_nearest : {false, true}) {
     RayPlan plan = plan_rays({9});
     plan.by = RaysBy::scatter;
     plan.wants_nearest = wants_nearest;
-    const std::size_t cells = plan.lens.points.size(), given = 40 * 40 * 20 * rdb_bytes_a_cell;
+    const std::size_t cells = plan.lens.points.size(), given = 40 * 40 * 20 * sizeof(RdbWinner);
     const InBands bands(session(), given);
     std::size_t windows = 0, band_pixels = 0, most_cells = 0;
     int last_y = -1;
-    for (const RdbPass& pass :
-         plan_rdb_passes(40, 600, static_cast<int>(cells), rdb_reach(2 * 256), given, false)) {
+    for (const RdbPass& pass : plan_rdb_passes(40, {0, 600}, 600, static_cast<int>(cells),
+                                               rdb_reach(2 * 256), given, false)) {
       if (pass.y != last_y) windows += 40 * size(pass.window_rows);
       last_y = pass.y;
       band_pixels = std::max(band_pixels, 40 * size(pass.rows));
@@ -96,7 +124,8 @@ TEST(Memory, BandsHaveAsManyRowsAsFit) {
     for (const int step : {1, 16}) {
       for (const std::size_t rows : {1u, 40u, 77u, 200u}) {
         constexpr std::size_t row_bytes = 1000;
-        const auto bands = cut_into_windows(301, reach, step, row_bytes, rows * row_bytes);
+        const auto bands =
+            cut_into_windows({0, 301}, 301, reach, step, {row_bytes}, rows * row_bytes);
         int next = 0;
         for (const BandRows& b : bands) {
           EXPECT_EQ(b.y, next);
@@ -109,7 +138,7 @@ TEST(Memory, BandsHaveAsManyRowsAsFit) {
         }
         EXPECT_EQ(next, 301);
         // No band fewer than needed: one step more in each would not fit.
-        const auto most = static_cast<int>(rows) - 2 * reach - step;
+        const auto most = static_cast<int>(rows) - 2 * reach - (step - 1);
         const int each = std::max(1, most / step) * step;
         EXPECT_EQ(bands.size(), static_cast<std::size_t>((301 + each - 1) / each));
       }

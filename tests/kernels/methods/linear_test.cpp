@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "faults/fault.h"
+#include "opencl/bands.h"
 #include "reference/reference.h"
 #include "support.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
                           const std::vector<Plane>& channels) {
-  return device().linear({size.width, size.height, coc, {}, channels});
+  return taken(device().linear({size.width, size.height, coc, {}, channels}));
 }
 
 std::vector<Plane> planes_of(Size size, std::size_t count) {
@@ -146,9 +147,33 @@ TEST(Linear, SameBitsForEveryMemoryBudgetAndWorkGroup) {
   Session s(device_under_test());
   for (const auto& [x, y] : {std::pair<std::size_t, std::size_t>{1, 1}, {7, 3}, {64, 1}}) {
     s.set_work_group(x, y);
-    EXPECT_EQ(hash_of(DeviceBackend(s).linear({size.width, size.height, coc, {}, channels})),
+    EXPECT_EQ(hash_of(taken(DeviceBackend(s).linear({size.width, size.height, coc, {}, channels}))),
               expected)
         << x << "x" << y;
+  }
+}
+
+/// In host memory too: what the kernel reads are copies anywhere.
+TEST(Linear, SameBitsInBandsOfAnyHeight) {
+  for (const Size size : {Size{1, 1}, {1, 37}, {37, 1}, {16, 16}, {33, 45}}) {
+    for (const double largest : {0.0, 1.7, is_slow_device() ? 2.0 : 20.0}) {
+      const auto coc = random_coc(size, largest, 8);
+      for (std::size_t count = 1; count <= 4; ++count) {
+        const auto channels = planes_of(size, count);
+        const Frame f{size.width, size.height, coc, {}, channels};
+        const auto expected = render(size, coc, channels);
+        ASSERT_EQ(expected.size(), count);
+        for (const int rows : {1, 2, 7, 30}) {
+          const InBands in_bands(session(), band_bytes("linear_psf", f, linear_reach(coc), rows));
+          for (const bool copies : {true, false}) {
+            session().set_copies(copies);
+            EXPECT_EQ(hash_of(render(size, coc, channels)), hash_of(expected))
+                << size.width << "x" << size.height << ", CoC " << largest << ", " << rows
+                << (copies ? " rows, copies" : " rows");
+          }
+        }
+      }
+    }
   }
 }
 
@@ -157,7 +182,11 @@ TEST(Linear, RefusesWhatItCannotReach) {
   expect_error(ErrorKind::usage, {"1025 px", "1024", "max_coc_px", "rdb"}, [&] {
     render({2, 2}, wide, {Plane(4)});
   });
-  const InBands in_bands(session(), 1000);
+  const Frame f{2, 2, some, {}, {Plane(4)}};
+  // 2 rows of 16 pixels and 100 on each side, of 5 planes; a row of 4.
+  const std::size_t least = (2 * (16 + 2 * 100) * 5 + 2 * 4) * 4;
+  EXPECT_EQ(band_bytes("linear_psf", f, 100, 1), least);
+  const InBands in_bands(session(), least - 1);
   expect_error(ErrorKind::usage, {"memory", "100 px", "MiB"}, [&] {
     render({2, 2}, some, {Plane(4)});
   });
@@ -173,7 +202,13 @@ const FaultRows faults{
      {"abs(dy) >= (uint)beyond", "abs(dy) >= (uint)beyond - 1u"}},
     {"linear_psf",
      "one column off",
-     {"p.source_stride + x + (uint)p.reach", "p.source_stride + x + (uint)p.reach + 1u"}},
+     {"(uint)(target.x + p.reach)", "(uint)(target.x + p.reach + 1)"}},
+    {"linear_psf", "band's first row forgotten", {"target.y + (int)p.band_row;", "target.y;"}},
+    {"linear_psf",
+     "rows beyond the frame dropped",
+     {"const int source_row = clamp(y + dy, 0, (int)p.window_rows - 1);",
+      "const int source_row = y + dy;\n"
+      "    if (source_row < 0 || source_row >= (int)p.window_rows) continue;"}},
     {"linear_psf",
      "0 x Inf reaches what the disc does not",
      {"select((float16)(-0.0f), weight * colour, weight > 0.0f)", "weight * colour"}},

@@ -66,8 +66,7 @@ TEST(Nearest, KernelEqualsItsTwinWhateverTheBands) {
     const int cells = is_slow_device() ? 3 : 7;
     const auto expected = hits(s, cells, twins());
     EXPECT_EQ(hits(s, cells, device()), expected);
-    const std::size_t bytes =
-        rows * static_cast<std::size_t>(size.width) * (rdb_bytes_a_cell + rdb_bytes_a_sum);
+    const std::size_t bytes = rows * static_cast<std::size_t>(size.width) * rdb_bytes_a_pixel(1);
     const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
     EXPECT_EQ(hits(s, cells, device()), expected) << "few rows and cells a pass";
     DeviceBackend two_passes(session_without_int64());

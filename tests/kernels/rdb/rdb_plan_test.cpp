@@ -10,8 +10,8 @@ namespace {
 TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
   for (const int height : {1, 2, 97, 480}) {
     for (const std::size_t rows : {1, 2, 5, 1000}) {
-      const std::size_t budget = rows * 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-      const auto passes = plan_rdb_passes(100, height, 69, 12, budget);
+      const std::size_t budget = rows * 100 * rdb_bytes_a_pixel(1);
+      const auto passes = plan_rdb_passes(100, {0, height}, height, 69, 12, budget);
       std::vector<int> seen(static_cast<std::size_t>(height));
       for (const RdbPass& p : passes) {
         const std::size_t pixels = 100 * static_cast<std::size_t>(p.rows);
@@ -28,11 +28,12 @@ TEST(RdbPlan, CoversEveryRowAndCellOnceWithinTheBudget) {
 }
 
 TEST(RdbPlan, APassFitsTheCacheUnlessItsRowsWouldBeLessThanFourTimesTheReach) {
-  const std::size_t row = 1000 * (rdb_bytes_a_cell + rdb_bytes_a_sum), cache = 16 << 20;
+  const std::size_t row = 1000 * rdb_bytes_a_pixel(1), cache = 16 << 20;
   for (const int reach : {2, 12, 200}) {
-    for (const RdbPass& p : plan_rdb_passes(1000, 4000, 69, reach, std::size_t{1} << 32)) {
+    for (const RdbPass& p :
+         plan_rdb_passes(1000, {0, 4000}, 4000, 69, reach, std::size_t{1} << 32)) {
       const std::size_t pixels = 1000 * size(p.rows), cells = size(p.cell_count);
-      const std::size_t bytes = pixels * (rdb_bytes_a_cell * cells + rdb_bytes_a_sum);
+      const std::size_t bytes = pixels * rdb_bytes_a_pixel(cells);
       EXPECT_LE(bytes, std::max(cache, row * 4 * size(reach)));
       EXPECT_LE(size(p.rows), std::max(cache / row, 4 * size(reach)));
     }
@@ -40,11 +41,12 @@ TEST(RdbPlan, APassFitsTheCacheUnlessItsRowsWouldBeLessThanFourTimesTheReach) {
 }
 
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
-  const std::size_t row = 100 * (rdb_bytes_a_cell + rdb_bytes_a_sum);
-  expect_error(ErrorKind::usage, {"memory is 0.003814 MiB", "at least 0.004 MiB"},
-               [&] { plan_rdb_passes(100, 10, 69, 1, row - 1); });
-  EXPECT_EQ(plan_rdb_passes(100, 10, 69, 1, row).size(), 690u);
-  EXPECT_NO_THROW(plan_rdb_passes(100, 10, 69, 1, 0.004 * 1048576));
+  const std::size_t row = 100 * rdb_bytes_a_pixel(1);
+  expect_error(ErrorKind::usage, {"memory is 0.003814 MiB", "at least 0.004 MiB"}, [&] {
+    plan_rdb_passes(100, {0, 10}, 10, 69, 1, row - 1);
+  });
+  EXPECT_EQ(plan_rdb_passes(100, {0, 10}, 10, 69, 1, row).size(), 690u);
+  EXPECT_NO_THROW(plan_rdb_passes(100, {0, 10}, 10, 69, 1, 0.004 * 1048576));
 }
 
 TEST(LensPoints, RoundApertureOfThePaper) {

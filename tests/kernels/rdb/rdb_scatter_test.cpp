@@ -152,7 +152,7 @@ TEST(RdbScatter, BandsKeepTheWinners) {
   RdbSettings settings;
   settings.cells_per_side = 3;
   for (const std::size_t rows : {1, 2, 5, 46}) {
-    const InBands in_bands(session(), rows * 61 * (rdb_bytes_a_cell + rdb_bytes_a_sum));
+    const InBands in_bands(session(), rows * 61 * rdb_bytes_a_pixel(1));
     EXPECT_EQ(differing_winners(session(), size, settings, coc, depth), 0u) << rows << " rows";
   }
 }

@@ -74,8 +74,7 @@ TEST(Rdb, SameBitsForEveryMemoryBudget) {
     RdbSettings settings = small_settings(jitter);
     settings.cells_per_side = 3;
     const std::uint64_t whole = hash_of(render(session(), in, settings));
-    const std::size_t row =
-        size.width * (rdb_bytes_a_cell + rdb_bytes_a_sum);  // one row of one cell with its sums
+    const std::size_t row = size.width * rdb_bytes_a_pixel(1);  // one row of one cell with its sums
     for (const std::size_t bytes : {row, 2 * row, 3 * row + 100, 17 * row, 36 * row}) {
       const InBands in_bands(session(), bytes), too(session_without_int64(), bytes);
       EXPECT_EQ(hash_of(render(session(), in, settings)), whole) << bytes << " bytes";

@@ -125,8 +125,8 @@ std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
 /// `patterns_match` by cells.
 TEST(KernelChecks, BandsHaveTheCasesRows) {
   const Case c = parse_case("16x48,ties,coc=0.3,cells=2,seed=2");
-  for (const char* kernel : {"mixed", "linear_psf", "rdb_merge", "rdb_nearest", "rdb_scatter",
-                             "rdb_scatter_two_pass", "repair", "soften", "split"}) {
+  for (const char* kernel : {"gather_literal", "mixed", "linear_psf", "rdb_merge", "rdb_nearest",
+                             "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
     const KernelCheck& check = find_check(kernel);
     // 24, 8 and 2 bands: each takes as many copies.
     const std::size_t by_2 = copies_in_bands(check, c, 2), by_6 = copies_in_bands(check, c, 6),
