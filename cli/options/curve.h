@@ -40,7 +40,7 @@ struct FrameLens {
   CameraValues camera;
   Aperture aperture;
   EyeOptions eye;
-  double max_coc_px = 0;
+  double max_coc_px = Lens().max_coc_px;
 };
 
 /// A value that does, and where it goes.

@@ -49,7 +49,7 @@ struct OptionGroup {
 
 /// What a command is asked to do it with: decides what an option can mean.
 struct Setup {
-  Method method = Method::rdb;
+  Method method = MethodSettings().method;
   bool is_literal = false, is_reference = false;
 };
 

@@ -36,7 +36,7 @@ struct RenderCommand {
   };
   double memory_mib = static_cast<double>(default_memory_bytes >> 20);
   std::string device;
-  Math math = Math::strict;
+  Math math = DeviceOptions().math;
   std::vector<WorkGroup> work_groups;
   bool no_tuning = false;
   bool skip_existing = false, skip_bad_frames = false, json = false, quiet = false, show = false;

@@ -17,7 +17,7 @@ struct SplatCommand {
   std::optional<std::array<double, 3>> from, look_at, up;
   CameraValues camera;
   std::string camera_file, focus_setting;
-  double metres_per_unit = 1;
+  double metres_per_unit = Lens().metres_per_unit;
   SplatSettings settings;
   int turntable = 0;  ///< Frames of a turn; 0: a single picture.
   std::string device;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "defray/options.h"
 #include "frame/backend.h"
 #include "kernels/patterns_params.h"
 
@@ -16,7 +17,8 @@ namespace defray {
 struct PatternSettings {
   /// Side n of the box, in cells of 4 px, at most 6; those around weigh (n - |dx|)(n - |dy|).
   int window_cells = 6;
-  int shifts = 24;  ///< The best of one half plane: each counts with both its signs.
+  /// The best of one half plane: each counts with both its signs.
+  int shifts = ChainSettings().pattern_shifts;
   int reach_x_px = 160, reach_y_px = 128;  ///< Of the shifts that are tried.
   int parallel_shifts = 4;                 ///< The best of those parallel to the picture, as many.
   int parallel_reach_x_px = 400, parallel_reach_y_px = 128;  ///< Of these.

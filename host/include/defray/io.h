@@ -67,9 +67,9 @@ struct RenderSettings {
   DepthSettings depth;
   CameraValues camera;  ///< Explicit values; they win over metadata.
   bool camera_from_metadata = false;
-  double metres_per_unit = 1;
-  LensModel model = LensModel::cg;
-  double max_coc_px = 0;
+  double metres_per_unit = Lens().metres_per_unit;
+  LensModel model = Lens().model;
+  double max_coc_px = Lens().max_coc_px;
   /// Focus on the depth found there, of the display window, instead of a distance.
   std::optional<PixelPlace> focus_at;
   /// The picture is a cut-out of a frame of this width and height, its left upper pixel at (x, y)
@@ -77,7 +77,7 @@ struct RenderSettings {
   std::optional<Window> full_size;
   Bits bits = Bits::as_input;
   std::optional<Grow> grow;  ///< Empty: display where there is an alpha below 1, none elsewhere.
-  Nonfinite nonfinite = Nonfinite::zero;
+  Nonfinite nonfinite = Options().nonfinite;
   ErrorSettings error;                ///< FramePaths::error asks for what is expected, too.
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
   std::optional<double> budget_ms;    ///< As Options::budget_ms.
@@ -97,7 +97,7 @@ struct FramePaths {
 /// What was done, for people and machines.
 struct FrameReport : RenderReport {
   FramePaths paths;
-  Method method = Method::rdb;
+  Method method = MethodSettings().method;
   std::vector<std::string> colour_channels;
   std::vector<std::string> light_channels, data_channels;  ///< Further ones, by what they hold.
   std::string depth_channel;  ///< Empty for a tilt-shift, which reads neither depth nor lens.

@@ -63,7 +63,7 @@ struct ChainSettings {
   bool repair = true;
   bool highlights = true;
   bool soften = true;
-  RaysBy rays = RaysBy::gather;
+  RaysBy rays = RdbSettings().rays;
   Border border = Border::clamp;
   Aperture aperture;
   /// Works on a quarter of the pixels, means of four, and puts the detail of sharp ones back.

@@ -127,6 +127,8 @@ TEST(ApiValues, ARenderFromFileToFileIsThatOfAPicture) {
   const RenderSettings s;
   EXPECT_EQ(s.metres_per_unit, 1);
   EXPECT_EQ(s.max_coc_px, 0);
+  EXPECT_EQ(s.model, Lens().model);
+  EXPECT_EQ(s.nonfinite, Options().nonfinite);
   EXPECT_FALSE(s.camera_from_metadata);
   EXPECT_TRUE(s.method.chain);
   EXPECT_EQ(s.method.method, Method::rdb);
