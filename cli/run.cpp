@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "commands.h"
 #include "defray/defray.h"
+#include "end_on_signals.h"
 #include "exit_code.h"
-#include "image/safe_output.h"
 #include "options/option_table.h"
 #include "standard_streams.h"
 
@@ -185,7 +185,7 @@ int run(int argc, char** argv) {
   // OpenCV must not open an OpenCL context of its own beside ours.
   setenv("OPENCV_OPENCL_DEVICE", "disabled", 0);
   open_standard_streams();
-  remove_temporary_on_signal();
+  end_on_signals();
   try {
     return run_command(argc, argv);
   } catch (const Error& error) {

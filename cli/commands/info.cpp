@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "base/window.h"
 #include "commands.h"
-#include "library/file_info.h"
+#include "commands/suggested_command.h"
+#include "defray/error.h"
 #include "options/option_table.h"
 
 namespace defray::cli {
@@ -64,7 +64,8 @@ void print_text(const FileInfo& info) {
                found.value ? "" : ", not usable: it must be a number above 0");
   }
   if (info.camera.empty()) fmt::print("  no lens among the metadata\n");
-  if (!info.command.empty()) fmt::print("try:\n  {}\n", info.command);
+  const std::string command = suggested_command(info);
+  if (!command.empty()) fmt::print("try:\n  {}\n", command);
 }
 
 Json window_json(const Window& w) { return {w.x, w.y, w.width, w.height}; }
@@ -96,7 +97,7 @@ void print_json(const FileInfo& info) {
   }
   const Json line = {
       {"file", info.path},         {"parts", parts},   {"colour", colour_names(info)},
-      {"depth_candidates", depth}, {"camera", camera}, {"command", info.command}};
+      {"depth_candidates", depth}, {"camera", camera}, {"command", suggested_command(info)}};
   // Names come from files: bytes that are no UTF-8 are replaced, not fatal.
   fmt::print("{}\n", line.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

@@ -5,6 +5,7 @@
 #include "library/budget.h"
 #include "methods/tiltshift.h"
 #include "options/lens_rows.h"
+#include "options/shell_quoted.h"
 #include "prediction/with_error.h"
 
 namespace defray::cli {
@@ -45,13 +46,6 @@ void finish(RenderCommand& job) {
   validate(m, {false, !job.paths.error.empty(), s.error.target_db});
   if (s.budget_ms) validate_budget(m, s.error, *s.budget_ms);
   s.error.wants_expected = job.json || !job.quiet;
-}
-
-std::string shell_quoted(const std::string& text) {
-  if (text.find_first_of(" '#*?$@&|;<>()\\\"`\n\t![]{}~") == std::string::npos) return text;
-  std::string inside;
-  for (const char c : text) inside += c == '\'' ? "'\\''" : std::string(1, c);
-  return "'" + inside + "'";
 }
 
 std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,

@@ -9,7 +9,6 @@
 
 #include "defray/device.h"
 #include "defray/io.h"
-#include "lens/camera.h"
 #include "options/curve.h"
 #include "options/math_words.h"
 #include "options/option_table.h"
@@ -74,9 +73,6 @@ std::vector<OptionGroup> render_options(RenderCommand& job);
 /// What follows from the options together: memory, stages. Throws Error(usage) on values and
 /// combinations that are not allowed.
 void finish(RenderCommand& job);
-
-/// As a shell takes it.
-std::string shell_quoted(const std::string& text);
 
 /// "defray render" with what was given, but for the options that are left out.
 std::string render_command_line(const std::vector<std::pair<std::string, std::string>>& given,

@@ -11,6 +11,7 @@
 #include "image/sequence.h"
 #include "measure/metrics.h"
 #include "open_device.h"
+#include "options/shell_quoted.h"
 #include "prediction/with_error.h"
 #include "progress.h"
 #include "render/render_command.h"

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <set>
 
-#include "base/error.h"
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
 #include "options/math_words.h"
 #include "progress.h"
+#include "validate/case_command.h"
 #include "validation/report.h"
 
 namespace defray::cli {
@@ -71,7 +71,9 @@ void print_device(const DeviceResult& d) {
         "  {}  {:20} {:4} cases, {:9} values, {} differing, {} beyond the rule, {} unstable\n",
         k.passed() ? "PASS" : "FAIL", k.kernel, k.cases, v.compared, v.differing, v.wrong,
         k.unstable);
-    if (!k.first_wrong.empty()) fmt::print("        {}\n", command_of(d, k.kernel, k.first_wrong));
+    if (!k.first_wrong.empty()) {
+      fmt::print("        {}\n", case_command(d, k.kernel, k.first_wrong));
+    }
     if (!k.error.empty()) fmt::print("        {}\n", k.error);
   }
 }
@@ -129,8 +131,9 @@ int run(const ValidateOptions& o) {
     for (const std::string& note : notes) fmt::print("{}\n", note);
   }
   const TemporaryFolder pictures("defray-report");
-  const Page page{title_of(results), intro_of(o), to_sections(results, notes, pictures.path())};
-  write_reports(o, page, pictures, to_json(results, notes, level_of(o)));
+  const Page page{title_of(results), intro_of(o),
+                  to_sections(results, notes, pictures.path(), case_command)};
+  write_reports(o, page, pictures, to_json(results, notes, level_of(o), case_command));
   return passed ? ExitCode::ok : ExitCode::failed;
 }
 

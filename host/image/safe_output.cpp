@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -21,13 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The temporary file in hand, for the signal handler: empty, or a complete path.
+/// The temporary file in hand, for a signal handler: empty, or a complete path.
 std::array<char, 4096> temporary_path{};
-
-void on_signal(int signal) {
-  if (temporary_path[0] != '\0') unlink(temporary_path.data());
-  _exit(128 + signal);
-}
 
 /// Registers a temporary file for the time it exists; removes it when it was not renamed.
 class Temporary {
@@ -168,8 +162,8 @@ void write_text(const std::string& path, const std::string& text) {
   });
 }
 
-void remove_temporary_on_signal() {
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
+void remove_temporary() {
+  if (temporary_path[0] != '\0') unlink(temporary_path.data());
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

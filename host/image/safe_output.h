@@ -20,8 +20,8 @@ void write_safely(const std::string& path, const std::function<void(const std::s
 /// write_safely for a text.
 void write_text(const std::string& path, const std::string& text);
 
-/// On SIGINT and SIGTERM: removes the temporary file in hand, then ends the process.
-void remove_temporary_on_signal();
+/// Removes the temporary file in hand, for a process that ends here; a signal handler may call it.
+void remove_temporary();
 
 /// Whether two paths name one file, written yet or not, however they are spelt.
 bool is_same_file(const std::string& a, const std::string& b);

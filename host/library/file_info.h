@@ -24,7 +24,9 @@ struct FileInfo {
   std::string no_colour;  ///< Why there is none.
   std::vector<DepthCandidate> depth;
   std::vector<FoundAttribute> camera;  ///< The first of each field, usable or not.
-  std::string command;  ///< That renders it, as a shell takes it; empty where something is missing.
+
+  /// What `camera` has of this field; null: nothing.
+  const FoundAttribute* found(const std::string& field) const;
 };
 
 /// Throws Error(input) where the file cannot be read.

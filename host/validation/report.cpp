@@ -10,12 +10,6 @@
 namespace defray::validation {
 namespace {
 
-/// What has to stand before a command that shall see the device.
-const char* way_to(const DeviceResult& device) {
-  if (device.platform == "rusticl") return "RUSTICL_ENABLE=llvmpipe ";
-  return device.platform == "Oclgrind" ? "oclgrind " : "";
-}
-
 const char* pass_word(bool passed) { return passed ? "PASS" : "FAIL"; }
 
 /// "0", "3 ulp", "2".
@@ -65,7 +59,7 @@ Table kernel_table(const DeviceResult& device) {
 }
 
 /// Where to look: a command for each kernel's worst and first wrong case.
-Table case_table(const DeviceResult& device) {
+Table case_table(const DeviceResult& device, const CommandOf& command_of) {
   Table table{"", "Cases to run again", {"kernel", "what", "command"}, {}};
   for (const KernelResult& k : device.kernels) {
     const auto add = [&](const char* what, const std::string& text) {
@@ -127,7 +121,8 @@ constexpr const char* fast_note =
     "Fast arithmetic is not made to keep the strict rules: FAIL tells where it does not.";
 
 /// `index`: among the devices; files of two must not meet.
-Section device_section(const DeviceResult& device, std::size_t index, const std::string& folder) {
+Section device_section(const DeviceResult& device, std::size_t index, const std::string& folder,
+                       const CommandOf& command_of) {
   Section section{device.device, "", {}, {}, {}};
   section.findings.push_back(fmt::format("{}, {}; {} arithmetic. {}", device.platform,
                                          device.version, device.math,
@@ -135,7 +130,7 @@ Section device_section(const DeviceResult& device, std::size_t index, const std:
   if (!device.watch.empty()) section.findings.push_back(device.watch);
   if (device.math == "fast") section.findings.push_back(fast_note);
   section.tables = {kernel_table(device)};
-  for (Table& table : std::vector<Table>{case_table(device), histogram_table(device)}) {
+  for (Table& table : std::vector<Table>{case_table(device, command_of), histogram_table(device)}) {
     if (!table.rows.empty()) section.tables.push_back(std::move(table));
   }
   for (const WorstPicture& picture : device.pictures) {
@@ -150,14 +145,9 @@ Section device_section(const DeviceResult& device, std::size_t index, const std:
 
 }  // namespace
 
-std::string command_of(const DeviceResult& device, const std::string& kernel,
-                       const std::string& case_text) {
-  return fmt::format("{}defray validate --device '{}' --math {} --kernel {} --case {} -o case",
-                     way_to(device), device.device, device.math, kernel, case_text);
-}
-
 std::vector<Section> to_sections(const std::vector<DeviceResult>& devices,
-                                 const std::vector<std::string>& notes, const std::string& folder) {
+                                 const std::vector<std::string>& notes, const std::string& folder,
+                                 const CommandOf& command_of) {
   Section top{"Summary", "Does this machine compute what the mathematics says?", notes, {}, {}};
   top.findings.push_back(
       "In the tables below: 'worst' is the largest difference from the twin, in ulp for floats, in "
@@ -167,13 +157,13 @@ std::vector<Section> to_sections(const std::vector<DeviceResult>& devices,
   top.tables.push_back(summary(devices));
   std::vector<Section> sections{top};
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    sections.push_back(device_section(devices[i], i, folder));
+    sections.push_back(device_section(devices[i], i, folder, command_of));
   }
   return sections;
 }
 
 std::string to_json(const std::vector<DeviceResult>& devices, const std::vector<std::string>& notes,
-                    const std::string& level) {
+                    const std::string& level, const CommandOf& command_of) {
   using nlohmann::ordered_json;
   ordered_json list = ordered_json::array();
   for (const DeviceResult& d : devices) {

@@ -84,7 +84,10 @@ TEST_F(Info, OfALensAmongTheMetadata) {
   file.write(folder / "it's.exr");
   expect_lines("\"it's.exr\"", {"  focal_length_mm 35 (cameraFocalLength, V-Ray)",
                                 "  sensor_width_mm 24.5 (cameraAperture, V-Ray)",
-                                "  depth Z: -4 to -4, background 1 px, negative 63 px"});
+                                "  depth Z: -4 to -4, background 1 px, negative 63 px",
+                                "  defray render 'it'\\''s.exr' -o out.exr --depth-kind negative-z "
+                                "--camera from-metadata --focus-at 4,4 --fstop 2.8"});
+  EXPECT_EQ(suggested("\"it's.exr\"")["focal_length_mm"], 35);
   file.write(folder / "lens.exr");
   EXPECT_EQ(data("lens.exr")["command"],
             "defray render lens.exr -o out.exr --depth-kind negative-z --camera from-metadata "

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/program.h"
+#include "validate/case_command.h"
 #include "validation/case.h"
 
 namespace defray::test::validate_command_test {
@@ -204,6 +205,19 @@ TEST_F(ValidateCommand, HelpShowsExamplesThatHold) {
   const std::size_t begin = help.find("--case 2") + 7;
   ASSERT_GT(begin, 7u);
   EXPECT_NO_THROW(validation::parse_case(help.substr(begin, help.find(' ', begin) - begin)));
+}
+
+TEST(ValidateCommands, SayHowToReachTheDevice) {
+  validation::DeviceResult device;
+  device.device = "llvmpipe (LLVM)";
+  device.math = "strict";
+  device.platform = "Portable Computing Language";
+  EXPECT_EQ(cli::case_command(device, "coc", "1x1").find("defray validate --device 'llvmpipe"), 0u);
+  device.platform = "rusticl";
+  EXPECT_EQ(cli::case_command(device, "coc", "1x1").find("RUSTICL_ENABLE=llvmpipe defray validate"),
+            0u);
+  device.platform = "Oclgrind";
+  EXPECT_EQ(cli::case_command(device, "coc", "1x1").find("oclgrind defray validate"), 0u);
 }
 
 }  // namespace

@@ -142,39 +142,6 @@ TEST(Output, APlaneHasTheFilesWindows) {
   EXPECT_EQ(read.plane(0, 0), values);
 }
 
-/// The wait status of a process that gets a signal while it writes.
-int interrupted_while_writing(const std::string& path, int signal) {
-  const pid_t child = fork();
-  if (child == 0) {
-    remove_temporary_on_signal();
-    write_safely(path, [&](const std::string& name) {
-      std::ofstream(name) << "new";
-      std::raise(signal);
-    });
-    _exit(0);
-  }
-  int status = -1;
-  waitpid(child, &status, 0);
-  return status;
-}
-
-TEST(Output, AnInterruptedWriteLeavesTheOldFileAlone) {
-  const Folder folder;
-  write_text(folder / "a.txt", "old");
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const int status = interrupted_while_writing(folder / "a.txt", signal);
-    EXPECT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
-    std::vector<std::string> left;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-      left.push_back(entry.path().filename().string());
-    }
-    EXPECT_EQ(left, std::vector<std::string>{"a.txt"});
-    std::ifstream file(folder / "a.txt");
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "old");
-  }
-}
-
 /// A picture of one pixel with this metadata.
 ImageFile with_metadata(const std::string& path, const OIIO::ImageSpec& spec) {
   const auto out = OIIO::ImageOutput::create(path);

@@ -52,6 +52,11 @@ DeviceResult findings() {
   return d;
 }
 
+std::string case_command(const DeviceResult& device, const std::string& kernel,
+                         const std::string& case_text) {
+  return device.device + " --kernel " + kernel + " --case " + case_text;
+}
+
 const Table& table_named(const Section& section, const std::string& caption) {
   for (const Table& t : section.tables) {
     if (t.caption.find(caption) == 0) return t;
@@ -62,7 +67,8 @@ const Table& table_named(const Section& section, const std::string& caption) {
 
 TEST(ValidationReport, TablesHoldWhatWasFound) {
   const Folder folder;
-  const std::vector<Section> sections = to_sections({findings()}, {"a note"}, folder.path());
+  const std::vector<Section> sections =
+      to_sections({findings()}, {"a note"}, folder.path(), case_command);
   ASSERT_EQ(sections.size(), 2u);
   ASSERT_EQ(sections[0].findings.size(), 2u);
   EXPECT_EQ(sections[0].findings.front(), "a note");
@@ -101,18 +107,18 @@ TEST(ValidationReport, WithoutFindingsThereAreNoTablesOfThem) {
   DeviceResult d = findings();
   d.kernels = {kernel_named("whole")};
   const Folder folder;
-  const std::vector<Section> sections = to_sections({d}, {}, folder.path());
+  const std::vector<Section> sections = to_sections({d}, {}, folder.path(), case_command);
   EXPECT_EQ(sections[1].tables.size(), 1u);
   EXPECT_TRUE(sections[1].figures.empty());
   EXPECT_EQ(sections[1].findings.size(), 1u);
   EXPECT_NE(sections[1].findings[0].find("All kernels pass"), std::string::npos);
   d.math = "fast";
   d.watch = "races";
-  EXPECT_EQ(to_sections({d}, {}, folder.path())[1].findings.size(), 3u);
+  EXPECT_EQ(to_sections({d}, {}, folder.path(), case_command)[1].findings.size(), 3u);
 }
 
 TEST(ValidationReport, JsonHoldsWhatWasFound) {
-  const json all = json::parse(to_json({findings()}, {"a note"}, "full"));
+  const json all = json::parse(to_json({findings()}, {"a note"}, "full", case_command));
   EXPECT_EQ(all["level"], "full");
   EXPECT_EQ(all["notes"], json{"a note"});
   const json& device = all["devices"][0];
@@ -127,7 +133,8 @@ TEST(ValidationReport, JsonHoldsWhatWasFound) {
   EXPECT_EQ(floats["beyond_rule"], 5);
   EXPECT_EQ(floats["worst_unit"], "ulp");
   EXPECT_EQ(floats["ulp_histogram"], (json{{"0", 3393}, {"3-4", 7}}));
-  EXPECT_TRUE(floats.contains("worst_case") && floats.contains("first_wrong"));
+  EXPECT_EQ(floats["worst_case"], "device --kernel floats --case 13x7,ties");
+  EXPECT_EQ(floats["first_wrong"], "device --kernel floats --case 1x1");
   EXPECT_EQ(whole["worst_unit"], "integer");
   EXPECT_FALSE(whole.contains("ulp_histogram"));
   EXPECT_EQ(device["kernels"][3]["unstable_cases"], 4);

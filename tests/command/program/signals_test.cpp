@@ -1,0 +1,48 @@
+// What a signal leaves behind.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "end_on_signals.h"
+#include "support.h"
+
+namespace defray::test::signals_test {
+namespace {
+
+/// The wait status of a process that gets a signal while it writes.
+int interrupted_while_writing(const std::string& path, int signal) {
+  const pid_t child = fork();
+  if (child == 0) {
+    cli::end_on_signals();
+    write_safely(path, [&](const std::string& name) {
+      std::ofstream(name) << "new";
+      std::raise(signal);
+    });
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(Signals, AnInterruptedWriteLeavesTheOldFileAlone) {
+  const Folder folder;
+  write_text(folder / "a.txt", "old");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const int status = interrupted_while_writing(folder / "a.txt", signal);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+    std::vector<std::string> left;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      left.push_back(entry.path().filename().string());
+    }
+    EXPECT_EQ(left, std::vector<std::string>{"a.txt"});
+    std::ifstream file(folder / "a.txt");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "old");
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::signals_test
