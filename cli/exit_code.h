@@ -1,6 +1,6 @@
 #pragma once
 // What the program says to a shell.
-#include "base/error.h"
+#include "defray/error.h"
 
 namespace defray::cli {
 

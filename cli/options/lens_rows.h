@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lens/camera.h"
+#include "defray/lens.h"
 #include "options/curve.h"
 #include "options/option_table.h"
 

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "image/sequence.h"
+#include "lens/aperture.h"
+#include "lens/camera.h"
 #include "options/lens_rows.h"
 #include "render/render_command.h"
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
+#include "base/window.h"
 #include "options/option_table.h"
 
 namespace defray::cli {

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "base/window.h"
 #include "defray/io.h"
 
 namespace defray::cli {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/plane.h"
 #include "defray/defray.h"
 #include "progress.h"
 #include "render/render_command.h"

@@ -1,4 +1,3 @@
-#include "base/error.h"
 #include "options/lens_rows.h"
 #include "options/parse.h"
 #include "splat/splat_command.h"

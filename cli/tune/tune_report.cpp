@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "base/text.h"
 #include "measure/heat_map.h"
 #include "measure/html_report.h"
 
