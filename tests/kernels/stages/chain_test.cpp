@@ -1,9 +1,12 @@
 // The chain's report: every stage by its name, in the order they end, with its own time.
 #include "chain/chain.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "base/stopwatch.h"
+#include "chain/ray_plan.h"
 #include "rdb/rdb.h"
 #include "reference/twin_backend.h"
 #include "support.h"
@@ -12,6 +15,7 @@ namespace defray::test::chain_test {
 namespace {
 
 constexpr double delay_s = 0.1;
+void be_late() { std::this_thread::sleep_for(std::chrono::duration<double>(delay_s)); }
 
 /// The twins, one of them late.
 class LateBackend : public reference::TwinBackend {
@@ -47,9 +51,37 @@ class LateBackend : public reference::TwinBackend {
 
  private:
   void wait(const char* stage) const {
-    if (stage == late_) std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
+    if (stage == late_) be_late();
   }
   std::string late_;
+};
+
+/// Colours that are late where the host looks at them first.
+class LatePlane : public DeviceValues {
+ public:
+  explicit LatePlane(const Values<float>& plane) : plane_(plane.begin(), plane.end()) {}
+  void fetch(void* host) override {
+    be_late();
+    std::copy(plane_.begin(), plane_.end(), static_cast<float*>(host));
+  }
+
+ private:
+  std::vector<float> plane_;
+};
+
+/// Twins after whose stages the chain itself is the first to look at colours: to go on with them in
+/// the margin.
+class LateMargin : public reference::TwinBackend {
+ public:
+  Frame split(const Frame& f, const Words& m, const Frame& b, Frame i) override {
+    Frame layers = TwinBackend::split(f, m, b, std::move(i));
+    Values<float>& red = layers.channels[0];
+    red = Values<float>::on(std::make_unique<LatePlane>(red), red.size());
+    return layers;
+  }
+  Values<float> highlights(const Frame& f, int, Values<float>) override {
+    return Values<float>(f.surfaces(), 1.0f);  // none
+  }
 };
 
 /// Stripes behind a bar before the plane of focus, a lamp on them.
@@ -101,6 +133,28 @@ TEST(Chain, GivesEachStageItsOwnTime) {
     }
     EXPECT_GE(seconds_of(result, late), delay_s) << late;
   }
+}
+
+TEST(Chain, GivesBorderTheTimeOfColoursInTheMargin) {
+  LateMargin backend;
+  EXPECT_GE(seconds_of(rendered(backend), "border"), delay_s);
+}
+
+TEST(Chain, GivesLensTheTimeOfItsPoints) {
+  ChainSettings settings;
+  settings.cells_per_side = 64;
+  settings.aperture.blades = 5;
+  double alone = HUGE_VAL;
+  for (int i = 0; i < 5; ++i) {
+    const Stopwatch watch;
+    ray_plan(settings, false);
+    alone = std::min(alone, watch.seconds());
+  }
+  reference::TwinBackend twins;
+  const std::vector<std::int32_t> in_focus(6);
+  const Plane plane(6, 1.0f);
+  const MethodResult result = run_chain({3, 2, in_focus, plane, {plane}}, settings, twins);
+  EXPECT_GE(seconds_of(result, "lens"), alone / 2);
 }
 
 /// A bar in front of a wall; in `ramps` of its rows its left edge's depth lies between both.
