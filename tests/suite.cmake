@@ -56,7 +56,7 @@ foreach(readme ${readmes})
 endforeach()
 # The installed library, as a user's project finds and uses it.
 add_check(library 20 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
-          ${PROJECT_SOURCE_DIR}/README.md ${CMAKE_CXX_COMPILER})
+          ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
 add_check(format 1 both bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 add_check(includes 1 both bash ${here}/includes.sh ${PROJECT_SOURCE_DIR})
 

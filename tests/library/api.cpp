@@ -1,6 +1,6 @@
-// The whole API as a user sees it: api PICTURE FOLDER. PICTURE has R, G, B and Z. Exits with 1
-// where something is not as the headers say; what it writes to FOLDER is for library_test.sh to
-// compare.
+// The whole API as a user sees it: api PICTURE FOLDER VERSION. PICTURE has R, G, B and Z. Exits
+// with 1 where something is not as the headers say; what it writes to FOLDER is for
+// library_test.sh to compare.
 #include <defray/defray.h>
 
 #include <cmath>
@@ -282,7 +282,7 @@ void check_files(Device& device, const std::string& input, const std::string& fo
 }  // namespace
 
 int main(int, char** arguments) try {
-  expect(defray::version() == std::string("0.1.0"), "the version is 0.1.0");
+  expect(defray::version() == std::string(arguments[3]), "the version is the project's");
   const auto devices = Device::list();
   expect(!devices.empty() && devices[0].compute_units > 0, "there is a device");
   Device device = Device::open();

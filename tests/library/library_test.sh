@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # The library as a user has it: installed, found by CMake and by pkg-config, used without any other
-# header of ours, with the bits of the command line. library_test.sh BUILD README CXX
+# header of ours, with the bits of the command line. library_test.sh BUILD PROJECT CXX
 set -euo pipefail
-build=$(realpath "$1") readme=$(realpath "$2") cxx=$3
-here=$(cd "$(dirname "$0")" && pwd)
+build=$(realpath "$1") project=$(realpath "$2") cxx=$3
+here=$project/tests/library
+version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt") abi=${version%.*}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -15,55 +16,60 @@ same() {
 }
 complain() { echo "library: $*" >&2; exit 1; }
 
-cmake --install "$build" --prefix "$folder/prefix" >install.log
-prefix=$folder/prefix
+# The commands of the library's README, in a home of their own, with the program of the main one.
+block() { awk -v kind="$1" '/^```/ {on = $0 == "```" kind; next} on' "$2"; }
+mkdir app home
+ln -s "$build" build
+block cpp "$project/README.md" >app/app.cpp
+block cmake "$project/host/include/README.md" >app/CMakeLists.txt
+block sh "$project/host/include/README.md" >commands.sh
+HOME=$folder/home bash -euo pipefail commands.sh >commands.log ||
+  { cat commands.log; complain "a command of host/include/README.md fails"; }
+
+prefix=$folder/home/.local
 library=$(find "$prefix" -name libdefray.so)
-export LD_LIBRARY_PATH=$(dirname "$library") PATH=$prefix/bin:$PATH
-export PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig
+export PATH=$prefix/bin:$PATH PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig
 soname=$(readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p')
-[ "$soname" = libdefray.so.0.1 ] || complain "its name is '$soname'"
+[ "$soname" = "libdefray.so.$abi" ] || complain "its name is '$soname'"
 [ -e "$(dirname "$library")/$soname" ] || complain "$soname is missing"
 
 # Only the API shows.
 nm -DC --defined-only "$library" | cut -d' ' -f2- >symbols
-grep -vE '^. (DEFRAY_0\.1|(typeinfo( name)?|vtable) for defray::Error@|defray::)' symbols >foreign ||
-  true
+grep -vE "^. (DEFRAY_${abi/./\\.}\$|(typeinfo( name)?|vtable) for defray::Error@|defray::)" symbols \
+  >foreign || true
 [ -s foreign ] && complain "it shows what is not the API: $(head -3 foreign)"
 grep -q 'T defray::render(defray::Device' symbols || complain "render does not show"
 grep -E 'defray::(Session|DeviceBackend|Frame|ImageFile|run_chain|apply_method)\b' symbols &&
   complain "it shows its inner works"
 
-# Every header compiles alone, strictly, and none brings another library's.
+# Every header compiles alone, strictly, as the program does, and none brings another library's.
+strict=("$cxx" -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only
+        -I "$prefix/include")
 for header in "$prefix"/include/defray/*.h; do
-  "$cxx" -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -fsyntax-only \
-    -I "$prefix/include" -include "$header" -x c++ /dev/null
+  "${strict[@]}" -include "$header" -x c++ /dev/null
 done
+"${strict[@]}" app/app.cpp
 "$cxx" -std=c++20 -M -I "$prefix/include" -include "$prefix/include/defray/defray.h" -x c++ \
   /dev/null | tr ' ' '\n' >included
 grep -iE '/(CL|fmt|nlohmann|OpenImageIO|opencv[^/]*|Imath|kernels)/' included &&
   complain "its headers bring others"
 
-# The README has the example.
-awk '/^```cpp/ {on = 1; next} /^```/ {on = 0} on' "$readme" >snippet
-diff "$here/example.cpp" snippet || complain "README's snippet is not tests/library/example.cpp"
-
-mkdir user && cp "$here"/{example.cpp,api.cpp,CMakeLists.txt} user
+mkdir user && cp "$here"/{api.cpp,CMakeLists.txt} user
 cmake -S user -B user/build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$cxx" >cmake.log
-cmake --build user/build --parallel 2 >build.log || { cat build.log; complain "find_package"; }
-"$cxx" -std=c++20 -Wall user/example.cpp -o with_pkg_config $(pkg-config --cflags --libs defray)
-[ "$(pkg-config --modversion defray)" = 0.1.0 ] || complain "pkg-config has another version"
+cmake --build user/build >build.log || { cat build.log; complain "find_package"; }
+[ "$(pkg-config --modversion defray)" = "$version" ] || complain "pkg-config has another version"
 
 defray scene fence -o scene --width 96 --height 64 --truth-samples 1 >scene.log
 defray render scene/pinhole.exr -o cli.exr --focus 1.2 --aperture-diameter 35 --focal-length 50 -q
-user/build/example scene/pinhole.exr cmake.exr
-./with_pkg_config scene/pinhole.exr pkg_config.exr
+app/build/app scene/pinhole.exr cmake.exr
+app/app scene/pinhole.exr pkg_config.exr
 same cmake.exr cli.exr
 same pkg_config.exr cli.exr
-if ./with_pkg_config missing.exr x.exr 2>error; then complain "a missing file is no error"; fi
+if app/app missing.exr x.exr 2>error; then complain "a missing file is no error"; fi
 grep -q 'missing.exr' error || complain "a missing file is not named: $(cat error)"
 
 mkdir out
-user/build/api scene/pinhole.exr out
+user/build/api scene/pinhole.exr out "$version"
 defray render scene/pinhole.exr -o out/cli.exr --focus 5 --aperture-diameter 35 --focal-length 50 --sensor-width 5 -q \
   --coc-out out/cli_coc.exr --confidence-out out/cli_confidence.exr
 same out/api.exr out/cli.exr

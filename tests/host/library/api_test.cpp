@@ -13,15 +13,15 @@ namespace {
 TEST(Api, IsAsItsHeadersSay) {
   const Folder folder;
   const Size size{48, 32};
-  std::string input = folder / "in.exr", output = folder.path();
+  std::string input = folder / "in.exr", output = folder.path(), own_version = version();
   ImageFile::from_planes(
       {"R", "G", "B", "Z"},
       {random_plane(size, 1), random_plane(size, 2), random_plane(size, 3), random_depth(size, 4)},
       size.width, size.height, Sample::single_float)
       .write(input);
   char program[] = "api";
-  char* arguments[] = {program, input.data(), output.data(), nullptr};
-  EXPECT_EQ(api_main(3, arguments), 0);
+  char* arguments[] = {program, input.data(), output.data(), own_version.data(), nullptr};
+  EXPECT_EQ(api_main(4, arguments), 0);
 }
 
 }  // namespace
