@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # The demo: builds defray, makes the paper's Plate 1, renders it through the ray distribution
 # buffer on OpenCL and shows how far from the truth that is. Pictures go to build/demo.
+# With $DEFRAY_BUILD, a folder that defray is built in already, all that is there.
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
-build "$project/build" -DCMAKE_BUILD_TYPE=Release
+folder=${DEFRAY_BUILD:-$project/build}
+[ -n "${DEFRAY_BUILD:-}" ] || build "$folder" -DCMAKE_BUILD_TYPE=Release
 
-defray=$project/build/bin/defray
-out=$project/build/demo
+defray=$folder/bin/defray
+out=$folder/demo
 mkdir -p "$out"
 render=("$defray" render "$out/pinhole.exr" --camera "$out/camera.json")
 

@@ -57,6 +57,7 @@ endforeach()
 # The installed library, as a user's project finds and uses it.
 add_check(library 20 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
           ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
+add_check(demo 20 full bash ${here}/demo_test.sh ${PROJECT_BINARY_DIR})
 add_check(format 1 both bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 add_check(includes 1 both bash ${here}/includes.sh ${PROJECT_SOURCE_DIR})
 
