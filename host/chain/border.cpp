@@ -144,11 +144,4 @@ void repeat_surfaces(const Frame& f, Border border, bool wants_data, Rows rows, 
               [](std::size_t pixel) { return static_cast<std::uint32_t>(pixel); });
 }
 
-Frame extended(const Frame& f, Border border, bool wants_data, ChainReport& report) {
-  Frame e = with_margin(f, border, report);
-  repeat_coc(f, e, {0, e.height}, e.coc_quanta);
-  repeat_surfaces(f, border, wants_data, {0, e.height}, e);
-  return e;
-}
-
 }  // namespace defray

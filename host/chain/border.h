@@ -22,9 +22,6 @@ void repeat_coc(const Frame& frame, const Frame& extended, Rows rows, Quanta& co
 void repeat_surfaces(const Frame& frame, Border border, bool wants_data, Rows rows,
                      Frame& extended);
 
-/// All rows, with the margin.
-Frame extended(const Frame& frame, Border border, bool wants_data, ChainReport& report);
-
 /// Front surfaces of a margin made by Border::clamp: at distance d each has the mean colour of the
 /// d pixels inside that begin at the edge and are of its surface. The edge's own colour says ever
 /// less the farther out; repeated, what happens to be on it made streaks. Not finite: as it was. Of

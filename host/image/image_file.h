@@ -63,9 +63,6 @@ class ImageFile {
   /// The same as text, numbers included.
   std::optional<std::string> metadata_text(const std::string& name) const;
 
-  /// All of it, part after part, each name once.
-  std::vector<std::pair<std::string, std::string>> metadata() const;
-
   /// True where writing with the file's own compression (DWA, B44, PXR24, JPEG in TIFF) changes
   /// values.
   bool is_lossy() const;

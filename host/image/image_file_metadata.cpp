@@ -1,6 +1,5 @@
 // What a file says of itself.
 #include <charconv>
-#include <set>
 
 #include "image/image_file_part.h"
 
@@ -76,18 +75,6 @@ std::optional<std::string> ImageFile::metadata_text(const std::string& name) con
     if (const ParamValue* value = part.spec.find_attribute(name)) return value->get_string();
   }
   return std::nullopt;
-}
-
-std::vector<std::pair<std::string, std::string>> ImageFile::metadata() const {
-  std::vector<std::pair<std::string, std::string>> all;
-  std::set<std::string> seen;
-  for (const Part& part : parts_) {
-    for (const ParamValue& value : part.spec.extra_attribs) {
-      const std::string name = value.name().string();
-      if (seen.insert(name).second) all.emplace_back(name, value.get_string());
-    }
-  }
-  return all;
 }
 
 }  // namespace defray

@@ -155,11 +155,6 @@ int bytes_of(PlyType type) {
   fail(ErrorKind::internal, "a PLY type without a size");
 }
 
-bool PlyElement::has_lists() const {
-  return std::any_of(properties.begin(), properties.end(),
-                     [](const PlyProperty& p) { return p.is_list; });
-}
-
 std::uint64_t PlyElement::row_bytes() const {
   std::uint64_t bytes = 0;
   for (const PlyProperty& p : properties) bytes += static_cast<std::uint64_t>(bytes_of(p.type));

@@ -26,7 +26,6 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  bool has_lists() const;
   std::uint64_t row_bytes() const;  ///< Without lists.
 };
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chain/border.h"
+#include "extended_frame.h"
 #include "support.h"
 
 namespace defray::test::extended_test {

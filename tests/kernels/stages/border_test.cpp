@@ -8,6 +8,7 @@
 
 #include "chain/chain.h"
 #include "chain/layers.h"
+#include "extended_frame.h"
 #include "methods/method.h"
 #include "support.h"
 
