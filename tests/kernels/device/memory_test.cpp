@@ -1,7 +1,7 @@
 // `--memory` is kept: what the launch table says of bands is what they take.
 #include <algorithm>
 
-#include "kernels/stages/stages_support.h"
+#include "kernels/chain/stages_support.h"
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb.h"

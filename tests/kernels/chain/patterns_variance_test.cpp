@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "chain/patterns_cells.h"
-#include "kernels/stages/patterns_scene.h"
+#include "kernels/chain/patterns_scene.h"
 
 namespace defray::test::patterns_variance_test {
 namespace {
