@@ -142,8 +142,9 @@ Values<float> TwinBackend::highlights(const Frame& f, int light_channels, Values
   return kept;
 }
 
-void add_light(const LightSources& lights, const Frame& f, const RayPlan& plan,
-               const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means) {
+void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& plan,
+                    const std::vector<std::vector<std::int32_t>>& winner,
+                    std::vector<Plane>& means) {
   const ApertureTable table{lights.table};
   const bool has_rim = !plan.rim_x.empty();
   std::vector<Plane> added(means.size(), Plane(means[0].size()));

@@ -221,7 +221,7 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
           differs[i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][f.front_of(i)];
     }
   }
-  if (has_light) add_light(*lights, f, plan, winner, out.means);
+  if (has_light) highlights_add(*lights, f, plan, winner, out.means);
   for (const std::int64_t n : nearest) {
     out.nearest.push_back(n < 0 ? DEFRAY_EMPTY : f.data_pixel(static_cast<std::size_t>(n)));
   }

@@ -28,8 +28,9 @@ RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 
 /// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
 /// winners, [cell][pixel], -1 where no ray arrives.
-void add_light(const LightSources& lights, const Frame& frame, const RayPlan& plan,
-               const std::vector<std::vector<std::int32_t>>& winner, std::vector<Plane>& means);
+void highlights_add(const LightSources& lights, const Frame& frame, const RayPlan& plan,
+                    const std::vector<std::vector<std::int32_t>>& winner,
+                    std::vector<Plane>& means);
 
 /// The means of rays without float's rounding, cells simply added up.
 std::vector<std::vector<double>> exact_rays(const Frame& frame, const RayPlan& plan);
