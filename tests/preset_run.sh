@@ -15,15 +15,16 @@ export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # Left out what only costs time there, and runs without instruments: cold kernel caches, damaged
 # files once more (host_tests reads them too), twins with jitter beside those without; and the real
-# window, whose toolkit leaks; and commands that compile kernels for each of many settings. Long
+# window, whose toolkit leaks; Blender; commands that compile kernels for each of many settings, or
+# run in processes of their own, one after the other. Long
 # tests run where DEFRAY_TEST_LONG is set: for coverage.
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
-left_out+=:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
+left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
 perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
-  longer=Arithmetic.*:Mistakes.HalfFloatDepthOfASteepPlane:$perf:Rdb.Huge*:Blender*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*
+  longer=Arithmetic.*:$perf:Rdb.Huge*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*
   DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"
 fi
 case $name in

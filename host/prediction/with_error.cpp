@@ -50,10 +50,11 @@ std::size_t first_rung(const ErrorSettings& error) {
 // Work of a rung, in lens points of a picture of full size: what does not depend on them, and them.
 // (The accuracy table: of fence bg 75, 134 and 323, of spheres f3 93, 160 and 386.)
 constexpr double preview_work = 80, draft_work = 150, normal_work = 350;
-/// A sequence changes to what takes less than this share of the work, and is likely to do for the
-/// frames to come as well, no sooner. (`drift` in 480x300, 12 frames, targets of 36.5, 38.5 and 40
-/// dB: a margin of 0.05 dB changes the quality up to 5 times, 0.25 up to 3.)
-constexpr double worth_a_change = 0.75, lasting_margin_db = 0.25;
+/// A sequence changes to what takes less than half the work if it is likely to do, and to what
+/// takes less than three quarters if it is likely to do for the frames to come as well: no sooner,
+/// as what changes flickers. (`drift` in 480x300, 12 frames, targets of 36.5, 38.5 and 40 dB: with
+/// no margin of its own for the latter the quality changes up to 5 times, with it up to 2.)
+constexpr double far_less = 0.5, worth_a_change = 0.75, lasting_margin_db = 0.25;
 
 double work_of(const Rung& rung) {
   if (rung.quality == Quality::preview) return preview_work;
@@ -65,8 +66,11 @@ double work_of(const Rung& rung) {
 Rung rung_after(const Rung& rung, const Prediction& prediction, const ChainSettings& chain,
                 double target_db) {
   for (const Rung& less : rungs()) {
-    if (less == rung || work_of(less) > worth_a_change * work_of(rung)) continue;
-    const double margin = less.quality == Quality::preview ? preview_margin_db : lasting_margin_db;
+    const double share = work_of(less) / work_of(rung);
+    if (less == rung || share > worth_a_change) continue;
+    const double margin = less.quality == Quality::preview ? preview_margin_db
+                          : share > far_less               ? lasting_margin_db
+                                                           : margin_db;
     if (prediction.guess_db(with_rung(chain, less)) >= target_db + margin) return less;
   }
   return rung;
