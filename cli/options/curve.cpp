@@ -11,7 +11,7 @@
 namespace defray::cli {
 namespace {
 
-std::optional<double> number_of(std::string_view text) {
+std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);  // not from_chars'
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -35,13 +35,13 @@ Curve::Curve(const std::string& option, const std::string& text) {
   }
   for (const std::string& part : parts) {
     const std::size_t colon = part.find(':');
-    const std::optional<double> value = number_of(part.substr(0, colon));
+    const std::optional<double> value = number_in(part.substr(0, colon));
     if (!value) refuse(part, "cannot be read as a number");
     if (colon == part.npos && (parts.size() > 1 || is_smooth_)) refuse(part, "has no frame");
     double frame = 0;
     if (colon != part.npos) {
       has_frames_ = true;
-      const std::optional<double> given = number_of(part.substr(colon + 1));
+      const std::optional<double> given = number_in(part.substr(colon + 1));
       if (!given || !std::isfinite(*given)) refuse(part, "has no frame number");
       if (!std::isfinite(*value)) refuse(part, "cannot be animated");
       frame = *given;

@@ -18,7 +18,7 @@ struct SplatCommand {
   std::optional<std::array<double, 3>> from, look_at, up;
   CameraValues camera;
   EyeOptions eye;
-  double max_coc_px = 0;
+  double max_coc_px = Lens().max_coc_px;
   AnimatedLens animated;
   std::string camera_file, focus_setting;
   double metres_per_unit = Lens().metres_per_unit;
