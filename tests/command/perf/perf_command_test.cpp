@@ -57,6 +57,7 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
 }
 
 TEST_F(PerfCommand, RooflineHasEachKernelsTimeAndBytes) {
+  SKIP_UNLESS_FULL();
   const Result result = perf("experiment roofline -o report --quick");
   expect_ok(result);
   for (const std::string scene : {"fence", "spheres"}) {
@@ -103,6 +104,7 @@ TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
 }
 
 TEST_F(PerfCommand, TradeoffsCommandsGiveItsFigures) {
+  SKIP_UNLESS_FULL();
   expect_ok(perf("experiment tradeoff -o report --quick"));
   std::smatch first;
   const std::string html = text_of("report/index.html");

@@ -48,6 +48,7 @@ std::string marked(const std::string& table, const std::string& content = "") {
 }
 
 TEST_F(ReportCommand, RooflineHasAKernelsTimesInEachPicture) {
+  SKIP_UNLESS_FULL();
   write("a.md", marked("roofline"));
   expect_ok(report("--update a.md --table roofline --quick"));
   const std::string table = table_in("a.md", "roofline");
@@ -107,6 +108,7 @@ TEST_F(ReportCommand, UpdateChangesOnlyWhatStandsBetweenItsMarkers) {
 }
 
 TEST_F(ReportCommand, MeasuresEveryTableWhoseMarkersStandThere) {
+  SKIP_UNLESS_FULL();
   expect_ok(defray(folder, "scene plate1 -o scenes/own --width 64 --height 48 --truth-samples 4"));
   expect_ok(shell(folder, "mv scenes/own/truth.exr scenes/own/truth_default.exr"));
   write("a.md", marked("accuracy") + marked("validate") + marked("speed"));

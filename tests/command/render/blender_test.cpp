@@ -18,6 +18,7 @@ const std::string script = std::string(DEFRAY_SOURCE_DIR) + "/cli/blender/defray
 class Blender : public testing::Test {
  protected:
   void SetUp() override {
+    SKIP_UNLESS_FULL();
     if (shell(folder_, "command -v blender").code != 0) GTEST_SKIP() << "needs blender";
   }
   std::string blender(const std::string& arguments) const {
@@ -121,7 +122,6 @@ TEST_F(Blender, FramesAreListedAsForDefray) {
 }
 
 TEST_F(Blender, RendersThroughTheLensAreCyclesOwn) {
-  SKIP_UNLESS_FULL();
   for (const std::string size : {"160 90", "64 96"}) {
     build(size);
     const std::string said = blender("scene.blend -P '" + script + "' -- -o shot --render");

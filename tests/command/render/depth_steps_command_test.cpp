@@ -74,6 +74,7 @@ TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
 /// than a pixel a pixel it is one surface, as in floats; where by more, it is what stages
 /// take for edges, and rounding still decides about some of them.
 TEST_F(Mistakes, HalfFloatDepthOfASteepPlane) {
+  SKIP_UNLESS_FULL();
   const struct {
     const char *size, *fstop;
     double psnr;

@@ -153,6 +153,7 @@ LensPoints grid(const ApertureMask& mask, int cells_per_side) {
 }
 
 TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
+  SKIP_UNLESS_FULL();
   for (const Aperture& a : shapes()) {
     const ApertureMask mask = rasterise(a);
     for (const int cells_per_side : {9, 16, 33, 64}) {
