@@ -82,7 +82,7 @@ TEST_F(Info, OfALensAmongTheMetadata) {
   file.specmod().attribute("cameraFocalLength", 35);
   file.specmod().attribute("cameraAperture", 24.5f);
   file.write(folder / "it's.exr");
-  expect_lines("\"it's.exr\"", {"  focal_length_mm 35 (cameraFocalLength, V-Ray)",
+  expect_lines("\"it's.exr\"", {"  focal_length_mm 35 (cameraFocalLength, V-Ray, Arnold)",
                                 "  sensor_width_mm 24.5 (cameraAperture, V-Ray)",
                                 "  depth Z: -4 to -4, background 1 px, negative 63 px",
                                 "  defray render 'it'\\''s.exr' -o out.exr --depth-kind negative-z "
