@@ -11,6 +11,8 @@ namespace defray::perf {
 namespace {
 
 constexpr double distance = 3.2, half_side = 0.8, aperture_mm = 300;
+/// The back one's place: behind the focus, CoC radius 7 px at 512x512.
+constexpr double behind = -0.8;
 
 /// A square grid of points before the camera, of the left half alone or of all of it.
 void add_sheet(PointCloud& cloud, int side, double z, bool is_half,
@@ -33,8 +35,8 @@ struct Sheets {
 
 Sheets make_sheets(int side, double gap) {
   PointCloud front, back;
-  add_sheet(front, side, gap, true, {0.9f, 0.6f, 0.2f}, {0.5f, 0.1f, 0.1f});
-  add_sheet(back, side, 0, false, {0.1f, 0.2f, 0.7f}, {0.05f, 0.4f, 0.3f});
+  add_sheet(front, side, behind + gap, true, {0.9f, 0.6f, 0.2f}, {0.5f, 0.1f, 0.1f});
+  add_sheet(back, side, behind, false, {0.1f, 0.2f, 0.7f}, {0.05f, 0.4f, 0.3f});
   PointCloud both = front;
   both.positions.insert(both.positions.end(), back.positions.begin(), back.positions.end());
   both.normals.insert(both.normals.end(), back.normals.begin(), back.normals.end());
