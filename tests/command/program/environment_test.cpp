@@ -68,6 +68,7 @@ TEST(Devices, NoneIsAnErrorThatNamesThePackage) {
 }
 
 TEST(KernelCache, UnwritableFallsBackToAPrivateOne) {
+  SKIP_UNLESS_FULL();
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
   std::ofstream(folder / "file") << "no folder";

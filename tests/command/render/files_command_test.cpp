@@ -156,6 +156,7 @@ TEST_F(Files, FoldersAreMadeWhereAsked) {
 }
 
 TEST_F(Files, WhatKilledRunsLeftGoes) {
+  SKIP_UNLESS_FULL();
   const Result running = shell(folder_, "mkdir out; " + program() +
                                             " render in.exr -o out/o.exr "
                                             "--rdb 60" +

@@ -77,6 +77,7 @@ TEST(Render, EveryOptionChangesThePicture) {
 }
 
 TEST(Render, MemoryAndWorkGroupChangeNoBit) {
+  SKIP_UNLESS_FULL();
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"}, {97, 61});
   const std::string literal = lens + "--literal ";

@@ -181,6 +181,7 @@ TEST(HighlightDisc, IsEvenAndKeepsItsLightAtAnyRadius) {
 }
 
 TEST(HighlightDisc, KeepsTheLightThatTheRimLeaves) {
+  SKIP_UNLESS_FULL();
   for (const double strength : {0.001, 0.5, 1.0}) {
     for (const int blades : {0, 6}) {
       for (const double radius : radii()) {

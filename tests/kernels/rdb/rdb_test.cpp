@@ -84,6 +84,7 @@ TEST(Rdb, SameBitsForEveryMemoryBudget) {
 }
 
 TEST(Rdb, SameBitsForEveryWorkGroup) {
+  SKIP_UNLESS_FULL();
   const Input in = make_input(frame_size(), 9, 41);
   Session s(device_under_test());
   const std::uint64_t expected = hash_of(render(s, in, small_settings()));
