@@ -151,7 +151,6 @@ bool is_lost(float depth) {
 }
 
 TEST(CocAccuracy, KernelIsWithinFourUlpOfTheExactRadius) {
-  SKIP_UNLESS_FULL();
   const std::size_t lenses = is_slow_device() ? 20 : 2000, depths = is_slow_device() ? 100 : 4096;
   Randomiser random;
   Worst worst;
