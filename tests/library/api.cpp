@@ -1,6 +1,5 @@
-// The whole API as a user sees it: api PICTURE FOLDER VERSION. PICTURE has R, G, B and Z. Exits
-// with 1 where something is not as the headers say; what it writes to FOLDER is for
-// library_test.sh to compare.
+// The whole API as a user sees it: api PICTURE (R, G, B, Z) FOLDER VERSION. Exits with 1 where
+// something is not as the headers say; what it writes to FOLDER library_test.sh compares.
 #include <defray/defray.h>
 
 #include <cmath>
