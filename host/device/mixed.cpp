@@ -6,7 +6,8 @@
 namespace defray {
 namespace {
 
-const LaunchRow mixed_launch({"mixed", WorkGroup{8, 1}, 1, 2 * Launch::plane, DEFRAY_RUN});
+// Whether a step to the next pixel goes on is looked at one further.
+const LaunchRow mixed_launch({"mixed", WorkGroup{8, 1}, 2, 2 * Launch::plane, DEFRAY_RUN});
 // A ramp's ends are looked for two pixels away, and what is flat one further.
 const LaunchRow repair_launch({"repair", WorkGroup{8, 1}, 3, 2 * Launch::plane, DEFRAY_RUN});
 

@@ -11,8 +11,8 @@
 namespace defray {
 namespace {
 
-/// Of a line to either side, px. With 24 and 32 rounding leaves more made-up pixels (11700 and 8100
-/// of 144000 on `slanted`, 300 mm f/0.5; 5400 with 48).
+/// Of a line to either side, px. Half floats are 68.4 dB from floats with 48, 64.4 with 16 and 24,
+/// 36.4 without lines: `slanted`, 480x300, 300 mm f/0.5.
 constexpr int reach = 48;
 constexpr int fewest = 4;  ///< Pixels that make a line.
 /// Two pixels were rounded by half a step each; a quarter more where steps change their size.

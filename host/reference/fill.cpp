@@ -88,7 +88,8 @@ class Filler {
       if (!frame_.contains(at)) return std::nullopt;
       const int coc = frame_.coc(at);
       const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
-      if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= reach(coc - own)) {
+      if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= reach(coc - own) &&
+          passes_mixed(way, t - step, t)) {
         for (int i = t; i <= t + 3; ++i) {
           const Place further = way.after(i);
           if (!frame_.contains(further)) return std::nullopt;
@@ -102,6 +103,12 @@ class Filler {
       step = 1 + t / 16;  // far away less closely
     }
     return std::nullopt;
+  }
+
+  /// Without a mixed pixel what rises there is a surface that slants.
+  bool passes_mixed(const Way& way, int first, int last) const {
+    while (last >= first && !mixed_[frame_.index(way.after(last))]) --last;
+    return last >= first;
   }
 
   /// The surface after t steps, continued back to the start, no further than half the step in CoC.

@@ -137,8 +137,24 @@ TEST(Fill, NothingLiesBehindTheFarthestOrBesideItself) {
     }
   });
   Canvas slope(60, 20);  // steep, but one surface
-  slope.each([&](int x, int y) { slope.coc[slope.at(x, y)] = 250 * x; });
-  for (const float i : slope.filled().inverse) EXPECT_EQ(i, -1.0f);
+  for (const int rise : {150, 300, 500}) {
+    slope.each([&](int x, int y) { slope.coc[slope.at(x, y)] = rise * x; });
+    for (const float i : slope.filled().inverse) EXPECT_EQ(i, -1.0f) << rise;
+  }
+}
+
+/// The lens sees all of what rises by more than a pixel a pixel; only from the bar on, or from
+/// pixels beside it, is it behind something.
+TEST(Fill, ASteepSlopeLiesBehindABarAlone) {
+  Canvas f(120, 20);
+  f.each([&](int x, int y) { f.coc[f.at(x, y)] = 300 * x; });
+  f.add_bar(60, 66);
+  const Frame behind = f.filled();
+  f.each([&](int x, int y) {
+    const bool is_behind = behind.inverse[f.at(x, y)] >= 0;
+    if (x >= 60 && x < 66) EXPECT_TRUE(is_behind) << x;
+    if (x > 66) EXPECT_FALSE(is_behind) << x;
+  });
 }
 
 TEST(Fill, ANearerSurfaceNeverFills) {

@@ -126,6 +126,40 @@ TEST(Mixed, BothSidesOfAStepAreMixedAndOneOfThreeQuartersOfAPixelIsNone) {
   for (const std::uint32_t m : f.mixed()) EXPECT_EQ(m, 0u);
 }
 
+/// Up to two pixels a pixel, upwards or downwards, from a level surface on and back to one; steeper
+/// is a ramp between two.
+TEST(Mixed, ASlopeIsOneSurfaceUpToTwoPixelsAPixel) {
+  for (const int rise : {DEFRAY_JUMP_QUANTA + 1, -DEFRAY_RAMP_QUANTA / 2, DEFRAY_RAMP_QUANTA,
+                         DEFRAY_RAMP_QUANTA + 1}) {
+    for (const bool is_across : {true, false}) {
+      Canvas f(40, 40);
+      f.each(
+          [&](int x, int y) { f.coc[f.at(x, y)] = rise * std::clamp(is_across ? x : y, 10, 30); });
+      const Words mixed = f.mixed();
+      const bool is_slope = rise <= DEFRAY_RAMP_QUANTA;
+      f.each([&](int x, int y) {
+        const int along = is_across ? x : y;
+        EXPECT_EQ(mixed[f.at(x, y)], !is_slope && along >= 10 && along <= 30) << along;
+      });
+    }
+  }
+}
+
+/// A step that does not go on as before, nor before as it goes on: an edge on a slope, of which the
+/// next pixel's step is another; and the bend that a slope may have.
+TEST(Mixed, AnEdgeOnASlopeIsSeen) {
+  constexpr int slope = 256, edge = 20;
+  for (const int bend : {DEFRAY_BEND_QUANTA, DEFRAY_BEND_QUANTA + 1}) {
+    Canvas f(40, 3);
+    f.each([&](int x, int y) { f.coc[f.at(x, y)] = slope * x + (x >= edge ? bend : 0); });
+    const Words mixed = f.mixed();
+    for (int x = 0; x < f.width; ++x) {
+      const bool is_beside = x == edge || x == edge - 1;
+      EXPECT_EQ(mixed[f.at(x, 1)], is_beside && bend > DEFRAY_BEND_QUANTA) << x;
+    }
+  }
+}
+
 const FaultRows faults{
     {"repair", "the other end of the ramp", {"side < 0 ? low : high", "side < 0 ? high : low"}},
     {"repair", "ties to the far end", {"<= abs(to_high) ? -1", "< abs(to_high) ? -1"}},
@@ -154,14 +188,28 @@ const FaultRows faults{
       "clamp(at.y, 0, (int)height - 2 > 0 ? (int)height - 2 : 0)"}},
     {"mixed",
      "sign: only towards the far side",
-     {"largest = max(largest, apart(coc, own));\n    }\n  }\n  // The sign's",
-      "largest = max(largest, max(coc - own, (int16)(0)));\n    }\n  }\n  // The sign's"}},
+     {"largest = max(largest, apart(coc, own));\n    }\n  }\n  int16 is_mixed",
+      "largest = max(largest, max(coc - own, (int16)(0)));\n    }\n  }\n  int16 is_mixed"}},
     {"mixed",
      "threshold counts",
-     {"as_uint16(DEFRAY_JUMP_QUANTA - largest)", "as_uint16(DEFRAY_JUMP_QUANTA - 1 - largest)"}},
+     {"(other, own), DEFRAY_JUMP_QUANTA)", "(other, own), DEFRAY_JUMP_QUANTA - 1)"}},
     {"mixed",
      "threshold of half a pixel",
-     {"as_uint16(DEFRAY_JUMP_QUANTA - largest)", "as_uint16(DEFRAY_JUMP_QUANTA / 2 - largest)"}},
+     {"(other, own), DEFRAY_JUMP_QUANTA)", "(other, own), DEFRAY_JUMP_QUANTA / 2)"}},
+    {"mixed", "slopes have edges", {"| is_above(bend, DEFRAY_BEND_QUANTA)", "| 1"}},
+    {"mixed", "slopes have no end", {"bend = min(apart", "bend = max(apart"}},
+    {"mixed", "no bend", {"is_above(bend, DEFRAY_BEND_QUANTA)", "is_above(bend, 0)"}},
+    {"mixed",
+     "twice the bend",
+     {"is_above(bend, DEFRAY_BEND_QUANTA)", "is_above(bend, 2 * DEFRAY_BEND_QUANTA)"}},
+    {"mixed",
+     "slopes of two pixels part",
+     {"(other, own), DEFRAY_RAMP_QUANTA)", "(other, own), DEFRAY_RAMP_QUANTA - 1)"}},
+    {"mixed", "steps the other way", {"start + 2 * d", "start - 2 * d"}},
+    {"mixed",
+     "one neighbour forgotten",
+     {"for (int i = 0; i < 9; ++i) {", "for (int i = 1; i < 9; ++i) {"}},
+    {"mixed", "four neighbours alone", {"if (i != 4) is_mixed", "if (i % 2 != 0) is_mixed"}},
     {"mixed",
      "last neighbour in a row forgotten",
      {"for (int i = -1; i <= 1; ++i)", "for (int i = -1; i < 1; ++i)"}},
@@ -185,7 +233,7 @@ const FaultRows faults{
     {"mixed",
      "stale output: only runs with mixed pixels written",
      {"  store_ints(p.width, (__global int*)mixed",
-      "  if (any_lane(as_int16(is_mixed << 31u))) store_ints(p.width, (__global int*)mixed"}},
+      "  if (any_lane(is_mixed)) store_ints(p.width, (__global int*)mixed"}},
 };
 
 }  // namespace
