@@ -17,8 +17,6 @@ function(add_sanitized_library library)
   set(target ${library}_sanitized)
   get_target_property(sources ${library} SOURCES)
   add_library(${target} STATIC EXCLUDE_FROM_ALL ${sources})
-  # Larger than the preset's: nobody compiles these again for one mutant.
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
   foreach(source ${sources})
     get_source_file_property(is_alone ${source} TARGET_DIRECTORY ${library}
                              SKIP_UNITY_BUILD_INCLUSION)

@@ -1,5 +1,6 @@
 #include "command/forks.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,8 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <vector>
 
@@ -72,7 +75,24 @@ bool receive(int pipe, std::string& text) {
   return true;
 }
 
+/// The OpenCL implementations, each with a compiler in it: loading them takes a fork longer than
+/// what it is for. As OpenCL's loader finds them.
+void load_implementations() {
+  namespace fs = std::filesystem;
+  const char* chosen = std::getenv("OCL_ICD_VENDORS");
+  const fs::path vendors = chosen ? chosen : "/etc/OpenCL/vendors";
+  std::vector<fs::path> files{vendors};
+  if (fs::is_directory(vendors)) files.assign(fs::directory_iterator(vendors), {});
+  for (const fs::path& file : files) {
+    std::string library;
+    if (file.extension() == ".icd" && std::getline(std::ifstream(file), library)) {
+      dlopen(library.c_str(), RTLD_NOW);
+    }
+  }
+}
+
 [[noreturn]] void serve(int from, int to) {
+  load_implementations();
   Command command;
   while (receive(from, command.folder) && receive(from, command.out) &&
          receive(from, command.err) && receive(from, command.arguments)) {
