@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
 #include "kernels/params.h"
@@ -21,23 +22,59 @@ std::array<std::int32_t, 2> to_lens(double u, double v) {
           static_cast<std::int32_t>(std::lround(radius * v))};
 }
 
-LensPoints sample_iris(const Aperture& a, int count) {
+using Points = std::vector<std::array<double, 2>>;
+
+/// Of the iris itself, not squeezed.
+Points spiral(const Iris& iris, int count) {
   // 1 - 1/phi of a turn is the golden angle; two arms take half of it.
   constexpr double turn = (2 - std::numbers::phi) / 2;
-  const double scale_u = std::min(1.0, 1 / a.squeeze), scale_v = std::min(1.0, a.squeeze);
-  const Iris iris(a);
-  LensPoints lens;
+  Points points;
   const int centre = count % 2;
-  if (centre) lens.points.push_back({0, 0});
+  if (centre) points.push_back({0, 0});
   for (int k = 0; k < count / 2; ++k) {
     const double way = std::sqrt((2.0 * k + 1 + centre) / count);
     for (const double arm : {0.0, 0.5}) {
       const double share = k * turn + arm;
       const Iris::Edge edge = iris.edge_at_share(share - std::floor(share));
       const double r = way * edge.radius;
-      lens.points.push_back(
-          to_lens(scale_u * r * std::cos(edge.angle), scale_v * r * std::sin(edge.angle)));
+      points.push_back({r * std::cos(edge.angle), r * std::sin(edge.angle)});
     }
+  }
+  return points;
+}
+
+/// Puts the points' places along one axis where equal shares of the iris's area have their middles.
+void part_evenly(Points& points, std::size_t axis, Points area) {
+  const auto is_before = [&](const auto& a, const auto& b) { return a[axis] < b[axis]; };
+  std::sort(area.begin(), area.end(), is_before);
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return is_before(points[a], points[b]); });
+  const double share = static_cast<double>(area.size()) / static_cast<double>(points.size());
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const double place = std::max(0.0, (static_cast<double>(rank) + 0.5) * share - 0.5);
+    const auto below = std::min(static_cast<std::size_t>(place), area.size() - 2);
+    points[order[rank]][axis] =
+        std::lerp(area[below][axis], area[below + 1][axis], place - static_cast<double>(below));
+  }
+}
+
+LensPoints sample_iris(const Aperture& a, int count) {
+  const Iris iris(a);
+  const Points first = spiral(iris, count), area = spiral(iris, most_lens_points);
+  Points points = first;
+  part_evenly(points, 0, area);
+  part_evenly(points, 1, area);
+  const double scale_u = std::min(1.0, 1 / a.squeeze), scale_v = std::min(1.0, a.squeeze);
+  LensPoints lens;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto [u, v] = points[i];
+    for (double part = 0.5; part > 0.01 && iris.beyond_edge(u, v) > 0; part /= 2) {
+      u = std::lerp(first[i][0], points[i][0], part);
+      v = std::lerp(first[i][1], points[i][1], part);
+    }
+    lens.points.push_back(to_lens(scale_u * u, scale_v * v));
   }
   return lens;
 }

@@ -113,9 +113,9 @@ __kernel void mixed(const DefrayFrameParams p, __global const int* restrict coc_
       largest = max(largest, apart(coc, own));
     }
   }
-  int16 is_mixed = is_above(largest, DEFRAY_JUMP_QUANTA);
-  if (any_lane(is_mixed)) {
-    is_mixed = 0;
+  int16 is_mixed = 0;
+  // Not any_lane, as above.
+  if (any((int16)(DEFRAY_JUMP_QUANTA)-largest)) {
     for (int i = 0; i < 9; ++i) {
       if (i != 4) is_mixed |= parts(p, coc_quanta, start, (int2)(i % 3 - 1, i / 3 - 1));
     }

@@ -110,37 +110,58 @@ TEST(LensSamples, HaveTheMomentsOfTheShape) {
   }
 }
 
-/// Largest error, over half-planes in 24 directions with the axes among them, of the samples' share
-/// against the mask's: what a straight edge's blur is off by.
-double discrepancy(const LensPoints& lens, const ApertureMask& mask) {
+/// Largest error, over half-planes in a direction, of the samples' share against the mask's: what a
+/// straight edge's blur is off by.
+double discrepancy(const LensPoints& lens, const ApertureMask& mask, double angle) {
   constexpr int bins = 4096, reach = 2;
-  double worst = 0;
-  for (int direction = 0; direction < 24; ++direction) {
-    const double angle = std::numbers::pi * direction / 24;
-    const auto bin = [&](double u, double v) {
-      return static_cast<std::size_t>((u * std::cos(angle) + v * std::sin(angle) + reach) /
-                                      (2 * reach) * bins);
-    };
-    std::vector<double> light(bins), samples(bins);
-    double total = 0;
-    for (int row = 0; row < side; ++row) {
-      for (int column = 0; column < side; ++column) {
-        light[bin(centre_of_texel(column), centre_of_texel(row))] += mask.at(column, row);
-        total += mask.at(column, row);
-      }
-    }
-    for (const auto& [u, v] : lens.points) {
-      samples[bin(u / radius, v / radius)] += 1.0 / static_cast<double>(lens.points.size());
-    }
-    double error = 0;
-    for (std::size_t i = 0; i < bins; ++i) {
-      error += light[i] / total;
-      worst = std::fmax(worst, std::fabs(error));
-      error -= samples[i];
-      worst = std::fmax(worst, std::fabs(error));
+  const auto bin = [&](double u, double v) {
+    return static_cast<std::size_t>((u * std::cos(angle) + v * std::sin(angle) + reach) /
+                                    (2 * reach) * bins);
+  };
+  std::vector<double> light(bins), samples(bins);
+  double total = 0;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      light[bin(centre_of_texel(column), centre_of_texel(row))] += mask.at(column, row);
+      total += mask.at(column, row);
     }
   }
+  for (const auto& [u, v] : lens.points) {
+    samples[bin(u / radius, v / radius)] += 1.0 / static_cast<double>(lens.points.size());
+  }
+  double error = 0, worst = 0;
+  for (std::size_t i = 0; i < bins; ++i) {
+    error += light[i] / total;
+    worst = std::fmax(worst, std::fabs(error));
+    error -= samples[i];
+    worst = std::fmax(worst, std::fabs(error));
+  }
   return worst;
+}
+
+/// The worst of 24 directions with the axes among them.
+double discrepancy(const LensPoints& lens, const ApertureMask& mask) {
+  double worst = 0;
+  for (int direction = 0; direction < 24; ++direction) {
+    worst = std::fmax(worst, discrepancy(lens, mask, std::numbers::pi * direction / 24));
+  }
+  return worst;
+}
+
+/// Posts, sills and horizons blur as evenly as so many points can: each column's and each row's
+/// share is right to a point and a half, and to what a texel of the mask is wide. (A spiral by
+/// itself is off by 3.3 of 137 points.)
+TEST(LensSamples, EdgesAlongRowsAndColumnsAreTheMostEven) {
+  for (const Aperture& a : shapes()) {
+    const ApertureMask mask = rasterise(a);
+    for (const int count : {9, 25, 69, 137, 861}) {
+      const LensPoints lens = make_lens_points(a, count);
+      for (const double angle : {0.0, std::numbers::pi / 2}) {
+        EXPECT_LE(discrepancy(lens, mask, angle), 1.5 / count + 0.003)
+            << a.blades << " " << count << " " << angle;
+      }
+    }
+  }
 }
 
 /// The square grid's cells whose centres are open.
@@ -159,6 +180,8 @@ TEST(LensSamples, AreMoreEvenThanAGridOfAsManyCells) {
     for (const int cells_per_side : {9, 16, 33, 64}) {
       const LensPoints lens = grid(mask, cells_per_side);
       const int count = static_cast<int>(lens.points.size());
+      // Columns and rows of a hollow star's few points are parted evenly at others' cost.
+      if (count < 20) continue;
       const double of_grid = discrepancy(lens, mask);
       const double of_samples = discrepancy(make_lens_points(a, count), mask);
       EXPECT_LT(of_samples, of_grid) << a.blades << " " << count;
