@@ -60,6 +60,17 @@ void part_evenly(Points& points, std::size_t axis, Points area) {
   }
 }
 
+/// From a point of the iris to a place, as far as the iris goes; rounding stays in it.
+std::array<double, 2> towards(const Iris& iris, const std::array<double, 2>& from,
+                              const std::array<double, 2>& to) {
+  constexpr double rounding = 1.0 / (1 << DEFRAY_LENS_FRACTION_BITS);
+  for (double part = 1; part > 0.01; part /= 2) {
+    const double u = std::lerp(from[0], to[0], part), v = std::lerp(from[1], to[1], part);
+    if (iris.beyond_edge(u, v) < -rounding) return {u, v};
+  }
+  return from;
+}
+
 LensPoints sample_iris(const Aperture& a, int count) {
   const Iris iris(a);
   const Points first = spiral(iris, count), area = spiral(iris, most_lens_points);
@@ -69,11 +80,7 @@ LensPoints sample_iris(const Aperture& a, int count) {
   const double scale_u = std::min(1.0, 1 / a.squeeze), scale_v = std::min(1.0, a.squeeze);
   LensPoints lens;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    auto [u, v] = points[i];
-    for (double part = 0.5; part > 0.01 && iris.beyond_edge(u, v) > 0; part /= 2) {
-      u = std::lerp(first[i][0], points[i][0], part);
-      v = std::lerp(first[i][1], points[i][1], part);
-    }
+    const auto [u, v] = towards(iris, first[i], points[i]);
     lens.points.push_back(to_lens(scale_u * u, scale_v * v));
   }
   return lens;

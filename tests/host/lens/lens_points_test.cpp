@@ -61,7 +61,7 @@ const std::vector<Aperture>& shapes() {
 TEST(LensSamples, AsManyAsAskedAndWithinTheShape) {
   for (const Aperture& a : shapes()) {
     const ApertureMask mask = rasterise(a);
-    for (const int count : {1, 2, 3, 64, 145, 1024}) {
+    for (const int count : {1, 2, 3, 64, 145, 853, 1024, 2100}) {
       const LensPoints lens = make_lens_points(a, count);
       EXPECT_EQ(lens.jitter, 0);
       ASSERT_EQ(lens.points.size(), static_cast<std::size_t>(count));
