@@ -116,8 +116,8 @@ __kernel void mixed(const DefrayFrameParams p, __global const int* restrict coc_
   int16 is_mixed = 0;
   // Not any_lane, as above.
   if (any((int16)(DEFRAY_JUMP_QUANTA)-largest)) {
-    for (int i = 0; i < 9; ++i) {
-      if (i != 4) is_mixed |= parts(p, coc_quanta, start, (int2)(i % 3 - 1, i / 3 - 1));
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) is_mixed |= parts(p, coc_quanta, start, (int2)(i, j));
     }
   }
   store_ints(p.width, (__global int*)mixed, start, is_mixed);
