@@ -15,6 +15,10 @@ namespace defray {
 namespace {
 
 constexpr int mask_side = ApertureMask::side;
+/// Fewer points pay elsewhere: of 17 in a hollow star other edges blur less evenly than with a
+/// grid, and previews of 96x72 px (32 points) lose up to 0.19 dB (drift fence; 640x400: +0.1 in the
+/// mean).
+constexpr int fewest_parted = 60;
 
 std::array<std::int32_t, 2> to_lens(double u, double v) {
   constexpr double radius = 1 << DEFRAY_LENS_FRACTION_BITS;
@@ -75,8 +79,10 @@ LensPoints sample_iris(const Aperture& a, int count) {
   const Iris iris(a);
   const Points first = spiral(iris, count), area = spiral(iris, most_lens_points);
   Points points = first;
-  part_evenly(points, 0, area);
-  part_evenly(points, 1, area);
+  if (count >= fewest_parted) {
+    part_evenly(points, 0, area);
+    part_evenly(points, 1, area);
+  }
   const double scale_u = std::min(1.0, 1 / a.squeeze), scale_v = std::min(1.0, a.squeeze);
   LensPoints lens;
   for (std::size_t i = 0; i < points.size(); ++i) {

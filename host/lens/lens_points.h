@@ -27,10 +27,11 @@ inline constexpr int most_lens_points = 4096;
 /// An iris: Vogel's spiral ("A better way to construct the sunflower head", 1979) with two arms, so
 /// that points come as antipodal pairs (an odd count begins with the centre) and their mean is 0:
 /// pair k at radius sqrt((2 k + 1) / count) and k times half the golden angle. Angles are taken as
-/// shares of the iris's area and radii as shares of the way to its edge, which keeps areas. Then
-/// their columns, and their rows, are moved to where equal shares of the area have their middles,
-/// as far as the shape goes: upright and level edges blur to within a point or so, where a spiral
-/// is off by 3 of 137. Second moments are right to 2 / count of their sum. A picture: the lattice
+/// shares of the iris's area and radii as shares of the way to its edge, which keeps areas. From
+/// 60 on, their columns, and their rows, are moved to where equal shares of the area have their
+/// middles, as far as the shape goes: upright and level edges blur to within a point or so, where a
+/// spiral is off by 3 of 137. Second moments are right to 2 / count of their sum. A picture: the
+/// lattice
 /// ((k + 1/2) / count, k times the golden ratio), point-symmetric, through the light's distribution
 /// over columns and, within a column, over its texels.
 ///
