@@ -99,6 +99,30 @@ TEST(Blocks, HaveTheGrainAndGradientOfTheirPixels) {
   EXPECT_EQ(scene.blocks().at(1, 1).soft_grain, 0.0f);
 }
 
+TEST(Blocks, PixelsAroundOneCountWhereverItLiesInItsBlock) {
+  for (int place = 0; place < 16; ++place) {
+    const int px = 4 + place % 4, py = 4 + place / 4;
+    Scene scene(12, 12, 0);
+    scene.colour[0][size(py * 12 + px)] = 1;
+    scene.set_coc([&](int x, int y) { return x == px && y == py ? 0.0 : 0.25; });
+    const PixelBlocks blocks = scene.blocks();
+    for (int block = 0; block < 9; ++block) {
+      double grain = 0, beside = 0, around = 0;
+      for (int i = 0; i < 16; ++i) {
+        const int dx = std::abs(block % 3 * 4 + i % 4 - px), dy = std::abs(block / 3 * 4 + i / 4 - py);
+        if (dx > 1 || dy > 1) continue;
+        ++around;
+        grain += dx + dy == 0 ? 64 / 81.0 : 1 / 81.0;
+        beside += dx + dy == 1;
+      }
+      const PixelBlock& at = blocks.at(block % 3, block / 3);
+      EXPECT_NEAR(at.sharp_grain, grain / 16, 1e-6) << place << " " << block;
+      EXPECT_NEAR(at.edge, 0.25 * around / 16, 1e-6) << place << " " << block;
+      EXPECT_NEAR(at.edge_gradient, 0.25 * 0.25 * beside / 16, 1e-6) << place << " " << block;
+    }
+  }
+}
+
 TEST(Blocks, RimsAreWhatLiesBesideMoreThanWhite) {
   Scene scene(12, 12, 0);
   scene.result[0][5 * 12 + 5] = 2;
