@@ -193,7 +193,7 @@ int run(const OptionTable& options, TuneCommand& job) {
   }
   Device device = Device::open(job.device, {Math::strict, false, true});
   device.set_memory(job.memory_bytes());
-  TuneReport report{tuning::key_of(device.properties()), "", {}};
+  TuneReport report{tuning::key_of(device.properties()), "", {}, {}};
   report.path = tuning::path_of(report.key);
   if (report.path.empty()) {
     fail(ErrorKind::output, "no folder to keep it in: set XDG_CACHE_HOME or HOME");
@@ -208,6 +208,7 @@ int run(const OptionTable& options, TuneCommand& job) {
   } else {
     report.results = tune(job, device, report.path);
   }
+  report.findings = tuning::findings(report.results, device.properties().is_gpu());
   if (!job.export_to.empty()) write_text(job.export_to, to_text(report.key, report.results));
   if (!job.folder.empty()) write_report(job.folder, report);
   if (job.json) {

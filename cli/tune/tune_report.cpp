@@ -67,7 +67,7 @@ std::string intro_of(const TuneReport& report) {
 }  // namespace
 
 void print_text(const TuneReport& report) {
-  const std::vector<Finding> all = findings(report.results);
+  const std::vector<Finding>& all = report.findings;
   fmt::print("{}, {}\n", report.key.device, report.key.driver);
   if (all.empty()) {
     fmt::print("  nothing is tuned; 'defray tune' does it\n");
@@ -89,7 +89,7 @@ void print_text(const TuneReport& report) {
 
 void print_json(const TuneReport& report) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Finding& f : findings(report.results)) {
+  for (const Finding& f : report.findings) {
     list.push_back({{"frames", f.place.frame_class},
                     {"picture", f.place.picture},
                     {"kernel", f.place.kernel},
@@ -118,7 +118,7 @@ void write_report(const std::string& folder, const TuneReport& report) {
                "used"},
               {}};
   Section section{"What was found", "", {}, {}, {}};
-  const std::vector<Finding> all = findings(report.results);
+  const std::vector<Finding>& all = report.findings;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Finding& f = all[i];
     table.rows.push_back({f.place.frame_class, f.place.picture, f.place.kernel, to_string(f.own),

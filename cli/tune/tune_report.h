@@ -11,6 +11,7 @@ struct TuneReport {
   tuning::Key key;
   std::string path;  ///< Of the file of results.
   std::vector<tuning::Result> results;
+  std::vector<tuning::Finding> findings;  ///< Of them.
 };
 
 void print_text(const TuneReport& report);

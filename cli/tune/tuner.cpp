@@ -15,6 +15,11 @@ constexpr double share_to_explore = 0.5;
 /// Runs of a kernel's own work-group and its fastest ones after which nothing is left to learn.
 constexpr std::size_t enough_runs = 9;
 
+tuning::Machine machine_of(const Device& device) {
+  const DeviceProperties& properties = device.properties();
+  return {properties.max_work_group, properties.is_gpu()};
+}
+
 }  // namespace
 
 Tuner::Tuner(Device& device, std::string path, std::vector<std::string> kernels)
@@ -94,22 +99,23 @@ Tuner::Milliseconds Tuner::start(const Workload& workload) {
 }
 
 Tuner::Shapes Tuner::next_shapes(const std::vector<std::string>& kernels, bool explores) const {
-  const std::size_t most_items = device_.properties().max_work_group;
+  const tuning::Machine machine = machine_of(device_);
   Shapes shapes;
   for (const std::string& kernel : kernels) {
     std::optional<tuning::Shape> next;
-    if (explores) next = tuning::next_to_explore(results_, place_of(kernel), most_items);
-    shapes[kernel] = next ? *next : tuning::next_to_confirm(results_, place_of(kernel));
+    if (explores) next = tuning::next_to_explore(results_, place_of(kernel), machine);
+    shapes[kernel] =
+        next ? *next : tuning::next_to_confirm(results_, place_of(kernel), machine.is_gpu);
   }
   return shapes;
 }
 
 bool Tuner::is_done(const std::vector<std::string>& kernels) const {
-  const std::size_t most_items = device_.properties().max_work_group;
+  const tuning::Machine machine = machine_of(device_);
   return std::all_of(kernels.begin(), kernels.end(), [&](const std::string& kernel) {
     const tuning::Place place = place_of(kernel);
-    if (tuning::next_to_explore(results_, place, most_items)) return false;
-    const tuning::Shape least = tuning::next_to_confirm(results_, place);
+    if (tuning::next_to_explore(results_, place, machine)) return false;
+    const tuning::Shape least = tuning::next_to_confirm(results_, place, machine.is_gpu);
     return std::any_of(results_.begin(), results_.end(), [&](const tuning::Result& r) {
       return r.place == place && r.shape == least && r.run_ms.size() >= enough_runs;
     });
@@ -118,7 +124,7 @@ bool Tuner::is_done(const std::vector<std::string>& kernels) const {
 
 std::string Tuner::best_so_far() const {
   const tuning::Finding* best = nullptr;
-  const auto all = tuning::findings(results_);
+  const auto all = tuning::findings(results_, device_.properties().is_gpu());
   for (const tuning::Finding& f : all) {
     if (f.place != place_of(f.place.kernel) || f.best == f.own) continue;
     if (!best || f.own_ms - f.best_ms > best->own_ms - best->best_ms) best = &f;

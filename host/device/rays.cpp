@@ -20,9 +20,10 @@ std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
   return plan.wants_nearest || (lights && !lights->empty()) ? plan.lens.points.size() : 0;
 }
 
-/// Winners of so many bytes stay in a CPU's caches from the kernel that writes them to the one that
-/// reads them (1920x1080, spheres f2: rays take 0.85 of the time of bands of 64 rows, 130 MiB).
-constexpr std::size_t winners_at_once = 16 << 20;
+/// Winners of so many bytes a compute unit stay in a CPU's caches from the kernel that writes them
+/// to the one that reads them (1920x1080, spheres f2, two units: rays take 0.85 of the time of
+/// bands of 64 rows, 130 MiB), and keep all units at work.
+constexpr std::size_t winners_at_once = 8 << 20;
 
 /// Rows of a band: winners of all its cells take a quarter of the memory at most.
 int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_cells) {
@@ -31,7 +32,8 @@ int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_
   const std::size_t row = size(frame.width) * winner_cells * sizeof(RdbWinner);
   const std::size_t strip = row * DEFRAY_RAY_ROWS, memory = session.memory_bytes() / 4;
   if (memory < strip) return 1;
-  const std::size_t strips = std::max<std::size_t>(std::min(winners_at_once, memory) / strip, 1);
+  const std::size_t at_once = winners_at_once * session.info().compute_units;
+  const std::size_t strips = std::max<std::size_t>(std::min(at_once, memory) / strip, 1);
   return std::min(static_cast<int>(strips) * DEFRAY_RAY_ROWS, rows_at_once);
 }
 

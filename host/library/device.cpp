@@ -114,7 +114,8 @@ std::vector<std::string> use_tuning(Device& device, const std::string& frame_cla
   std::optional<Session>& session = device.state_->session;
   if (!session) return used;
   std::map<std::string, std::array<std::size_t, 2>> groups;
-  for (const auto& [kernel, shape] : tuning::adopted(device.state_->tried, frame_class)) {
+  const auto shapes = tuning::adopted(device.state_->tried, frame_class, session->info().is_gpu());
+  for (const auto& [kernel, shape] : shapes) {
     groups[kernel] = {shape.x, shape.y};
   }
   session->set_tuned(std::move(groups));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "base/error.h"
@@ -66,6 +68,24 @@ void substitute(std::string& text, const Substitution& substitution) {
   }
 }
 
+/// "kernels/FILE:LINE" of a line of the program, both counted from 1.
+std::string place_of(const std::string& program, int line) {
+  std::string file, text;
+  int number = 0;
+  std::istringstream lines(program);
+  for (int i = 0; i < line && std::getline(lines, text); ++i) {
+    std::smatch directive;
+    static const std::regex pattern("#line ([0-9]+) \"(.*)\"");
+    if (std::regex_match(text, directive, pattern)) {
+      number = std::stoi(directive[1]) - 1;
+      file = directive[2];
+    } else {
+      ++number;
+    }
+  }
+  return fmt::format("{}:{}", file, number);
+}
+
 }  // namespace
 
 std::string kernel_source(const std::vector<std::string>& names,
@@ -77,6 +97,17 @@ std::string kernel_source(const std::vector<std::string>& names,
   }
   for (const Substitution& substitution : substitutions) substitute(program, substitution);
   return program;
+}
+
+std::string with_places(std::string log, const std::string& program) {
+  static const std::regex counted("(?:<kernel>|input\\.cl):([0-9]+)(?=:)");
+  std::smatch found;
+  while (std::regex_search(log, found, counted)) {
+    const std::string place = place_of(program, std::stoi(found[1]));
+    log.replace(static_cast<std::size_t>(found.position()),
+                static_cast<std::size_t>(found.length()), place);
+  }
+  return log;
 }
 
 }  // namespace defray

@@ -16,4 +16,8 @@ struct Substitution {
 std::string kernel_source(const std::vector<std::string>& names,
                           const std::vector<Substitution>& substitutions);
 
+/// A build log of this program, with file and line wherever it counts the program's lines, as
+/// NVIDIA's compiler ("<kernel>:838:1: error") and Oclgrind's do, whatever #line says.
+std::string with_places(std::string log, const std::string& program);
+
 }  // namespace defray

@@ -42,7 +42,7 @@ cl::Program compiled(const cl::Context& context, const DeviceInfo& info, const s
       const std::string log = build_log(program, info.device);
       if (is_compile_error(log) || attempt == attempts) {
         fail(ErrorKind::device, "clBuildProgram failed on {}: {} (options: {})\n{}", info.name,
-             opencl_error_name(error.err()), options, log);
+             opencl_error_name(error.err()), options, with_places(log, source));
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(std::min(50 * attempt, 500)));
     }

@@ -77,8 +77,8 @@ std::array<std::size_t, 2> Session::group_of(const std::string& name) const {
   for (const auto* groups : {&groups_, &tuned_}) {
     if (const auto found = groups->find(name); found != groups->end()) return found->second;
   }
-  const Launch& launch = launch_of(name);
-  return {launch.group.x, launch.group.y};
+  const WorkGroup own = launch_of(name).group_on(info_.is_gpu());
+  return {own.x, own.y};
 }
 
 cl::Buffer Session::buffer(std::size_t bytes) {

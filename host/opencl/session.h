@@ -47,6 +47,9 @@ class Session {
   /// Those of them that are used: none is set.
   std::map<std::string, std::array<std::size_t, 2>> tuned() const;
 
+  /// What a kernel is launched with: as set, as tuned, or as the launch table has it.
+  std::array<std::size_t, 2> group_of(const std::string& name) const;
+
   /// What is made on the device for a stage fits so much, unless a row with the rows that it looks
   /// at is more already.
   void set_memory(std::size_t bytes) { memory_bytes_ = bytes; }
@@ -169,7 +172,6 @@ class Session {
   const void* map(const cl::Buffer& buffer, std::size_t bytes);
   void unmap(const cl::Buffer& buffer, const void* mapped);
   [[noreturn]] void fail_argument(const char* name, cl_uint index, int code) const;
-  std::array<std::size_t, 2> group_of(const std::string& name) const;
   void enqueue(cl::Kernel& kernel, const char* name, const std::vector<std::size_t>& global,
                const std::vector<std::size_t>& first);
 

@@ -107,7 +107,7 @@ std::vector<const Result*> tries_at(const std::vector<Result>& results, const Pl
   return tries;
 }
 
-std::vector<Finding> findings(const std::vector<Result>& results) {
+std::vector<Finding> findings(const std::vector<Result>& results, bool on_gpu) {
   std::vector<Place> places;
   for (auto r = results.rbegin(); r != results.rend(); ++r) {
     const bool is_new = std::find(places.begin(), places.end(), r->place) == places.end();
@@ -116,7 +116,7 @@ std::vector<Finding> findings(const std::vector<Result>& results) {
   std::reverse(places.begin(), places.end());
   std::vector<Finding> all;
   for (const Place& place : places) {
-    Finding f{place, own_shape(place.kernel), {}};
+    Finding f{place, own_shape(place.kernel, on_gpu), {}};
     const auto tries = tries_at(results, place);
     const auto own = std::find_if(tries.begin(), tries.end(),
                                   [&](const Result* r) { return r->shape == f.own; });
@@ -133,9 +133,9 @@ std::vector<Finding> findings(const std::vector<Result>& results) {
 }
 
 std::map<std::string, Shape> adopted(const std::vector<Result>& results,
-                                     const std::string& frame_class) {
+                                     const std::string& frame_class, bool on_gpu) {
   std::map<std::string, Shape> shapes;
-  for (const Finding& f : findings(results)) {
+  for (const Finding& f : findings(results, on_gpu)) {
     if (f.place.frame_class != frame_class) continue;
     shapes.erase(f.place.kernel);
     if (f.is_adopted) shapes[f.place.kernel] = f.best;

@@ -65,11 +65,11 @@ struct Finding {
 std::vector<const Result*> tries_at(const std::vector<Result>& results, const Place& place);
 
 /// Of every place where the kernel's own work-group has been measured, the latest last.
-std::vector<Finding> findings(const std::vector<Result>& results);
+std::vector<Finding> findings(const std::vector<Result>& results, bool on_gpu);
 
 /// By kernel, what is used on frames of this class: of several pictures, the latest's.
 std::map<std::string, Shape> adopted(const std::vector<Result>& results,
-                                     const std::string& frame_class);
+                                     const std::string& frame_class, bool on_gpu);
 
 /// What a try took where nothing got in its way: its shortest run.
 double time_of(const Result& result);

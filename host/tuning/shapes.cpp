@@ -21,18 +21,18 @@ bool is_beside(const Shape& a, const Shape& b) {
 
 }  // namespace
 
-Shape own_shape(const std::string& kernel) {
-  const Launch& launch = launch_of(kernel);
-  return {launch.group.x, std::max<std::size_t>(launch.group.y, 1)};
+Shape own_shape(const std::string& kernel, bool on_gpu) {
+  const WorkGroup own = launch_of(kernel).group_on(on_gpu);
+  return {own.x, std::max<std::size_t>(own.y, 1)};
 }
 
-std::vector<Shape> shapes_of(const std::string& kernel, std::size_t most_items) {
-  const Shape own = own_shape(kernel);
+std::vector<Shape> shapes_of(const std::string& kernel, const Machine& machine) {
+  const Shape own = own_shape(kernel, machine.is_gpu);
   const std::size_t tallest = launch_of(kernel).group.y == 0 ? 1 : most_y;
   std::vector<Shape> shapes{own};
   for (std::size_t y = 1; y <= tallest; y *= 2) {
     for (std::size_t x = 1; x <= most_x; x *= 2) {
-      if (x * y <= std::min(most_items, most_in_all) && Shape{x, y} != own)
+      if (x * y <= std::min(machine.most_items, most_in_all) && Shape{x, y} != own)
         shapes.push_back({x, y});
     }
   }
@@ -40,13 +40,13 @@ std::vector<Shape> shapes_of(const std::string& kernel, std::size_t most_items) 
 }
 
 std::optional<Shape> next_to_explore(const std::vector<Result>& results, const Place& place,
-                                     std::size_t most_items) {
+                                     const Machine& machine) {
   std::set<Shape> tried;
   for (const Result& r : results) {
     if (r.place == place) tried.insert(r.shape);
   }
   std::vector<Shape> untried;
-  for (const Shape& s : shapes_of(place.kernel, most_items)) {
+  for (const Shape& s : shapes_of(place.kernel, machine)) {
     if (!tried.contains(s)) untried.push_back(s);
   }
   if (untried.empty()) return {};
@@ -61,8 +61,8 @@ std::optional<Shape> next_to_explore(const std::vector<Result>& results, const P
   return untried[static_cast<std::size_t>(chance * static_cast<double>(untried.size()))];
 }
 
-Shape next_to_confirm(const std::vector<Result>& results, const Place& place) {
-  const Shape own = own_shape(place.kernel);
+Shape next_to_confirm(const std::vector<Result>& results, const Place& place, bool on_gpu) {
+  const Shape own = own_shape(place.kernel, on_gpu);
   auto tries = tries_at(results, place);
   const auto at_own =
       std::find_if(tries.begin(), tries.end(), [&](const Result* r) { return r->shape == own; });

@@ -12,7 +12,7 @@ Figures measure_tuning(TableBench& b) {
       {"", "", {"picture", "kernel", "own", "ms", "fastest", "ms", "gain, quartiles", "used"}, {}},
       {}};
   std::string picture;
-  for (const tuning::Finding& f : tuning::findings(known.results)) {
+  for (const tuning::Finding& f : tuning::findings(known.results, info.is_gpu())) {
     const bool is_own = f.best == f.own;
     figures.table.rows.push_back(
         {f.place.picture == picture ? "" : f.place.picture, "`" + f.place.kernel + "`",

@@ -29,6 +29,8 @@ struct DeviceProperties {
   bool rounds_divisions = false;    ///< x / y and sqrt(x) can be correctly rounded, if asked for.
   bool keeps_denormals = false;     ///< Otherwise floats below 2^-126 may count as 0.
   bool shares_host_memory = false;  ///< A CPU: buffers can be host memory itself.
+
+  bool is_gpu() const { return type == "GPU"; }
 };
 
 /// How kernels compute.

@@ -75,10 +75,14 @@ TEST_F(ReportCommand, TuningIsWhatTheDevicesFileHolds) {
   const std::string file = std::filesystem::path(tuning::path_of(key)).filename();
   const tuning::Place place{"hd narrow", "a picture", "fill"};
   tuning::add(cache + "/defray/" + file, key, device_under_test().max_work_group,
-              {{place, tuning::own_shape("fill"), tuning::Validity::correct, {10, 10, 10, 10, 10}},
+              {{place,
+                tuning::own_shape("fill", device_under_test().is_gpu()),
+                tuning::Validity::correct,
+                {10, 10, 10, 10, 10}},
                {place, {2, 2}, tuning::Validity::correct, {8, 8, 8, 8, 8}}});
   const std::string table = tuned();
-  EXPECT_NE(table.find("\n| a picture | `fill` | " + to_string(tuning::own_shape("fill")) +
+  EXPECT_NE(table.find("\n| a picture | `fill` | " +
+                       to_string(tuning::own_shape("fill", device_under_test().is_gpu())) +
                        " | 10.0 | 2x2 | 8.0 | 20 % (20 to 20) | yes |\n"),
             std::string::npos)
       << table;

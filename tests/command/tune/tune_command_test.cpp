@@ -36,9 +36,10 @@ class TuneCommand : public testing::Test {
   void keep(const std::string& frame_class, const std::string& kernel) const {
     const tuning::Place place{frame_class, "a picture", kernel};
     const tuning::Validity correct = tuning::Validity::correct;
-    tuning::add(file(), tuning::key_of(device_under_test()), device_under_test().max_work_group,
-                {{place, tuning::own_shape(kernel), correct, {9, 9, 9, 9, 9}},
-                 {place, {2, 2}, correct, {5, 5, 5, 5, 5}}});
+    tuning::add(
+        file(), tuning::key_of(device_under_test()), device_under_test().max_work_group,
+        {{place, tuning::own_shape(kernel, device_under_test().is_gpu()), correct, {9, 9, 9, 9, 9}},
+         {place, {2, 2}, correct, {5, 5, 5, 5, 5}}});
   }
   void expect_refused(const std::string& arguments, int code,
                       const std::vector<std::string>& words) {
@@ -53,7 +54,7 @@ TEST_F(TuneCommand, FindsKeepsShowsExportsAndForgets) {
   EXPECT_EQ(one["kernel"], "linear_psf");
   EXPECT_EQ(one["frames"], "small narrow");
   EXPECT_EQ(one["picture"].get<std::string>().rfind("linear, in.exr, CoC up to", 0), 0u);
-  EXPECT_EQ(one["own"], to_string(tuning::own_shape("linear_psf")));
+  EXPECT_EQ(one["own"], to_string(tuning::own_shape("linear_psf", device_under_test().is_gpu())));
   EXPECT_LE(one["best_ms"], one["own_ms"]);
   EXPECT_GE(one["tried"], 1);
   EXPECT_EQ(found["file"], file());

@@ -32,7 +32,10 @@ class Tuned : public testing::Test {
   void keep(const std::string& frame_class, const std::string& kernel, tuning::Shape shape) const {
     const tuning::Place place{frame_class, "a picture", kernel};
     tuning::add(path, tuning::key_of(device_under_test()), device_under_test().max_work_group,
-                {{place, tuning::own_shape(kernel), Validity::correct, {9, 9, 9, 9, 9}},
+                {{place,
+                  tuning::own_shape(kernel, device_under_test().is_gpu()),
+                  Validity::correct,
+                  {9, 9, 9, 9, 9}},
                  {place, shape, Validity::correct, {5, 5, 5, 5, 5}}});
   }
 

@@ -109,7 +109,8 @@ TEST(Blocks, PixelsAroundOneCountWhereverItLiesInItsBlock) {
     for (int block = 0; block < 9; ++block) {
       double grain = 0, beside = 0, around = 0;
       for (int i = 0; i < 16; ++i) {
-        const int dx = std::abs(block % 3 * 4 + i % 4 - px), dy = std::abs(block / 3 * 4 + i / 4 - py);
+        const int dx = std::abs(block % 3 * 4 + i % 4 - px),
+                  dy = std::abs(block / 3 * 4 + i / 4 - py);
         if (dx > 1 || dy > 1) continue;
         ++around;
         grain += dx + dy == 0 ? 64 / 81.0 : 1 / 81.0;

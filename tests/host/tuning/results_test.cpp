@@ -39,8 +39,8 @@ TEST(FrameClass, IsOfPixelsAndRadius) {
 TEST(Shapes, OfEachKernelFitTheDeviceAndBeginWithItsOwn) {
   EXPECT_GT(launch_table().size(), 20u);
   for (const Launch& launch : launch_table()) {
-    const auto shapes = tuning::shapes_of(launch.kernel, 512);
-    EXPECT_EQ(shapes.front(), tuning::own_shape(launch.kernel)) << launch.kernel;
+    const auto shapes = tuning::shapes_of(launch.kernel, {512});
+    EXPECT_EQ(shapes.front(), tuning::own_shape(launch.kernel, false)) << launch.kernel;
     EXPECT_EQ(std::set<Shape>(shapes.begin(), shapes.end()).size(), shapes.size());
     bool has_rows = false;
     for (const Shape& s : shapes) {
@@ -50,32 +50,46 @@ TEST(Shapes, OfEachKernelFitTheDeviceAndBeginWithItsOwn) {
     }
     EXPECT_EQ(has_rows, launch.group.y != 0) << launch.kernel;
   }
-  EXPECT_EQ(tuning::shapes_of("coc", 4096).size(), 9u);
-  EXPECT_THROW(tuning::shapes_of("none", 64), Error);
+  EXPECT_EQ(tuning::shapes_of("coc", {4096}).size(), 9u);
+  EXPECT_THROW(tuning::shapes_of("none", {64}), Error);
+}
+
+TEST(Shapes, GpusHaveOneForAllKernelsOfTwoDimensions) {
+  const Shape on_gpus{gpu_group.x, gpu_group.y};
+  EXPECT_EQ(tuning::own_shape("fill", true), on_gpus);
+  EXPECT_EQ(tuning::shapes_of("fill", {512, true}).front(), on_gpus);
+  EXPECT_EQ(tuning::own_shape("coc", true), tuning::own_shape("coc", false));
+  const Results results{result(own, {1, 1, 1, 1, 1}), result(on_gpus, {4, 4, 4, 4, 4}),
+                        result({32, 1}, {2, 2, 2, 2, 2})};
+  EXPECT_EQ(tuning::adopted(results, place.frame_class, true),
+            (std::map<std::string, Shape>{{"fill", own}}));
+  EXPECT_EQ(tuning::adopted(results, place.frame_class, false).size(), 0u);
+  EXPECT_EQ(tuning::next_to_explore({}, place, {64, true}), on_gpus);
+  EXPECT_EQ(tuning::next_to_confirm({}, place, true), on_gpus);
 }
 
 TEST(Exploring, TriesEveryShapeOnceAndItsOwnFirst) {
   Results results;
   std::vector<Shape> order;
-  while (const auto next = tuning::next_to_explore(results, place, 64)) {
+  while (const auto next = tuning::next_to_explore(results, place, {64})) {
     order.push_back(*next);
     const auto count = static_cast<double>(order.size());
     tuning::merge(results, {result(*next, {std::fmod(5 * count, 7.0) + 0.01 * count})});
   }
   EXPECT_EQ(order.front(), own);
   EXPECT_EQ(std::set<Shape>(order.begin(), order.end()).size(), order.size());
-  EXPECT_EQ(order.size(), tuning::shapes_of("fill", 64).size());
+  EXPECT_EQ(order.size(), tuning::shapes_of("fill", {64}).size());
   // Where it was left: the same next one, in any order of what is known.
   results.resize(7);
-  const auto next = tuning::next_to_explore(results, place, 64);
+  const auto next = tuning::next_to_explore(results, place, {64});
   std::reverse(results.begin(), results.end());
-  EXPECT_EQ(tuning::next_to_explore(results, place, 64), next);
+  EXPECT_EQ(tuning::next_to_explore(results, place, {64}), next);
   EXPECT_EQ(next, order[7]);
 }
 
 TEST(Exploring, LooksBesideTheBestInEveryOtherTry) {
   // Own is known alone: the next lies beside it, half or twice a side.
-  const auto beside = tuning::next_to_explore({result(own, {1})}, place, 64);
+  const auto beside = tuning::next_to_explore({result(own, {1})}, place, {64});
   ASSERT_TRUE(beside);
   const double x = static_cast<double>(beside->x) / static_cast<double>(own.x);
   const double y = static_cast<double>(beside->y) / static_cast<double>(own.y);
@@ -83,19 +97,20 @@ TEST(Exploring, LooksBesideTheBestInEveryOtherTry) {
               (x * y == 1 && (x == 2 || y == 2)))
       << to_string(*beside);
   // Of another place nothing is known here.
-  EXPECT_EQ(tuning::next_to_explore({result(own, {1}, {"hd narrow", "other", "fill"})}, place, 64),
-            own);
+  EXPECT_EQ(
+      tuning::next_to_explore({result(own, {1}, {"hd narrow", "other", "fill"})}, place, {64}),
+      own);
 }
 
 TEST(Exploring, TriesAllThatLieBesideTheBestBeforeLong) {
   Results results;
   std::set<Shape> tried;
   while (results.size() < 10) {
-    const Shape next = *tuning::next_to_explore(results, place, 256);
+    const Shape next = *tuning::next_to_explore(results, place, {256});
     tried.insert(next);
     tuning::merge(results, {result(next, {next == own ? 1.0 : 2.0})});
   }
-  ASSERT_EQ(tuning::own_shape("fill"), own);
+  ASSERT_EQ(tuning::own_shape("fill", false), own);
   for (const Shape& beside : {Shape{4, 1}, Shape{16, 1}, Shape{8, 2}, Shape{4, 2}}) {
     EXPECT_TRUE(tried.contains(beside)) << to_string(beside);
   }
@@ -105,7 +120,7 @@ TEST(Exploring, LeavesOutWhatDidNotWork) {
   Results results{result(own, {1})};
   const Shape wrong{16, 2};
   results.push_back({place, wrong, Validity::runtime, {}});
-  while (const auto next = tuning::next_to_explore(results, place, 64)) {
+  while (const auto next = tuning::next_to_explore(results, place, {64})) {
     EXPECT_NE(*next, wrong);
     tuning::merge(results, {result(*next, {1})});
   }
@@ -114,10 +129,10 @@ TEST(Exploring, LeavesOutWhatDidNotWork) {
 TEST(Confirming, TakesOwnAndTheTwoFastestInTurn) {
   Results results{result({16, 1}, {3}), result({32, 1}, {2}), result(own, {5}),
                   result({64, 1}, {4})};
-  EXPECT_EQ(tuning::next_to_confirm({}, place), own);
+  EXPECT_EQ(tuning::next_to_confirm({}, place, false), own);
   std::map<Shape, int> counts;
   for (int i = 0; i < 12; ++i) {
-    const Shape next = tuning::next_to_confirm(results, place);
+    const Shape next = tuning::next_to_confirm(results, place, false);
     ++counts[next];
     tuning::merge(results, {result(next, {next == own ? 5.0 : next.x == 32 ? 2.0 : 3.0})});
   }
@@ -134,7 +149,7 @@ TEST(Merging, KeepsTheLatestRunsAndWhatWentWrong) {
   tuning::merge(results, {{place, own, Validity::correctness, {}}});
   tuning::merge(results, {result(own, {1})});
   EXPECT_EQ(results[0].validity, Validity::correctness);
-  EXPECT_TRUE(tuning::findings(results).empty());
+  EXPECT_TRUE(tuning::findings(results, false).empty());
 }
 
 TEST(Merging, ForgetsTheOldestPicturesOfAClass) {
@@ -151,7 +166,7 @@ TEST(Merging, ForgetsTheOldestPicturesOfAClass) {
 
 /// What becomes of five runs each of a kernel's own work-group, and another.
 Finding found(const std::vector<double>& own_ms, const std::vector<double>& other_ms) {
-  const auto all = tuning::findings({result(own, own_ms), result({32, 1}, other_ms)});
+  const auto all = tuning::findings({result(own, own_ms), result({32, 1}, other_ms)}, false);
   EXPECT_EQ(all.size(), 1u);
   return all.at(0);
 }
@@ -193,12 +208,12 @@ int adopted_of_200(const Time& time, double gain) {
   for (int kernel = 0; kernel < 200; ++kernel) {
     Results results;
     for (int run = 0; run < 85; ++run) {
-      const auto next = tuning::next_to_explore(results, place, 256);
-      const Shape shape = next ? *next : tuning::next_to_confirm(results, place);
+      const auto next = tuning::next_to_explore(results, place, {256});
+      const Shape shape = next ? *next : tuning::next_to_confirm(results, place, false);
       Random random(kernel, run, 1);
       tuning::merge(results, {result(shape, {time(random) * (shape == fast ? 1 - gain : 1)})});
     }
-    const auto used = tuning::adopted(results, place.frame_class);
+    const auto used = tuning::adopted(results, place.frame_class, false);
     count += gain > 0 ? used == std::map<std::string, Shape>{{"fill", fast}} : !used.empty();
   }
   return count;
@@ -219,7 +234,7 @@ TEST(Chance, AloneSeldomChoosesAWorkGroup) {
 }
 
 TEST(Findings, NeedTheOwnWorkGroup) {
-  EXPECT_TRUE(tuning::findings({result({32, 1}, {1, 1, 1, 1, 1})}).empty());
+  EXPECT_TRUE(tuning::findings({result({32, 1}, {1, 1, 1, 1, 1})}, false).empty());
 }
 
 TEST(Adopted, IsOfTheClassAndTheLatestPicture) {
@@ -227,14 +242,14 @@ TEST(Adopted, IsOfTheClassAndTheLatestPicture) {
   Results results{result(own, {9, 9, 9, 9, 9}, other), result({16, 1}, {5, 5, 5, 5, 5}, other),
                   result(own, {9, 9, 9, 9, 9}), result({32, 1}, {5, 5, 5, 5, 5})};
   using Shapes = std::map<std::string, Shape>;
-  EXPECT_EQ(tuning::adopted(results, "hd narrow"), (Shapes{{"fill", {32, 1}}}));
-  EXPECT_EQ(tuning::adopted(results, "hd wide"), Shapes());
+  EXPECT_EQ(tuning::adopted(results, "hd narrow", false), (Shapes{{"fill", {32, 1}}}));
+  EXPECT_EQ(tuning::adopted(results, "hd wide", false), Shapes());
   tuning::merge(results, {result(own, {9}, other)});
-  EXPECT_EQ(tuning::adopted(results, "hd narrow"), (Shapes{{"fill", {16, 1}}}));
+  EXPECT_EQ(tuning::adopted(results, "hd narrow", false), (Shapes{{"fill", {16, 1}}}));
   // The latest found nothing: what an older one found is not used.
   const Place third{"hd narrow", "a third", "fill"};
   tuning::merge(results, {result(own, {9}, third)});
-  EXPECT_EQ(tuning::adopted(results, "hd narrow"), Shapes());
+  EXPECT_EQ(tuning::adopted(results, "hd narrow", false), Shapes());
 }
 
 }  // namespace

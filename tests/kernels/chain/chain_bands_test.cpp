@@ -175,7 +175,10 @@ std::uint64_t behind_by_strips(const Frame& f, std::size_t memory) {
   Front front(f, work);
   work.band_rows = chain_rows(front.frame, 3, work.reach, device().memory_for_planes());
   work.is_banded = work.band_rows < front.frame.height;
-  EXPECT_EQ(work.is_banded, memory < all_rows);
+  // Planes of a device with memory of its own take other memory than that.
+  if (session().works_in_host_memory()) {
+    EXPECT_EQ(work.is_banded, memory < all_rows);
+  }
   PatternSettings strips;
   strips.most_searched = 1000;
   strips.strips = 2;

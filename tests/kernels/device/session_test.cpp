@@ -121,7 +121,6 @@ std::string place_of(const std::string& name, const std::string& text) {
 }
 
 TEST(Session, BuildErrorsNameFileAndLine) {
-  if (is_slow_device()) GTEST_SKIP() << "Oclgrind counts the lines of the whole program";
   expect_error(ErrorKind::device,
                {"clBuildProgram", "defray_nonsense", place_of("chain/fill.cl", "__kernel void")},
                [] {
@@ -130,6 +129,22 @@ TEST(Session, BuildErrorsNameFileAndLine) {
   expect_error(ErrorKind::device, {place_of("rdb/rim.clh", "bool passes_rim(")}, [] {
     with_substitution({"bool passes_rim(", "defray_nonsense passes_rim("});
   });
+}
+
+TEST(Session, LogsThatCountTheProgramsLinesNameFileAndLineToo) {
+  const std::string program = kernel_source({"chain/fill.cl"}, {});
+  const std::string before = program.substr(0, program.find("__kernel void fill("));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::string place = place_of("chain/fill.cl", "__kernel void");
+  const auto log = [&](const std::string& file) {
+    return file + std::to_string(line) + ":7: error: x\n" + file + "1:7: note: y";
+  };
+  const std::string first = program.substr(program.find('"') + 1);
+  const std::string expected =
+      place + "7: error: x\n" + first.substr(0, first.find('"')) + ":0:7: note: y";
+  EXPECT_EQ(with_places(log("<kernel>:"), program), expected);
+  EXPECT_EQ(with_places(log("input.cl:"), program), expected);
+  EXPECT_EQ(with_places(log("other.cl:"), program), log("other.cl:"));
 }
 
 TEST(Session, BuildsTheFilesAskedFor) {
