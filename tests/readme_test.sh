@@ -14,7 +14,8 @@ folder=$(mktemp -d)
 cache=$(mktemp -d)
 trap 'rm -rf "$folder" "$cache"' EXIT
 # Of the user's cache only kernels that are compiled already.
-export POCL_CACHE_DIR=${POCL_CACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/pocl/kcache} XDG_CACHE_HOME=$cache
+users=${XDG_CACHE_HOME:-$HOME/.cache}
+export POCL_CACHE_DIR=${POCL_CACHE_DIR:-$users/pocl/kcache} MESA_SHADER_CACHE_DIR=$users XDG_CACHE_HOME=$cache
 mkdir -p "$folder/$(dirname "$place")"
 cp "$readme" "$folder/$place"
 
