@@ -120,9 +120,12 @@ void rdb_merge(benchmark::State& state) {
   const Frame f = frame_of(state);
   const RayPlan rays_plan = plan(RaysBy::scatter);
   RdbRun run(session(), f, rays_plan);
+  RayResult out{std::vector<Plane>(f.channels.size(), Plane(f.pixels())),
+                std::vector<std::uint32_t>(f.pixels())};
   for (auto _ : state) {
     double merging_s = 0;
     for (const RdbPass& pass : run.passes()) {
+      if (pass.first_cell == 0) run.begin_band(pass, out);
       run.scatter(pass);
       run.finish();
       const Stopwatch watch;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "chain/behind.h"
 #include "chain/border.h"
 #include "chain/front.h"
@@ -23,9 +24,8 @@ class Picture {
       out_.colour = std::move(result.means);
     } else {
       out_.colour.resize(result.means.size());
-      for (std::size_t c = 0; c < result.means.size(); ++c) {
-        append(rows, result.means[c], out_.colour[c]);
-      }
+      parallel_for(static_cast<int>(result.means.size()),
+                   [&](int c) { append(rows, result.means[size(c)], out_.colour[size(c)]); });
     }
     std::vector<std::uint32_t> seen;
     append(rows, result.seen, seen);
@@ -76,14 +76,17 @@ class Picture {
 
   void add_confidence(Rows rows, const std::vector<std::uint32_t>& seen) {
     const std::size_t width = size(f_.width - 2 * f_.margin), margin = size(f_.margin);
-    const std::size_t first = size(of_picture(rows).y);
-    out_.confidence.reserve(width * size(f_.height - 2 * f_.margin));
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const std::size_t open = open_cells(work_.plan, i % width + margin, i / width + first);
-      out_.confidence.push_back(open == 0 ? 0.0f
-                                          : static_cast<float>(seen[i]) / static_cast<float>(open));
-      confidence_ += out_.confidence.back();
-    }
+    const Rows own = of_picture(rows);
+    if (out_.confidence.empty()) out_.confidence.resize(width * size(f_.height - 2 * f_.margin));
+    float* const confidence = &out_.confidence[width * (size(own.y) - margin)];
+    parallel_for(own.count(), [&](int row) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::size_t i = size(row) * width + x;
+        const std::size_t open = open_cells(work_.plan, x + margin, size(own.y + row));
+        confidence[i] = open == 0 ? 0.0f : static_cast<float>(seen[i]) / static_cast<float>(open);
+      }
+    });
+    for (std::size_t i = 0; i < seen.size(); ++i) confidence_ += confidence[i];
   }
 
   /// Discs and rays of one surface meet along other borders than pixels do: a little more than all

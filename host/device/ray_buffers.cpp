@@ -22,13 +22,16 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
       winner(winners.take(session,
                           pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
-      seen(session.buffer(pixels * sizeof(cl_uint))),
       light_first(lens),
       session_(session),
       frame_(frame),
       plan_(plan),
       lights_(lights && !lights->empty() ? lights : nullptr) {
-  for (cl::Buffer& mean : means) mean = session.buffer(pixels * sizeof(cl_float));
+  const std::size_t own = session.works_in_host_memory() ? frame.channels.size() : 0;
+  for (std::size_t c = own; c < means.size(); ++c) {
+    means[c] = session.buffer(pixels * sizeof(cl_float));
+  }
+  if (own == 0) seen = session.buffer(pixels * sizeof(cl_uint));
   if (plan.wants_nearest) nearest_ = session.buffer(pixels * sizeof(cl_uint2));
   if (!lights_) return;
   light_first = session.view(lights_->first);
@@ -69,24 +72,33 @@ void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {
                   means);
 }
 
-void RayBuffers::read(const DefrayRdbParams& p, RayResult& out) {
-  const std::size_t first = std::size_t{p.width} * (p.band_y - word(frame_.wanted_rows().y));
-  const std::size_t count = std::size_t{p.width} * p.band_rows;
-  const auto place = [&](auto& plane) {
-    return plane.begin() + static_cast<std::ptrdiff_t>(first);
-  };
+std::size_t RayBuffers::first_of(const DefrayRdbParams& p) const {
+  return std::size_t{p.width} * (p.band_y - word(frame_.wanted_rows().y));
+}
+
+void RayBuffers::begin(const DefrayRdbParams& p, RayResult& out) {
+  if (!session_.works_in_host_memory()) return;
+  const std::size_t first = first_of(p), bytes = std::size_t{p.width} * p.band_rows * 4;
   for (std::size_t c = 0; c < out.means.size(); ++c) {
-    session_.look_at<cl_float>(means[c], count, [&](std::span<const cl_float> mean) {
-      std::copy(mean.begin(), mean.end(), place(out.means[c]));
-    });
+    means[c] = session_.write_view(&out.means[c][first], bytes);
   }
-  session_.look_at<cl_uint>(seen, count, [&](std::span<const cl_uint> band) {
-    std::copy(band.begin(), band.end(), place(out.seen));
-  });
+  seen = session_.write_view(&out.seen[first], bytes);
+}
+
+void RayBuffers::read(const DefrayRdbParams& p, RayResult& out) {
+  const std::size_t first = first_of(p), count = std::size_t{p.width} * p.band_rows;
+  const auto read_to = [&]<typename T>(const cl::Buffer& buffer, T* place) {
+    session_.look_at<T>(buffer, count, [&](std::span<const T> band) {
+      if (band.data() != place) std::copy(band.begin(), band.end(), place);
+    });
+  };
+  for (std::size_t c = 0; c < out.means.size(); ++c) read_to(means[c], &out.means[c][first]);
+  read_to(seen, &out.seen[first]);
   if (!plan_.wants_nearest) return;
   const std::size_t window = std::size_t{p.window_y} * p.layers * p.width;
+  const auto place = out.nearest.begin() + static_cast<std::ptrdiff_t>(first);
   session_.look_at<RdbWinner>(nearest_, count, [&](std::span<const RdbWinner> nearest) {
-    std::transform(nearest.begin(), nearest.end(), place(out.nearest), [&](const RdbWinner& w) {
+    std::transform(nearest.begin(), nearest.end(), place, [&](const RdbWinner& w) {
       return w.source == DEFRAY_EMPTY ? DEFRAY_EMPTY : frame_.data_pixel(window + w.source);
     });
   });

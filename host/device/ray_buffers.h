@@ -48,7 +48,11 @@ class RayBuffers {
   /// Adds the light sources to the means.
   void add_light(const DefrayRdbParams& p, const RayWindow& window);
 
-  /// Copies a band's part of the result.
+  /// From here on kernels write a band's means, and what was seen: where the device works in host
+  /// memory, into the result itself.
+  void begin(const DefrayRdbParams& p, RayResult& out);
+
+  /// The band's part of the result is there.
   void read(const DefrayRdbParams& p, RayResult& out);
 
   cl::Buffer lens, landing_radii, rim_x, rim_y, winner, seen;
@@ -56,6 +60,9 @@ class RayBuffers {
   cl::Buffer light_first;           ///< LightSources::first; anything without lights.
 
  private:
+  /// Index of the band's first pixel in the result.
+  std::size_t first_of(const DefrayRdbParams& p) const;
+
   Session& session_;
   const Frame& frame_;
   const RayPlan& plan_;

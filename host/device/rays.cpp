@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/parallel.h"
 #include "device/device_backend.h"
 #include "device/ray_window.h"
 #include "device/rdb_run.h"
@@ -120,7 +121,6 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   p.band_y = word(y);
   p.band_rows = word(rows);
   const int cells = static_cast<int>(lens_.points.size());
-  for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
   DefrayRdbParams r = buffers_.params();
   r.window_y = p.window_y;
   r.window_rows = p.window_rows;
@@ -128,6 +128,8 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   r.band_rows = p.band_rows;
   r.cell_count = word(cells);
   r.is_first_pass = r.is_last_pass = 1;
+  buffers_.begin(r, out);
+  for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
   buffers_.find_nearest(r, window_.planes);
   buffers_.add_light(r, window_.planes);
   buffers_.read(r, out);
@@ -155,8 +157,10 @@ void RaysGather::run(RayResult& out, const Progress& progress) {
 RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const LightSources* lights,
                               const Progress& progress) {
   const std::size_t pixels = size(frame.wanted_rows().count()) * size(frame.width);
-  RayResult out{std::vector<Plane>(frame.channels.size(), Plane(pixels)),
-                std::vector<std::uint32_t>(pixels)};
+  RayResult out{std::vector<Plane>(frame.channels.size()), {}};
+  parallel_for(static_cast<int>(out.means.size()) + 1, [&](int c) {
+    size(c) < out.means.size() ? out.means[size(c)].resize(pixels) : out.seen.resize(pixels);
+  });
   if (plan.wants_nearest) out.nearest.resize(pixels);
   if (plan.by == RaysBy::gather && plan.lens.jitter == 0) {
     if (frame.wanted_rows().y == 0) winners_ = {};

@@ -95,10 +95,11 @@ void RdbRun::merge(const RdbPass& pass) {
 void RdbRun::run(RayResult& out, const Progress& progress) {
   double done = 0;
   for (const RdbPass& pass : passes_) {
+    if (pass.first_cell == 0) begin_band(pass, out);
     scatter(pass);
     merge(pass);
     finish();
-    if (is_last_of_band(pass)) read_band(pass, out);
+    if (is_last_of_band(pass)) end_band(pass, out);
     done += 1;
     if (progress) progress(done / static_cast<double>(passes_.size()));
   }

@@ -28,8 +28,9 @@ class RdbRun {
   /// Then the nearest hits and, after the last pass, the light sources.
   void merge(const RdbPass& pass);
 
-  /// Copies a finished band's part of the result.
-  void read_band(const RdbPass& pass, RayResult& out) { buffers_.read(params_of(pass), out); }
+  /// Before a band's first pass, and after its last: its part of the result is there.
+  void begin_band(const RdbPass& pass, RayResult& out) { buffers_.begin(params_of(pass), out); }
+  void end_band(const RdbPass& pass, RayResult& out) { buffers_.read(params_of(pass), out); }
 
   /// Winners of the last scatter, [cell][band row][x], and the frame's surface that their source 0
   /// stands for.

@@ -114,6 +114,11 @@ cl::Buffer Session::view(const void* data, std::size_t bytes) {
   });
 }
 
+cl::Buffer Session::write_view(void* data, std::size_t bytes) {
+  if (fill_) std::memset(data, *fill_, bytes);
+  return view(data, bytes);
+}
+
 DeviceBuffer* Session::here(DeviceValues* values) const {
   auto* const buffer = dynamic_cast<DeviceBuffer*>(values);
   return buffer && buffer->is_of(context_) ? buffer : nullptr;
@@ -129,9 +134,7 @@ std::unique_ptr<DeviceBuffer> Session::hold(void* host, std::size_t bytes) {
 }
 
 std::unique_ptr<DeviceBuffer> Session::room(void* host, std::size_t bytes) {
-  if (!host) return device_buffer(buffer(bytes), bytes);
-  if (fill_) std::memset(host, *fill_, bytes);
-  return device_buffer(view(host, bytes), bytes);
+  return device_buffer(host ? write_view(host, bytes) : buffer(bytes), bytes);
 }
 
 const void* Session::map(const cl::Buffer& buffer, std::size_t bytes) {

@@ -77,6 +77,10 @@ class Session {
     return view(plane.data(), plane.size() * sizeof(T));
   }
 
+  /// Host memory for kernels to write where the device works there; the memory must stay alive as
+  /// long as the buffer.
+  cl::Buffer write_view(void* data, std::size_t bytes);
+
   /// Values for kernels to read, on the device from now on; they may not be changed meanwhile.
   template <typename T>
   cl::Buffer in(const Values<T>& values) {
