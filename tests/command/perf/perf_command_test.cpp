@@ -26,8 +26,17 @@ class PerfCommand : public testing::Test {
                       const std::vector<std::string>& words) {
     expect_refusal(perf(arguments), code, words, arguments);
   }
-  std::string text_of(const std::string& name) {
-    std::ifstream stream(folder / name);
+  /// Of a rehearsal of all experiments, which all tests that look at one share.
+  static const Folder& all() {
+    static const Folder folder;
+    static const Result result =
+        shell(folder, "'" DEFRAY_PERF_PROGRAM "' experiment all -o report --quick");
+    expect_ok(result);
+    EXPECT_EQ(result.err, "");  // no progress without a terminal
+    return folder;
+  }
+  static std::string text_of(const std::string& name) {
+    std::ifstream stream(all() / name);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   Folder folder;
@@ -35,9 +44,6 @@ class PerfCommand : public testing::Test {
 
 TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   SKIP_UNLESS_FULL();
-  const Result result = perf("experiment all -o report --quick");
-  expect_ok(result);
-  EXPECT_EQ(result.err, "");  // no progress without a terminal
   const std::string html = text_of("report/index.html");
   for (const std::string part :
        {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time", "Where the time goes",
@@ -47,7 +53,7 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   std::size_t links = 0;
   const std::regex link("(?:src|href)=\"([^\"]+)\"");
   for (std::sregex_iterator i(html.begin(), html.end(), link), end; i != end; ++i, ++links) {
-    const std::filesystem::path file = folder / ("report/" + (*i)[1].str());
+    const std::filesystem::path file = all() / ("report/" + (*i)[1].str());
     ASSERT_TRUE(std::filesystem::exists(file)) << file;
     EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
   }
@@ -58,10 +64,8 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
 
 TEST_F(PerfCommand, RooflineHasEachKernelsTimeAndBytes) {
   SKIP_UNLESS_FULL();
-  const Result result = perf("experiment roofline -o report --quick");
-  expect_ok(result);
   for (const std::string scene : {"fence", "spheres"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / ("report/roofline-" + scene + ".png")));
+    EXPECT_TRUE(std::filesystem::exists(all() / ("report/roofline-" + scene + ".png")));
     const std::string csv = text_of("report/roofline-" + scene + ".csv");
     std::map<std::string, std::array<double, 4>> kernels;
     const std::regex row("\n([a-z_]+),([0-9.]+),([0-9.]+),([0-9.]+),([0-9.]+)");
@@ -83,7 +87,6 @@ TEST_F(PerfCommand, RooflineHasEachKernelsTimeAndBytes) {
 
 TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
   SKIP_UNLESS_FULL();
-  expect_ok(perf("experiment truth -o report --quick"));
   const std::string mechanisms = text_of("report/truth-mechanisms.csv");
   for (const std::string row : {"pinhole,", "literal RDB 9x9,", "default,", "--hidden off,",
                                 "--hidden fill,", "--split off,", "--highlights rays,",
@@ -99,13 +102,12 @@ TEST_F(PerfCommand, TruthHasARowForEachMechanismAndAColumnForEachScene) {
   }
   EXPECT_EQ(text_of("report/truth-motion.csv").substr(0, 6), "focus,");
   for (const std::string picture : {"fence-bg", "spheres-f5", "plate1-default", "motion"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / ("report/truth-" + picture + ".png")));
+    EXPECT_TRUE(std::filesystem::exists(all() / ("report/truth-" + picture + ".png")));
   }
 }
 
 TEST_F(PerfCommand, TradeoffsCommandsGiveItsFigures) {
   SKIP_UNLESS_FULL();
-  expect_ok(perf("experiment tradeoff -o report --quick"));
   std::smatch first;
   const std::string html = text_of("report/index.html");
   ASSERT_TRUE(std::regex_search(html, first, std::regex("First: defray (scene fence [^<]*[0-9])")));
