@@ -27,14 +27,44 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
   work(true);
 }
 
-/// The same for a long row of short tasks: a stretch of them at a time.
+/// Calls task(first, end) for stretches of a long row, each once.
 template <typename Task>
-void parallel_for_each(std::size_t count, const Task& task) {
+void parallel_for_stretches(std::size_t count, const Task& task) {
   constexpr std::size_t stretch = 1 << 15;
   parallel_for(static_cast<int>((count + stretch - 1) / stretch), [&](int i) {
     const std::size_t first = static_cast<std::size_t>(i) * stretch;
-    for (std::size_t k = first; k < std::min(first + stretch, count); ++k) task(k);
+    task(first, std::min(first + stretch, count));
   });
+}
+
+/// As parallel_for for a long row of short tasks.
+template <typename Task>
+void parallel_for_each(std::size_t count, const Task& task) {
+  parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) task(k);
+  });
+}
+
+/// For how many i below count `is(i)`.
+template <typename Is>
+std::size_t parallel_count(std::size_t count, const Is& is) {
+  std::atomic<std::size_t> all = 0;
+  parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
+    std::size_t found = 0;
+    for (std::size_t k = first; k < end; ++k) found += is(k) ? 1 : 0;
+    all += found;
+  });
+  return all;
+}
+
+/// Whether `is(i)` for any i below count: not all are asked once one is found.
+template <typename Is>
+bool parallel_any(std::size_t count, const Is& is) {
+  std::atomic<bool> found = false;
+  parallel_for_each(count, [&](std::size_t i) {
+    if (!found.load(std::memory_order_relaxed) && is(i)) found = true;
+  });
+  return found;
 }
 
 }  // namespace defray

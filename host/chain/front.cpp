@@ -35,18 +35,16 @@ void Front::look_at_all() {
     before_.wanted = rows;
     mixed = work_.backend.mixed(before_, std::move(mixed));
     const auto is_mixed = mixed.host();
-    for (std::size_t i = first_of(frame, rows); i < frame.index(0, rows.end); ++i) {
-      edge += is_mixed[i];
-    }
+    const std::size_t first = first_of(frame, rows), count = frame.index(0, rows.end) - first;
+    edge += parallel_count(count, [&](std::size_t i) { return is_mixed[first + i] != 0; });
     work_.done("mixed");
     if (work_.settings.repair) {
       source_ = work_.backend.repair(before_, std::move(source_));
       const auto source = source_.host();
-      for (std::size_t i = first_of(frame, rows); i < frame.index(0, rows.end); ++i) {
-        if (source[i] == i) continue;
-        ++between;
-        between_in_picture += !frame.is_in_margin(i);
-      }
+      const auto moves = [&](std::size_t i) { return source[first + i] != first + i; };
+      between += parallel_count(count, moves);
+      between_in_picture += parallel_count(
+          count, [&](std::size_t i) { return moves(i) && !frame.is_in_margin(first + i); });
       work_.done("repair");
     }
     if (work_.is_banded) give_back_to(rows.end - repair_reach());

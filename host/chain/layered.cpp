@@ -97,8 +97,7 @@ void Layered::lights_to(int end) {
   f.wanted = rows;
   const auto kept =
       kept_.host().subspan(f.index(0, rows.y), f.index(0, rows.end) - f.index(0, rows.y));
-  const auto is_light = [](float share) { return share != 1.0f; };
-  if (std::any_of(kept.begin(), kept.end(), is_light)) {
+  if (parallel_any(kept.size(), [&](std::size_t i) { return kept[i] != 1.0f; })) {
     if (lights_.empty()) {
       show_through(make_aperture_table(rasterise(work_.settings.aperture)), work_.plan.lens,
                    lights_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/parallel.h"
 #include "kernels/params.h"
 #include "opencl/launch_table.h"
 
@@ -43,13 +44,18 @@ void count(const Frame& two, ChainReport& report) {
   const auto coverage = two.coverage.host();
   const Rows rows{std::max(two.wanted_rows().y, two.margin),
                   std::min(two.wanted_rows().end, two.height - two.margin)};
-  for (int y = rows.y; y < rows.end; ++y) {
-    for (int x = two.margin; x < two.width - two.margin; ++x) {
-      const std::uint32_t front = coverage[two.index(x, y, 0)];
-      report.split += front > 0 && front < DEFRAY_WHOLE;
-      report.behind += coverage[two.index(x, y, 1)] >= DEFRAY_SYNTHESISED;
-    }
-  }
+  const int width = two.width - 2 * two.margin;
+  const auto coverage_of = [&](std::size_t pixel, int layer) {
+    const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
+    return coverage[two.index(two.margin + x, rows.y + y, layer)];
+  };
+  const std::size_t pixels = size(width) * size(std::max(rows.count(), 0));
+  report.split += parallel_count(pixels, [&](std::size_t i) {
+    const std::uint32_t front = coverage_of(i, 0);
+    return front > 0 && front < DEFRAY_WHOLE;
+  });
+  report.behind += parallel_count(
+      pixels, [&](std::size_t i) { return coverage_of(i, 1) >= DEFRAY_SYNTHESISED; });
 }
 
 }  // namespace
@@ -61,10 +67,12 @@ void make_whole(Frame& f) {
   const auto depth = f.depth.edit();
   const auto coverage = f.coverage.edit();
   const Rows rows = f.wanted_rows();
-  for (std::size_t i = f.index(0, rows.y); i < f.index(0, rows.end); ++i) {
+  const std::size_t first = f.index(0, rows.y);
+  parallel_for_each(f.index(0, rows.end) - first, [&](std::size_t k) {
+    const std::size_t i = first + k;
     depth[i] = depth_of(inverse[i]);
     coverage[i] = DEFRAY_WHOLE | (f.is_in_margin(i) ? DEFRAY_SYNTHESISED : 0u);
-  }
+  });
 }
 
 void describe_layers(const Frame& frame, Frame& layers, ChainReport& report) {

@@ -43,8 +43,8 @@ class PatternFlags {
 bool is_any_behind(const Frame& f, const Words& pixels) {
   const auto words = pixels.host().subspan(f.index(0, f.wanted_rows().y),
                                            size(f.wanted_rows().count()) * size(f.width));
-  return std::any_of(words.begin(), words.end(),
-                     [](std::uint32_t pixel) { return (pixel & DEFRAY_PATTERN_BEHIND) != 0; });
+  return parallel_any(words.size(),
+                      [&](std::size_t i) { return (words[i] & DEFRAY_PATTERN_BEHIND) != 0; });
 }
 
 }  // namespace

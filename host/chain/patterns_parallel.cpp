@@ -1,8 +1,10 @@
 // Shifts parallel to the picture at which slanting surfaces resemble themselves: all lengths in a
 // geometric series, the best of them refined. Costs are integers, lengths products in one order.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/parallel.h"
 #include "chain/patterns.h"
@@ -158,12 +160,15 @@ std::vector<PatternShift> find_parallel_shifts(const Frame& frame, const Words& 
     std::uint64_t cost;
     PatternShift shift;
   };
+  const PatternShift axes[] = {{settings.parallel_reach_x_px, 0},
+                               {0, settings.parallel_reach_y_px}};
+  std::array<std::optional<ParallelSearch>, 2> searches;
+  parallel_for(2, [&](int i) { searches[size(i)].emplace(frame, pixels, settings, axes[i]); });
   std::vector<Found> found;
-  for (const PatternShift longest : {PatternShift{settings.parallel_reach_x_px, 0},
-                                     PatternShift{0, settings.parallel_reach_y_px}}) {
-    for (const Length& l : ParallelSearch(frame, pixels, settings, longest).find()) {
+  for (int i = 0; i < 2; ++i) {
+    for (const Length& l : searches[size(i)]->find()) {
       found.push_back(
-          {l.cost, {longest.x, longest.y, l.parallel, static_cast<float>(l.cost) / 256}});
+          {l.cost, {axes[i].x, axes[i].y, l.parallel, static_cast<float>(l.cost) / 256}});
     }
   }
   std::stable_sort(found.begin(), found.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <tuple>
 
 #include "base/parallel.h"
@@ -21,31 +22,39 @@ constexpr std::uint64_t no_shift_cost = std::numeric_limits<std::uint64_t>::max(
 
 /// Colours and CoC as the comparison reads them; `known` is 0 or -1, all bits.
 struct SearchedPicture {
-  SearchedPicture(int w, int h)
-      : width(w), height(h), r(size(w) * size(h)), g(r), b(r), known(r), coc(r.size()) {}
+  /// Its values are still to be written.
+  SearchedPicture(int w, int h) : width(w), height(h) {
+    for (auto* const channel : {&r, &g, &b, &known}) {
+      *channel = std::make_unique_for_overwrite<std::int16_t[]>(pixels());
+    }
+    coc = std::make_unique_for_overwrite<std::int32_t[]>(pixels());
+  }
+  std::size_t pixels() const { return size(width) * size(height); }
+
   int width, height;
-  std::vector<std::int16_t> r, g, b, known;
-  std::vector<std::int32_t> coc;
+  std::unique_ptr<std::int16_t[]> r, g, b, known;
+  std::unique_ptr<std::int32_t[]> coc;
 };
 
 SearchedPicture whole_picture(const Frame& frame, const Words& pixels) {
   SearchedPicture p(frame.width, frame.height);
-  p.coc.assign(frame.coc_quanta.begin(), frame.coc_quanta.end());
   const auto words = pixels.host();
+  const auto coc = frame.coc_quanta.host();
   parallel_for_each(words.size(), [&](std::size_t i) {
     const std::uint32_t v = words[i];
     p.r[i] = static_cast<std::int16_t>(v & 255);
     p.g[i] = static_cast<std::int16_t>(v >> 8 & 255);
     p.b[i] = static_cast<std::int16_t>(v >> 16 & 255);
     p.known[i] = v & DEFRAY_PATTERN_KNOWN ? -1 : 0;
+    p.coc[i] = coc[i];
   });
   return p;
 }
 
-/// Means over the known pixels of blocks that are at least half known.
+/// Means over the known pixels of blocks; known are those that are at least half known.
 SearchedPicture block_means(const SearchedPicture& p) {
   SearchedPicture means(p.width / block, p.height / block);
-  parallel_for_each(means.known.size(), [&](std::size_t i) {
+  parallel_for_each(means.pixels(), [&](std::size_t i) {
     const int x = static_cast<int>(i % size(means.width)) * block;
     const int y = static_cast<int>(i / size(means.width)) * block;
     std::int64_t count = 0, r = 0, g = 0, b = 0, coc = 0;
@@ -58,12 +67,12 @@ SearchedPicture block_means(const SearchedPicture& p) {
       b += p.b[at];
       coc += p.coc[at];
     }
-    if (2 * count < block * block) return;
+    means.known[i] = 2 * count < block * block ? 0 : -1;
+    count = std::max<std::int64_t>(count, 1);
     means.r[i] = static_cast<std::int16_t>((r + count / 2) / count);
     means.g[i] = static_cast<std::int16_t>((g + count / 2) / count);
     means.b[i] = static_cast<std::int16_t>((b + count / 2) / count);
     means.coc[i] = static_cast<std::int32_t>(coc / count);
-    means.known[i] = -1;
   });
   return means;
 }
@@ -123,7 +132,7 @@ Agreement agreement(const SearchedPicture& p, PatternShift s, int row_step,
 
 /// One row of how many holds no more than `most` in all.
 int row_step(const SearchedPicture& p, std::size_t most) {
-  return std::max(1, static_cast<int>((p.r.size() + most - 1) / most));
+  return std::max(1, static_cast<int>((p.pixels() + most - 1) / most));
 }
 
 struct Candidate {
@@ -147,7 +156,7 @@ class CoarseMap {
         costs_(size((2 * reach_x_ + 1) * (reach_y_ + 1))) {
     constexpr std::size_t least_share = 50;  // a fiftieth
     const int step = row_step(blocks, most_blocks);
-    const std::size_t all = blocks.r.size() / size(step);
+    const std::size_t all = blocks.pixels() / size(step);
     parallel_for(reach_y_ + 1, [&](int y) {
       for (int x = -reach_x_; x <= reach_x_; ++x) {
         costs_[index(x, y)] =
@@ -194,7 +203,7 @@ std::vector<Candidate> refined(const SearchedPicture& picture, const std::vector
                                std::int32_t tolerance) {
   constexpr int side = 2 * refine_px + 1, tries = side * side;
   const int step = std::max(refine_rows, row_step(picture, most_pixels));
-  const std::size_t pixels = picture.r.size() * refine_rows / size(step);
+  const std::size_t pixels = picture.pixels() * refine_rows / size(step);
   std::vector<Candidate> all(coarse.size() * tries);
   parallel_for(static_cast<int>(all.size()), [&](int i) {
     const PatternShift from = coarse[size(i / tries)].shift;

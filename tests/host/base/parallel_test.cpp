@@ -1,0 +1,40 @@
+// Loops over all cores: every place once, whatever the length.
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+namespace defray::test::parallel_test {
+namespace {
+
+constexpr std::size_t lengths[] = {0, 1, 7, 32767, 32768, 32769, 100000};
+
+TEST(Parallel, VisitsEveryPlaceOnce) {
+  for (const std::size_t length : lengths) {
+    std::vector<std::atomic<int>> visits(length);
+    parallel_for_each(length, [&](std::size_t i) { ++visits[i]; });
+    for (const auto& count : visits) ASSERT_EQ(count, 1) << length;
+  }
+}
+
+TEST(Parallel, CountsWhatIs) {
+  for (const std::size_t length : lengths) {
+    EXPECT_EQ(parallel_count(length, [](std::size_t i) { return i % 3 == 0; }), (length + 2) / 3);
+    EXPECT_EQ(parallel_count(length, [](std::size_t) { return false; }), 0u);
+  }
+}
+
+TEST(Parallel, FindsTheOnlyOneWhereverItIs) {
+  for (const std::size_t length : lengths) {
+    EXPECT_FALSE(parallel_any(length, [](std::size_t) { return false; }));
+    for (const std::size_t place : {std::size_t{0}, length / 2, length - 1}) {
+      if (length == 0) continue;
+      EXPECT_TRUE(parallel_any(length, [&](std::size_t i) { return i == place; })) << length;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::parallel_test
