@@ -100,7 +100,7 @@ std::string kernel_source(const std::vector<std::string>& names,
 }
 
 std::string with_places(std::string log, const std::string& program) {
-  static const std::regex counted("(?:<kernel>|input\\.cl):([0-9]+)(?=:)");
+  static const std::regex counted("(?:<kernel>|input\\.cl):([0-9]{1,9})(?=:)");
   std::smatch found;
   while (std::regex_search(log, found, counted)) {
     const std::string place = place_of(program, std::stoi(found[1]));

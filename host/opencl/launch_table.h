@@ -14,7 +14,7 @@ struct WorkGroup {
 };
 
 /// On GPUs, of kernels of two dimensions. On an H200 what `defray tune` finds for single kernels
-/// takes 0.55 to 1 of its time, and groups that suit CPUs 1.2 to 15 times (perf/README.md).
+/// takes 0.7 to 1 of its time, and groups that suit CPUs 1.2 to 15 times (perf/README.md).
 inline constexpr WorkGroup gpu_group{4, 16};
 
 struct Launch {
@@ -22,7 +22,7 @@ struct Launch {
   static constexpr std::size_t plane = 4, colour = 4 * plane;
 
   const char* kernel;
-  /// On CPUs: nothing that `defray tune` finds on PoCL's is better by more than it errs.
+  /// On CPUs: over it `defray tune` gains little on PoCL's (perf/README.md).
   WorkGroup group;
   /// Rows around its own that a work-item looks at beyond what the CoC says.
   int reach_px = 0;
