@@ -1,6 +1,7 @@
 #include "chain/layers.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "base/parallel.h"
@@ -44,18 +45,19 @@ void count(const Frame& two, ChainReport& report) {
   const auto coverage = two.coverage.host();
   const Rows rows{std::max(two.wanted_rows().y, two.margin),
                   std::min(two.wanted_rows().end, two.height - two.margin)};
-  const int width = two.width - 2 * two.margin;
-  const auto coverage_of = [&](std::size_t pixel, int layer) {
-    const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
-    return coverage[two.index(two.margin + x, rows.y + y, layer)];
-  };
-  const std::size_t pixels = size(width) * size(std::max(rows.count(), 0));
-  report.split += parallel_count(pixels, [&](std::size_t i) {
-    const std::uint32_t front = coverage_of(i, 0);
-    return front > 0 && front < DEFRAY_WHOLE;
+  std::atomic<std::size_t> split = 0, behind = 0;
+  parallel_for(rows.count(), [&](int row) {
+    std::size_t split_here = 0, behind_here = 0;
+    for (int x = two.margin; x < two.width - two.margin; ++x) {
+      const std::uint32_t front = coverage[two.index(x, rows.y + row, 0)];
+      split_here += front > 0 && front < DEFRAY_WHOLE;
+      behind_here += coverage[two.index(x, rows.y + row, 1)] >= DEFRAY_SYNTHESISED;
+    }
+    split += split_here;
+    behind += behind_here;
   });
-  report.behind += parallel_count(
-      pixels, [&](std::size_t i) { return coverage_of(i, 1) >= DEFRAY_SYNTHESISED; });
+  report.split += split;
+  report.behind += behind;
 }
 
 }  // namespace
