@@ -1,6 +1,7 @@
 #pragma once
 // An image file in memory: every part and channel in its own type, so that what defray does not
 // touch is written back bit for bit. The only header that the OpenImageIO code shows to the rest.
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@ struct PartInfo {
   Window display;        ///< Display window: the picture's frame.
   int integer_bits = 0;  ///< Bits of a channel stored as a whole number; 0: floats.
 };
+
+using Matrix4 = std::array<float, 16>;
 
 enum class Sample { half_float, single_float };
 
@@ -60,7 +63,10 @@ class ImageFile {
   /// A number among the metadata of any part, whatever type it was stored in (text included).
   std::optional<double> metadata_number(const std::string& name) const;
 
-  /// The same as text, numbers included.
+  /// A 4x4 matrix among them, row by row: it stands behind row vectors.
+  std::optional<Matrix4> metadata_matrix(const std::string& name) const;
+
+  /// Any of them as text.
   std::optional<std::string> metadata_text(const std::string& name) const;
 
   /// True where writing with the file's own compression (DWA, B44, PXR24, JPEG in TIFF) changes

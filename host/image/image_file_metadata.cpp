@@ -1,4 +1,5 @@
 // What a file says of itself.
+#include <algorithm>
 #include <charconv>
 
 #include "image/image_file_part.h"
@@ -66,6 +67,17 @@ std::optional<double> ImageFile::metadata_number(const std::string& name) const 
     const ParamValue* value = part.spec.find_attribute(name);
     if (!value) continue;
     if (const auto number = number_of(*value)) return number;
+  }
+  return std::nullopt;
+}
+
+std::optional<Matrix4> ImageFile::metadata_matrix(const std::string& name) const {
+  for (const Part& part : parts_) {
+    const ParamValue* value = part.spec.find_attribute(name);
+    if (!value || value->type() != OIIO::TypeMatrix44) continue;
+    Matrix4 matrix;
+    std::copy_n(static_cast<const float*>(value->data()), matrix.size(), matrix.begin());
+    return matrix;
   }
   return std::nullopt;
 }

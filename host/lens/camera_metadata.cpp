@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/vec3.h"
 
 namespace defray {
 namespace {
@@ -27,6 +28,26 @@ const std::pair<const char*, MetadataField> metadata_fields[] = {
 };
 
 bool is_fov(const CameraAttribute& a) { return a.field == std::string("fov_deg"); }
+
+/// The field of view, degrees, of a camera with this projection; empty where it is none of a
+/// perspective camera. OpenEXR's worldToNDC goes from 0 to 1 over the frame, that of RenderMan and
+/// others from -1 to 1: what the optical axis is nearer to, the one's middle or the other's, tells.
+std::optional<double> fov_of(const Matrix4& world_to_ndc) {
+  const auto column = [&](std::size_t i) {
+    const auto at = [&](std::size_t j) { return static_cast<double>(world_to_ndc[4 * j + i]); };
+    return Vec3{at(0), at(1), at(2)};
+  };
+  // A row vector times the matrix: what x is divided by grows along the axis.
+  const Vec3 axis = column(3);
+  const double squared = dot(axis, axis);
+  if (!(squared > 0)) return std::nullopt;
+  const double x = dot(column(0), axis) / squared, y = dot(column(1), axis) / squared;
+  const Vec3 across = column(0) - axis * x;
+  const double focal = std::sqrt(dot(across, across) / squared);  // NDC per unit at distance 1
+  const double half_width = std::hypot(x, y) < std::hypot(x - 0.5, y - 0.5) ? 1 : 0.5;
+  const double fov_deg = 2 * std::atan(half_width / focal) * degrees_in_radian;
+  return fov_deg > 0 && fov_deg < half_turn_deg ? std::optional(fov_deg) : std::nullopt;
+}
 
 /// What a number says; nothing where it cannot be meant.
 std::optional<double> value_of(const CameraAttribute& a, double number) {
@@ -62,7 +83,7 @@ bool is_stated(const CameraValues& by, MetadataField field) {
 
 const std::vector<CameraAttribute>& camera_attributes() {
   static const std::vector<CameraAttribute> all{
-      {"focal_length_mm", "FocalLength", 1, "EXIF"},
+      {"focal_length_mm", "FocalLength", 1, "EXIF, USD"},
       {"focal_length_mm", "Exif:FocalLength", 1, "EXIF"},
       {"focal_length_mm", "nominalFocalLength", 1, "OpenEXR"},
       {"focal_length_mm", "pinholeFocalLength", 1, "OpenEXR"},
@@ -77,8 +98,12 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"sensor_width_mm", "cameraAperture", 1, "V-Ray"},
       {"sensor_width_mm", "vray/cameraAperture", 1, "V-Ray"},
       {"sensor_width_mm", "CameraFilmApertureHorizontal", 1, "Arnold"},
+      {"sensor_width_mm", "horizontalAperture", 1, "USD"},
       {"fov_deg", "cameraFov", 1, "V-Ray"},
       {"fov_deg", "rs/camera/fov", degrees_in_radian, "Redshift"},
+      {"fov_deg", "RSCameraFOV", 1, "Redshift"},
+      {"fov_deg", "worldToNDC", 1, "OpenEXR, RenderMan"},
+      {"fov_deg", "worldToScreen", 1, "OpenImageIO"},
       {"fstop", "FNumber", 1, "OpenEXR"},
       {"fstop", "Exif:FNumber", 1, "EXIF"},
       {"fstop", "aperture", 1, "OpenEXR"},
@@ -87,6 +112,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"fstop", "exr/nuke/camera/fstop", 1, "Nuke"},
       {"fstop", "nuke/camera/fstop", 1, "Nuke"},
       {"fstop", "rs/camera/FStop", 1, "Redshift"},
+      {"fstop", "fStop", 1, "USD"},
       {"focus_distance_units", "focus", 0, "OpenEXR"},
       {"focus_distance_units", "Exif:SubjectDistance", 0, "EXIF"},
       {"focus_distance_units", "exr/nuke/camera/focal_point", 1, "Nuke"},
@@ -95,6 +121,7 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"focus_distance_units", "cameraTargetDistance", 1, "V-Ray"},
       {"focus_distance_units", "vray/cameraFocusDistance", 1, "V-Ray"},
       {"focus_distance_units", "rs/camera/DOFFocusDistance", 1, "Redshift"},
+      {"focus_distance_units", "focusDistance", 1, "USD"},
   };
   return all;
 }
@@ -103,8 +130,13 @@ std::optional<FoundAttribute> find_attribute(const ImageFile& file,
                                              const CameraAttribute& attribute) {
   const std::optional<std::string> text = file.metadata_text(attribute.name);
   if (!text) return std::nullopt;
-  const std::optional<double> number = file.metadata_number(attribute.name);
   FoundAttribute found{attribute, *text, {}};
+  if (const auto matrix = file.metadata_matrix(attribute.name)) {
+    if (!is_fov(attribute) || !(found.value = fov_of(*matrix))) return std::nullopt;
+    found.text = fmt::format("{:.6g}", *found.value);
+    return found;
+  }
+  const std::optional<double> number = file.metadata_number(attribute.name);
   if (!number) return found;
   const bool is_focus = attribute.field == std::string("focus_distance_units");
   if (is_focus && *number >= no_distance && !std::isinf(*number)) return std::nullopt;

@@ -23,7 +23,7 @@ const std::vector<CameraAttribute>& camera_attributes();
 /// A value of the lens among the metadata.
 struct FoundAttribute {
   CameraAttribute attribute;
-  std::string text;             ///< As stored.
+  std::string text;             ///< As stored; of a matrix, what it comes to.
   std::optional<double> value;  ///< Times the factor; empty where it is no number above 0.
 };
 

@@ -91,6 +91,23 @@ TEST_F(Metadata, NamesOfRenderers) {
               100 * std::tan(0.5), 1e-5);
 }
 
+TEST_F(Metadata, AProjectionGivesTheSensor) {
+  write("prman.exr", [](OIIO::ImageSpec& spec) {
+    const float matrix[] = {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 1, 1, 4, 0, 0, 0};  // 1/2 on either side
+    spec.attribute("worldToNDC", OIIO::TypeMatrix44, matrix);
+  });
+  const std::string lens = "--focus 3 --fstop 2 --focal-length 50";
+  const std::string command = "prman.exr -o o.exr " + lens;
+  EXPECT_NEAR(report(command + " --camera from-metadata")["sensor_width_mm"], 50, 1e-5);
+  EXPECT_NEAR(report(command)["sensor_width_mm"], 36, 1e-5);
+  const Result info = defray(folder_, "info prman.exr");
+  expect_ok(info);
+  for (const std::string words : {"  fov_deg 53.1301 (worldToNDC, OpenEXR, RenderMan)",
+                                  "--camera from-metadata --focus-at"}) {
+    EXPECT_NE(info.out.find(words), std::string::npos) << info.out;
+  }
+}
+
 TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
   write("zero.exr", [](OIIO::ImageSpec& spec) { spec.attribute("FNumber", 0.0f); });
   expect_refused("zero.exr -o o.exr --camera from-metadata --focus 3 --focal-length 50", 3,

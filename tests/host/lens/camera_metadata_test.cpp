@@ -3,6 +3,9 @@
 
 #include <OpenImageIO/imagebuf.h>
 
+#include <cmath>
+#include <functional>
+
 #include "support.h"
 
 namespace defray::test::camera_metadata_test {
@@ -13,13 +16,14 @@ struct Stored {
   double stored, expected;  ///< In the attribute's unit, and as a value of a scene in centimetres.
 };
 
-/// One attribute beside what else a lens needs.
-CameraValues values_of(const Folder& folder, const Stored& stored) {
+/// What a file with these attributes says.
+CameraValues values_of(const Folder& folder,
+                       const std::function<void(OIIO::ImageSpec&)>& with_attributes) {
   const std::string path = folder / "one.exr";
   ImageFile::from_planes({"R"}, {Plane(4, 0.5f)}, 2, 2).write(path);
   OIIO::ImageBuf file(path);
   file.read(0, 0, true, OIIO::TypeDesc::FLOAT);
-  file.specmod().attribute(stored.name, static_cast<float>(stored.stored));
+  with_attributes(file.specmod());
   file.write(folder / "with.exr");
   return camera_from_metadata(ImageFile::read(folder / "with.exr"), 0.01);
 }
@@ -27,7 +31,9 @@ CameraValues values_of(const Folder& folder, const Stored& stored) {
 void expect_values(std::optional<double> CameraValues::*field, const std::vector<Stored>& all) {
   const Folder folder;
   for (const Stored& stored : all) {
-    const CameraValues values = values_of(folder, stored);
+    const CameraValues values = values_of(folder, [&](OIIO::ImageSpec& spec) {
+      spec.attribute(stored.name, static_cast<float>(stored.stored));
+    });
     ASSERT_TRUE(values.*field) << stored.name;
     EXPECT_NEAR(*(values.*field), stored.expected, 1e-4) << stored.name;
   }
@@ -42,6 +48,7 @@ TEST(CameraMetadata, FocalLengthsAreMillimetres) {
                                                  {"cameraFocalLength", 35, 35},
                                                  {"vray/cameraFocalLength", 35, 35},
                                                  {"CameraFocalLength", 35, 35},
+                                                 {"focalLength", 35, 35},
                                                  {"IFM_focalLength", 35, 35},
                                                  {"Lens", 35, 35}});
 }
@@ -51,11 +58,13 @@ TEST(CameraMetadata, SensorsAreMillimetresAndFieldsOfViewDegrees) {
                                                  {"nuke/camera/haperture", 24, 24},
                                                  {"cameraAperture", 24, 24},
                                                  {"vray/cameraAperture", 24, 24},
-                                                 {"CameraFilmApertureHorizontal", 24, 24}});
+                                                 {"CameraFilmApertureHorizontal", 24, 24},
+                                                 {"horizontalAperture", 24, 24}});
   // Redshift's may be either.
-  expect_values(
-      &CameraValues::fov_deg,
-      {{"cameraFov", 40, 40}, {"rs/camera/fov", 1.0471976, 60}, {"rs/camera/fov", 40, 40}});
+  expect_values(&CameraValues::fov_deg, {{"cameraFov", 40, 40},
+                                         {"rs/camera/fov", 1.0471976, 60},
+                                         {"rs/camera/fov", 40, 40},
+                                         {"RSCameraFOV", 40, 40}});
 }
 
 TEST(CameraMetadata, FStopsAreThemselves) {
@@ -66,7 +75,8 @@ TEST(CameraMetadata, FStopsAreThemselves) {
                                        {"vray/cameraFNumber", 2.8, 2.8},
                                        {"exr/nuke/camera/fstop", 2.8, 2.8},
                                        {"nuke/camera/fstop", 2.8, 2.8},
-                                       {"rs/camera/FStop", 2.8, 2.8}});
+                                       {"rs/camera/FStop", 2.8, 2.8},
+                                       {"fStop", 2.8, 2.8}});
 }
 
 TEST(CameraMetadata, FocusIsMetresOfCamerasAndUnitsOfScenes) {
@@ -77,7 +87,84 @@ TEST(CameraMetadata, FocusIsMetresOfCamerasAndUnitsOfScenes) {
                                                       {"cameraFocusDistance", 3, 3},
                                                       {"cameraTargetDistance", 3, 3},
                                                       {"vray/cameraFocusDistance", 3, 3},
-                                                      {"rs/camera/DOFFocusDistance", 3, 3}});
+                                                      {"rs/camera/DOFFocusDistance", 3, 3},
+                                                      {"focusDistance", 3, 3}});
+}
+
+/// A camera somewhere, turned and in a scene of another scale, whose frame spans 2 x `tangent` and
+/// goes from `left` to `right` in NDC; the axis is `shift` of half the width off the middle.
+std::vector<float> projection(double tangent, double left, double right, double shift) {
+  const double scale = 7, sine = 0.6, cosine = 0.8, near = 0.1;
+  const double half = (right - left) / 2, f = half / tangent;
+  const double middle = (left + right) / 2;
+  const double rotation[4][4] = {{cosine * scale, 0, -sine * scale, 0},
+                                 {0, scale, 0, 0},
+                                 {sine * scale, 0, cosine * scale, 0},
+                                 {3, -2, 11, 1}};
+  const double lens[4][4] = {
+      {f, 0, 0, 0}, {0, f * 1.5, 0, 0}, {middle + shift * half, middle, 1, 1}, {0, 0, -near, 0}};
+  std::vector<float> matrix(16);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 4; ++k) sum += rotation[i][k] * lens[k][j];
+      matrix[4 * i + j] = static_cast<float>(sum);
+    }
+  }
+  return matrix;
+}
+
+CameraValues values_of_matrix(const Folder& folder, const std::string& name,
+                              const std::vector<float>& matrix) {
+  return values_of(folder, [&](OIIO::ImageSpec& spec) {
+    spec.attribute(name, OIIO::TypeMatrix44, matrix.data());
+  });
+}
+
+TEST(CameraMetadata, ProjectionsSpanFieldsOfView) {
+  const Folder folder;
+  const double tangent = 0.36, fov_deg = 39.597752;  // 50 mm before 36
+  const struct {
+    const char* what;
+    double left, right, shift;
+  } cases[] = {{"OpenEXR's", 0, 1, 0},
+               {"RenderMan's", -1, 1, 0},
+               {"OpenEXR's with a shifted lens", 0, 1, -0.6},
+               {"RenderMan's with a shifted lens", -1, 1, 0.3}};
+  for (const auto& c : cases) {
+    const std::vector<float> matrix = projection(tangent, c.left, c.right, c.shift);
+    for (const std::string name : {"worldToNDC", "worldToScreen"}) {
+      const CameraValues values = values_of_matrix(folder, name, matrix);
+      ASSERT_TRUE(values.fov_deg) << c.what << ", " << name;
+      EXPECT_NEAR(*values.fov_deg, fov_deg, 1e-3) << c.what << ", " << name;
+    }
+  }
+}
+
+TEST(CameraMetadata, WhatIsNoProjectionSaysNothing) {
+  const Folder folder;
+  std::vector<float> orthographic(16);
+  for (const std::size_t i : {0, 5, 10, 15}) orthographic[i] = 1;
+  std::vector<float> flat = projection(0.36, -1, 1, 0);
+  for (std::size_t i = 0; i < 16; i += 4) flat[i] = 0;
+  std::vector<float> broken = projection(0.36, -1, 1, 0);
+  broken[3] = NAN;
+  for (const std::vector<float>& matrix : {orthographic, flat, broken, std::vector<float>(16)}) {
+    const CameraValues values = values_of_matrix(folder, "worldToNDC", matrix);
+    EXPECT_FALSE(values.fov_deg);
+    EXPECT_NE(values.sought.at("fov_deg").find("worldToNDC"), std::string::npos);
+  }
+}
+
+TEST(CameraMetadata, ASensorCountsBesideAProjection) {
+  const Folder folder;
+  const std::vector<float> matrix = projection(0.36, -1, 1, 0);
+  const CameraValues values = values_of(folder, [&](OIIO::ImageSpec& spec) {
+    spec.attribute("worldToNDC", OIIO::TypeMatrix44, matrix.data());
+    spec.attribute("CameraFilmApertureHorizontal", 24.0f);
+  });
+  EXPECT_EQ(values.sensor_width_mm, 24);
+  EXPECT_FALSE(values.fov_deg);
 }
 
 }  // namespace
