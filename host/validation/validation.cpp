@@ -112,9 +112,9 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
                                 ? grid(level, check, session.info().max_work_group)
                                 : std::vector<Case>{parse_case(settings.only_case)};
   for (Case& c : cases) {
-    if (settings.group_x == 0) break;
-    c.group_x = settings.group_x;
-    c.group_y = 1;
+    if (!settings.group_x) break;
+    c.group_x = *settings.group_x;
+    c.group_y = c.group_x > 0 ? 1 : 0;
   }
   CheckRun run(session, check, device);
   for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 // Every kernel against its scalar twin on one device.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct Settings {
   std::string only_case;             ///< This case instead of the grid.
   SessionOptions session;
   bool stops_at_first = false;  ///< Of a kernel's cases, none after the first that fails.
-  int group_x = 0;              ///< Work-group {group_x, 1} for all cases; 0: each case its own.
+  /// Work-group {group_x, 1} for all cases, 0: the kernel's default; empty: each case its own.
+  std::optional<int> group_x;
 };
 
 /// Runs the checks; on a simulator the smallest frames whatever the level. `progress` gets the

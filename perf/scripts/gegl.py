@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """GEGL's blurs beside defray's qualities: time and PSNR against ray-traced truths, in one run.
 
-perf/scripts/gegl.py DEFRAY [SCENES]: SCENES holds folders with pinhole.exr, camera.json and
-truth_SETTING.exr, as `defray scene` writes them; without it, two built-in scenes, small. Needs GEGL
-(apt-get install gegl libgegl-dev), oiiotool and a C compiler; without GEGL it says so and is done.
+perf/scripts/gegl.py DEFRAY [SCENES] [--update FILE]: SCENES holds folders with pinhole.exr, camera.json
+and truth_SETTING.exr, as `defray scene` writes them; without it, two built-in scenes, small. --update
+puts the table between FILE's markers "gegl.py". Needs GEGL (apt-get install gegl libgegl-dev), oiiotool
+and a C compiler; without GEGL it says so and is done.
 
 GEGL gets each pixel's true radius as its mask (share of the largest); both work on two threads,
 with pictures in memory: the median of seven runs of GEGL, and of the last seven frames of eight.
 """
+import argparse
 import json
 import os
 import pathlib
@@ -16,6 +18,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
+
+from table import Table
 
 FRAMES = 8
 QUALITIES = ["preview", "draft", "normal"]
@@ -80,9 +84,11 @@ def built_in(defray, folder):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    defray = sys.argv[1]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("defray")
+    parser.add_argument("scenes", nargs="?", type=pathlib.Path)
+    parser.add_argument("--update", metavar="FILE")
+    given = parser.parse_args()
     if not shutil.which("pkg-config") or subprocess.run(
             ["pkg-config", "--exists", "gegl-0.4"]).returncode:
         print("GEGL is not installed (apt-get install gegl libgegl-dev): nothing to compare with.")
@@ -90,23 +96,24 @@ def main():
     os.environ["GEGL_THREADS"] = "2"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        scenes = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else built_in(defray, folder)
-        compare(defray, scenes, folder)
+        table = compare(given.defray, given.scenes or built_in(given.defray, folder), folder)
+    if given.update:
+        table.update(given.update, "gegl.py")
 
 
 def compare(defray, scenes, folder):
     truths = sorted(scenes.glob("*/truth_*.exr"))
     if not truths:
         sys.exit(f"{scenes}: no folder in it has a truth_SETTING.exr; 'defray scene' writes them")
-    print("| case | " + " | ".join([f"GEGL {b}" for b in BLURS] + QUALITIES) + " |")
-    print("|---" * (1 + len(BLURS) + len(QUALITIES)) + "|")
+    table = Table("case", *[f"GEGL {b}" for b in BLURS], *QUALITIES)
     blur = build(folder)
     for truth in truths:
         setting = truth.stem.removeprefix("truth_")
         case = Case(defray, truth.parent, setting, folder)
         cells = [case.by_gegl(blur, b) for b in BLURS] + [case.by_defray(q) for q in QUALITIES]
-        row = " | ".join(f"{1000 * s:.0f} ms, {db:.2f} dB" for s, db in cells)
-        print(f"| {truth.parent.name} {setting} | {row} |", flush=True)
+        table.row(f"{truth.parent.name} {setting}",
+                  *[f"{1000 * s:.0f} ms, {db:.2f} dB" for s, db in cells])
+    return table
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """How fast defray is, beside how fast it wants to be: each goal with what was measured.
 
-perf/scripts/goals.py DEFRAY [--quick]: built-in scenes at 1920x1080 and 3840x2160; --quick takes small ones,
-a rehearsal whose figures mean nothing. Medians of seven frames of a run, without its first, and
+perf/scripts/goals.py DEFRAY [--quick] [--update FILE]: built-in scenes at 1920x1080 and 3840x2160;
+--quick takes small ones, a rehearsal whose figures mean nothing; --update puts the table between FILE's
+markers "goals.py". Medians of seven frames of a run, without its first, and
 (largest - smallest) / median. What GEGL is faster or slower by: perf/scripts/gegl.py.
 """
+import argparse
 import json
 import pathlib
 import shutil
@@ -14,7 +16,8 @@ import sys
 import tempfile
 import time
 
-FRAMES = 3 if "--quick" in sys.argv else 8
+from table import Table
+
 
 
 class Figure:
@@ -32,11 +35,11 @@ class Figure:
 
 
 class Bench:
-    def __init__(self, defray, folder, width, height):
-        self.defray, self.folder, self.size = defray, folder, (width, height)
+    def __init__(self, defray, folder, width, height, frames):
+        self.defray, self.folder, self.frame_count = defray, folder, frames
         self.run("scene", "spheres", "-o", folder, "--width", width, "--height", height,
                  "--truth-samples", 1, "--focus-setting", "f2")
-        for i in range(1, FRAMES + 1):
+        for i in range(1, self.frame_count + 1):
             shutil.copy(folder / "pinhole.exr", folder / f"in.{i:04}.exr")
         report = json.loads(self.run(
             "render", folder / "pinhole.exr", "-o", folder / "one.exr", *self.camera(), "--literal",
@@ -73,12 +76,12 @@ class Bench:
                      "draft", "--frames", frames, "--quiet")
             return time.monotonic() - start
 
-        return Figure([(seconds(f"1-{FRAMES}") - seconds("1")) / (FRAMES - 1) for _ in range(3)])
+        return Figure([(seconds(f"1-{self.frame_count}") - seconds("1")) / (self.frame_count - 1) for _ in range(3)])
 
     def command(self, *options):
         """What a command of one frame takes beyond its filter."""
         beyond = []
-        for _ in range(FRAMES):
+        for _ in range(self.frame_count):
             start = time.monotonic()
             report = json.loads(self.run(
                 "render", self.folder / "pinhole.exr", "-o", self.folder / "one.exr", *self.camera(),
@@ -87,22 +90,29 @@ class Bench:
         return Figure(beyond[1:])
 
 
-def row(work, figure, unit, goal, is_least=False):
-    reached = figure.median >= goal if is_least else figure.median <= goal
-    bound = "at least" if is_least else "at most"
-    print(f"| {work} | {figure.median:.3g}{unit} ± {100 * figure.spread:.0f} % | {bound} {goal}{unit} "
-          f"| {'reached' if reached else 'falls short'} |", flush=True)
+class Goals:
+    """The table's rows."""
+
+    def __init__(self):
+        self.table = Table("work", "measured", "goal", "")
+
+    def row(self, work, figure, unit, goal, is_least=False):
+        reached = figure.median >= goal if is_least else figure.median <= goal
+        bound = "at least" if is_least else "at most"
+        self.table.row(work, f"{figure.median:.3g}{unit} ± {100 * figure.spread:.0f} %",
+                       f"{bound} {goal}{unit}", "reached" if reached else "falls short")
 
 
 def measure(hd, uhd):
-    print("| work | measured | goal | |\n|---|---|---|---|")
+    goals = Goals()
+    row = goals.row
     literal = ("--literal", "--rdb", 13)
     for radius, goal in [(8, 60), (32, 35), (128, 20)]:
         scatter = hd.seconds(radius, *literal, "--rays", "scatter")
         gather = hd.seconds(radius, *literal, "--rays", "gather")
         row(f"`--rays scatter` ÷ `gather`, radius {radius} px", scatter.over(gather), "", goal, True)
-    for quality, goals in [("normal", (0.15, 0.25)), ("draft", (0.07, 0.12)), ("high", (1.5, None))]:
-        for radius, goal in zip((32, 128), goals):
+    for quality, least in [("normal", (0.15, 0.25)), ("draft", (0.07, 0.12)), ("high", (1.5, None))]:
+        for radius, goal in zip((32, 128), least):
             if goal:
                 figure = hd.seconds(radius, "--quality", quality)
                 row(f"`--quality {quality}`, up to {radius} px", figure, " s", goal)
@@ -112,16 +122,22 @@ def measure(hd, uhd):
     parts = hd.frames(32, "--quality", "draft", "--no-overlap")
     longest = Figure([max(f["read_s"], f["render_s"], f["write_s"]) for f in parts])
     row("a sequence's frame ÷ its longest part", hd.frame_of_sequence().over(longest), "", 1.1)
+    return goals.table
 
 
 def main():
-    if len(sys.argv) < 2 or sys.argv[2:] not in ([], ["--quick"]):
-        sys.exit(__doc__)
-    small = 8 if "--quick" in sys.argv else 1
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("defray")
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--update", metavar="FILE")
+    given = parser.parse_args()
+    small, frames = (8, 3) if given.quick else (1, 8)
     with tempfile.TemporaryDirectory() as name:
         hd, uhd = (pathlib.Path(name) / size for size in ("hd", "uhd"))
-        measure(Bench(sys.argv[1], hd, 1920 // small, 1080 // small),
-                Bench(sys.argv[1], uhd, 3840 // small, 2160 // small))
+        table = measure(Bench(given.defray, hd, 1920 // small, 1080 // small, frames),
+                        Bench(given.defray, uhd, 3840 // small, 2160 // small, frames))
+    if given.update:
+        table.update(given.update, "goals.py")
 
 
 if __name__ == "__main__":

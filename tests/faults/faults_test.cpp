@@ -62,9 +62,9 @@ std::vector<std::string> files_of(const KernelCheck& check) {
 }
 
 /// The check with the change, or as it is, on a program of the files that it needs. `group_x`: of
-/// all cases, 0: each its own.
+/// all cases, empty: each its own.
 KernelResult validate_with(const KernelCheck& check, const std::vector<Substitution>& changes,
-                           int group_x, const std::string& only_case = "") {
+                           std::optional<int> group_x, const std::string& only_case = "") {
   Settings settings;
   if (changes.empty()) settings.level = Level::tiny;  // all cases pass
   settings.only_case = only_case;
@@ -89,9 +89,9 @@ std::string finding(const KernelResult& result) {
 
 void expect_found(const Fault& fault, const std::string& only_case = "") {
   const KernelCheck& check = find_check(fault.kernel);
-  KernelResult result =
-      validate_with(check, {fault.change}, is_slow_device() ? 0 : group, only_case);
-  if (result.passed()) result = validate_with(check, {fault.change}, 0, only_case);
+  KernelResult result = validate_with(
+      check, {fault.change}, is_slow_device() ? std::nullopt : std::optional(group), only_case);
+  if (result.passed()) result = validate_with(check, {fault.change}, {}, only_case);
   testing::Test::RecordProperty("finding", finding(result));
   EXPECT_FALSE(result.passed()) << fault.kernel << ": " << fault.what;
   // Not for a reason of its own: a kernel that is not there fails as well.
