@@ -50,6 +50,9 @@ double covered_share(const CloudPoints& cloud, std::size_t point) {
     farthest = std::max(farthest, length(d));
   }
   if (!(farthest > 0)) return 1;
+  // Along the surface: over a tip all neighbours lie on one side of it.
+  const Vec3& normal = cloud.points[point].normal;
+  mean = mean - normal * dot(mean, normal);
   const double offset = length(mean) / static_cast<double>(around.size()) / farthest;
   return 1 - 0.5 * std::clamp((offset - inner_offset) / (edge_offset - inner_offset), 0.0, 1.0);
 }

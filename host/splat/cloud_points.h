@@ -29,6 +29,7 @@ struct CloudPoints {
   std::vector<std::array<float, 3>> places;
   std::vector<CloudPoint> points;
   Neighbours around;
+  bool is_oriented = false;  ///< Normals point outside: given ones.
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 };

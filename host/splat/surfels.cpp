@@ -116,7 +116,7 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
   });
   take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
-  out.has_normals = given > 0;
+  out.has_normals = cloud.is_oriented = given > 0;
   if (out.has_normals && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));

@@ -1,5 +1,6 @@
 // Weights of a cloud's points: Krivanek & Zara 2003, section 6.3, but found on the surface itself
 // instead of in rendered pictures.
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -48,19 +49,26 @@ class Weighing {
  private:
   static double square(double x) { return x * x; }
 
-  /// A point's basis function of unit area, at a place.
-  double basis(std::size_t of, const Vec3& place) const {
+  /// What a point's basis function of unit area covers at a place, seen along the normal there:
+  /// where the surface bends, its points are closer to each other, and show less of their areas.
+  double basis(std::size_t of, const Vec3& place, const Vec3& normal) const {
     const CloudPoint& point = cloud_.points[of];
+    const double same = dot(point.normal, normal);
+    const double facing = cloud_.is_oriented ? std::max(same, 0.0) : std::abs(same);
     const Vec3 d = place - cloud_.place(of);
-    const double variance = square(basis_deviation * point.spacing), beside = dot(d, point.normal);
-    return std::exp(-0.5 * (dot(d, d) - beside * beside) / variance) / (2 * M_PI * variance);
+    const double variance = square(basis_deviation * point.spacing), beside = dot(d, normal);
+    return facing * std::exp(-0.5 * (dot(d, d) - beside * beside) / variance) /
+           (2 * M_PI * variance);
   }
 
   void look(std::size_t point) {
     const auto sites = sites_of(cloud_, point);
+    const Vec3& normal = cloud_.points[point].normal;
     for (std::size_t k = 0; k < sites.size(); ++k) {
-      double sum = areas_[point] * basis(point, sites[k]);
-      for (const std::uint32_t i : cloud_.around.of(point)) sum += areas_[i] * basis(i, sites[k]);
+      double sum = areas_[point] * basis(point, sites[k], normal);
+      for (const std::uint32_t i : cloud_.around.of(point)) {
+        sum += areas_[i] * basis(i, sites[k], normal);
+      }
       lacks_[point][k] = static_cast<float>(aim * cloud_.points[point].covered / sum);
     }
   }
@@ -70,7 +78,7 @@ class Weighing {
     const auto add = [&](std::size_t around) {
       const auto sites = sites_of(cloud_, around);
       for (std::size_t k = 0; k < sites.size(); ++k) {
-        const double weight = basis(point, sites[k]);
+        const double weight = basis(point, sites[k], cloud_.points[around].normal);
         weights += weight;
         sum += weight * static_cast<double>(lacks_[around][k]);
       }

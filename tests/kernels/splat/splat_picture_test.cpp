@@ -53,6 +53,50 @@ TEST(SplatPicture, AClosedSurfaceCoversItsInsideAtEveryApertureAndCutOff) {
   }
 }
 
+/// A rod with a round end, of so many points, which points at the camera.
+PointCloud rod(std::size_t end_points, bool has_normals) {
+  constexpr double radius = 0.5, length = 2;
+  PointCloud cloud;
+  const auto add = [&](double x, double y, double z, double back) {
+    cloud.positions.push_back({static_cast<float>(radius * x), static_cast<float>(radius * y),
+                               static_cast<float>(radius * z - back)});
+    if (has_normals) {
+      cloud.normals.push_back(
+          {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+    }
+    cloud.colours.push_back({1, 1, 1});
+  };
+  const double golden = M_PI * (3 - std::sqrt(5.0)), count = static_cast<double>(end_points);
+  const double spacing = radius * std::sqrt(2 * M_PI / count);
+  for (std::size_t i = 0; i < end_points; ++i) {
+    const double z = 1 - (static_cast<double>(i) + 0.5) / count, ring = std::sqrt(1 - z * z);
+    const double turn = golden * static_cast<double>(i);
+    add(ring * std::cos(turn), ring * std::sin(turn), z, 0);
+  }
+  const int around = static_cast<int>(2 * M_PI * radius / spacing);
+  for (double back = spacing / 2; back < length; back += spacing) {
+    for (int k = 0; k < around; ++k) {
+      const double turn = 2 * M_PI * k / around;
+      add(std::cos(turn), std::sin(turn), 0, back);
+    }
+  }
+  return cloud;
+}
+
+TEST(SplatPicture, ATipOfFewPointsCoversWhatIsBehind) {
+  for (const bool has_normals : {true, false}) {
+    // Between points their functions still add up to less; the flatter the tip, the less it lacks.
+    for (const auto& [points, bound] : {std::pair{60u, 0.85f}, {200u, 0.94f}}) {
+      const Hierarchy tree = tree_of(rod(points, has_normals), has_normals);
+      DefraySplatParams p = view_of(160, 4, 0);
+      p.one_sided = has_normals;
+      const auto [least, most] = range_inside(draw(tree, p).colour[3], 160, 10);
+      EXPECT_GE(least, bound) << points << " points, normals " << has_normals;
+      EXPECT_LE(most, 1.0001f) << points << " points, normals " << has_normals;
+    }
+  }
+}
+
 TEST(SplatPicture, IrregularPointsCoverTheirSurface) {
   // Random places on a wall: what weighing is for.
   PointCloud cloud = wall(100, 1, 0, {1, 1, 1});
