@@ -21,7 +21,7 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
-left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
+left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
 perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
   longer=Arithmetic.*:$perf:Rdb.Huge*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*

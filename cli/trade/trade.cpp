@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* trade_footer =
     R"(Renders one picture in every quality and between them, as --target-db would where one is given,
-and by the other methods where there is a truth, three times each:
+and by the other methods where there is a truth, --runs times each:
 pictures, a plot of error against time (trade.png), a table with the command of each (index.html,
 trade.csv). Errors are expected ones, told from how the pictures look, and true ones with --truth.
 
@@ -33,9 +33,12 @@ Examples:
   defray trade beauty.exr -o trade --focus 3 --fstop 2.8 --focal-length 50 --sensor-width 36
   defray trade beauty.exr -o trade --camera camera.json --truth lens.exr --target-db 38)";
 
+constexpr int most_runs = 1000;
+
 struct TradeCommand : RenderCommand {
   std::string folder, truth;
   std::optional<double> target_db;
+  int runs = 3;
 };
 
 struct Candidate {
@@ -105,7 +108,8 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
             {"--target-db",
              value(job.target_db),
              "Recommend the fastest that meets this PSNR, dB",
-             {.field = "target_db"}}}},
+             {.field = "target_db"}},
+            {"--runs", value(job.runs), "Renders of each, whose median time counts, 1 to 1000"}}},
           without(channel_options(job), "--channels"),
           without(lens_options(job), "--focus-frame"),
           {"", {full_size_row(job)}},
@@ -118,7 +122,8 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
 
 /// The same picture by `render`.
 std::string command_of(const TradeCommand& job, const Candidate& candidate) {
-  const std::set<std::string> own{"--output", "--truth", "--target-db", "--json", "--quiet"};
+  const std::set<std::string> own{"--output", "--truth", "--target-db",
+                                  "--runs",   "--json",  "--quiet"};
   return render_command_line(job.given, [&](const auto& name) { return own.contains(name); }) +
          " -o " + shell_quoted(job.folder + "/" + candidate.name + ".exr") + " " +
          candidate.options;
@@ -145,7 +150,7 @@ double true_db_of(ColourFile truth, const FrameResult& result) {
   return compare(own.planes, truth.planes, own.data.width).psnr_srgb_db;
 }
 
-/// Renders it three times.
+/// Renders it so many times.
 TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                     const RenderSettings& common, const std::optional<ColourFile>& truth,
                     Device& device, const Progress& progress) {
@@ -157,21 +162,21 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
   paths.output = job.folder + "/" + candidate.name + ".png";
   std::vector<double> seconds;
   FrameResult result;
-  constexpr int runs = 3;
-  for (int run = 0; run < runs; ++run) {
+  for (int run = 0; run < job.runs; ++run) {
     FileRender frame(paths, settings);
     frame.read();
-    frame.render(device, [&](double share) { progress((run + share) / runs); });
+    frame.render(device, [&](double share) { progress((run + share) / job.runs); });
     result = frame.write();
     // What is expected tells a target's search how to go on.
     const double search = candidate.target_db ? result.report.predict_seconds : 0;
     seconds.push_back(result.report.render_seconds + search);
   }
   std::sort(seconds.begin(), seconds.end());
+  const double median = seconds[seconds.size() / 2];
   TradePoint point{candidate.name,
                    command_of(job, candidate),
-                   seconds[1],
-                   (seconds[2] - seconds[0]) / seconds[1],
+                   median,
+                   (seconds.back() - seconds.front()) / median,
                    result.report.expected,
                    {}};
   if (truth) point.true_db = true_db_of(*truth, result);
@@ -225,6 +230,9 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
     }
   }
   validate(job.settings.method, {false, false, job.target_db});
+  if (job.runs < 1 || job.runs > most_runs) {
+    fail(ErrorKind::usage, "--runs is {}: it must be 1 to {}", job.runs, most_runs);
+  }
   check_lens(job, {std::nullopt});
   check_files(job, all);
   const FrameReport input = inspect_file(job.paths, settings_at(job, std::nullopt));

@@ -41,9 +41,10 @@ class TradeCommand : public testing::Test {
 };
 
 TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
-  const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens);
+  const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens);  // 3 runs
   ASSERT_EQ(result.code, 0) << result.err;
   const json trade = json::parse(result.out);
+  EXPECT_GT(named(trade, "normal")["spread"], 0.0);
   const std::map<std::string, std::string> options{{"preview", "preview"},
                                                    {"draft", "draft"},
                                                    {"draft-13", "draft --rdb 13"},
@@ -73,10 +74,11 @@ TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
 
 /// The dial among what it chooses from: its picture, and the time of its search, too.
 TEST_F(TradeCommand, ATargetIsAPointOfItsOwn) {
-  const std::string command = "trade pinhole.exr -o t --json --target-db 26" + lens;
+  const std::string command = "trade pinhole.exr -o t --runs 1 --json --target-db 26" + lens;
   const json trade = json::parse(defray(folder, command).out);
   const json point = named(trade, "target");
   EXPECT_GE(point["expected_db"], 26);
+  EXPECT_EQ(point["spread"], 0.0);  // of one run
   std::string by_hand = point["command"];
   EXPECT_EQ(by_hand,
             "defray render pinhole.exr --camera camera.json --focus-setting bg -o t/target.exr "
@@ -88,7 +90,7 @@ TEST_F(TradeCommand, ATargetIsAPointOfItsOwn) {
 
 TEST_F(TradeCommand, ACutOutsLensSpansItsFrame) {
   const auto db = [&](const std::string& options) {
-    const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens + options);
+    const Result result = defray(folder, "trade pinhole.exr -o t --runs 1 --json" + lens + options);
     EXPECT_EQ(result.code, 0) << result.err;
     const json point = json::parse(result.out)["points"][0];
     EXPECT_NE(point["command"].get<std::string>().find(options), std::string::npos) << point;
@@ -99,24 +101,26 @@ TEST_F(TradeCommand, ACutOutsLensSpansItsFrame) {
 
 TEST_F(TradeCommand, NotesOnTheInputAreSaid) {
   const Result result =
-      defray(folder, "trade pinhole.exr -o t --focus 90 --fstop 2 --focal-length 50");
+      defray(folder, "trade pinhole.exr -o t --runs 1 --focus 90 --fstop 2 --focal-length 50");
   expect_ok(result);
   EXPECT_NE(result.err.find("defray: note: focus 90 lies outside all depths"), std::string::npos)
       << result.err;
-  EXPECT_EQ(defray(folder, "trade pinhole.exr -o t -q --focus 90 --fstop 2 --focal-length 50").err,
-            "");
+  EXPECT_EQ(
+      defray(folder, "trade pinhole.exr -o t --runs 1 -q --focus 90 --fstop 2 --focal-length 50")
+          .err,
+      "");
 }
 
 TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
   const std::string truth = " --truth truth_bg.exr";
-  const Result result = defray(folder, "trade pinhole.exr -o t" + truth + lens);
+  const Result result = defray(folder, "trade pinhole.exr -o t --runs 1" + truth + lens);
   ASSERT_EQ(result.code, 0) << result.err;
   for (const char* word : {"preview", "high", "literal", "gather", "linear", "true dB",
                            "recommended, the fastest within 0.5 dB of the best", "t/index.html"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
   }
   const json trade =
-      json::parse(defray(folder, "trade pinhole.exr -o t --json" + truth + lens).out);
+      json::parse(defray(folder, "trade pinhole.exr -o t --runs 1 --json" + truth + lens).out);
   ASSERT_EQ(trade["points"].size(), 10u);
   for (const json& point : trade["points"]) {
     const std::string name = point["picture"];
@@ -127,11 +131,11 @@ TEST_F(TradeCommand, ATruthTellsOfAllMethods) {
     EXPECT_NEAR(compared["psnr_srgb_db"], point["true_db"], 1e-3) << name;
   }
   // The stages' bokeh is not the others'.
-  const json bladed =
-      json::parse(defray(folder, "trade pinhole.exr -o t --json --blades 5" + truth + lens).out);
+  const json bladed = json::parse(
+      defray(folder, "trade pinhole.exr -o t --runs 1 --json --blades 5" + truth + lens).out);
   EXPECT_EQ(bladed["points"].size(), 7u);
   EXPECT_NE(named(bladed, "normal")["true_db"], named(trade, "normal")["true_db"]);
-  EXPECT_EQ(defray(folder, "trade pinhole.exr -o t -q" + lens).out, "");
+  EXPECT_EQ(defray(folder, "trade pinhole.exr -o t --runs 1 -q" + lens).out, "");
 }
 
 TEST_F(TradeCommand, WrongUseIsSaid) {
@@ -139,12 +143,17 @@ TEST_F(TradeCommand, WrongUseIsSaid) {
   expect_refused("lost.exr -o none" + lens, 3, {"lost.exr"});
   expect_refused("pinhole.exr -o none --truth lost.exr" + lens, 3, {"lost.exr"});
   expect_refused("pinhole.exr -o none --target-db 0" + lens, 2, {"--target-db is 0"});
+  for (const std::string runs : {"0", "1001"}) {
+    expect_refused("pinhole.exr -o none --runs " + runs + lens, 2,
+                   {"--runs is " + runs + ": it must be 1 to 1000"});
+  }
   expect_refused("'p.####.exr' -o none" + lens, 2, {"trade takes one picture"});
   expect_refused("pinhole.exr -o none --focus 3", 2, {"focal"});
   expect_refused("pinhole.exr -o none --quality draft" + lens, 2, {"--quality"});
   expect_ok(defray(folder, "scene fence -o small --width 48 --height 32 --truth-samples 1"));
-  expect_refusal(defray(folder, "trade pinhole.exr -o t --truth small/truth_bg.exr" + lens), 3,
-                 {"small/truth_bg.exr", "48x32", "pinhole.exr has 96x64"}, "another size");
+  expect_refusal(
+      defray(folder, "trade pinhole.exr -o t --runs 1 --truth small/truth_bg.exr" + lens), 3,
+      {"small/truth_bg.exr", "48x32", "pinhole.exr has 96x64"}, "another size");
   EXPECT_FALSE(std::filesystem::exists(folder / "t"));
   expect_refused("pinhole.exr -o none --channels Z" + lens, 2, {"--channels"});
   expect_refused("pinhole.exr -o none --focus-frame 2" + lens, 2, {"--focus-frame"});
@@ -154,17 +163,18 @@ TEST_F(TradeCommand, WhatIsReadIsNotWrittenOver) {
   std::filesystem::create_directory(folder / "t");
   for (const std::string name : {"t/trade.png", "t/linear.png", "t/index.html", "t/draft.exr"}) {
     expect_ok(shell(folder, "cp truth_bg.exr " + name));
-    expect_refusal(defray(folder, "trade pinhole.exr -o t --truth " + name + lens), 2,
+    expect_refusal(defray(folder, "trade pinhole.exr -o t --runs 1 --truth " + name + lens), 2,
                    {name + ": is read and would be written"}, name);
   }
   expect_ok(shell(folder, "cp camera.json t/trade.csv"));
-  expect_refusal(defray(folder, "trade pinhole.exr -o t --camera t/trade.csv --focus-setting bg"),
-                 2, {"t/trade.csv: is read and would be written"}, "camera");
+  expect_refusal(
+      defray(folder, "trade pinhole.exr -o t --runs 1 --camera t/trade.csv --focus-setting bg"), 2,
+      {"t/trade.csv: is read and would be written"}, "camera");
 }
 
 TEST_F(TradeCommand, TruthsThatAreEqualOrNoNumbers) {
   const std::string sharp = " --focus 3 --aperture-diameter 0 --focal-length 50 --truth ";
-  const Result equal = defray(folder, "trade pinhole.exr -o t" + sharp + "pinhole.exr");
+  const Result equal = defray(folder, "trade pinhole.exr -o t --runs 1" + sharp + "pinhole.exr");
   EXPECT_EQ(equal.code, 0) << equal.err;
   EXPECT_NE(equal.out.find("equal"), std::string::npos) << equal.out;
   Plane plane(96 * 64, 0.5f);
@@ -183,8 +193,8 @@ TEST_F(TradeCommand, ATruthOfAPartIsComparedThere) {
   spec.x = 30, spec.y = 20, spec.full_x = spec.full_y = 0;
   spec.full_width = 96, spec.full_height = 64;
   cut.write(folder / "part.exr");
-  const json trade =
-      json::parse(defray(folder, "trade pinhole.exr -o t --json --truth part.exr" + lens).out);
+  const json trade = json::parse(
+      defray(folder, "trade pinhole.exr -o t --runs 1 --json --truth part.exr" + lens).out);
   expect_ok(defray(folder, "render pinhole.exr -o out.exr --quality draft" + lens));
   const json there =
       json::parse(defray(folder, "compare out.exr truth_bg.exr --crop 30x20+30+20 --json").out);
@@ -205,9 +215,10 @@ TEST_F(TradeCommand, WhatIsNoTruthOrNoFileIsRefused) {
 TEST_F(TradeCommand, CommandsAreForAShell) {
   expect_ok(shell(folder, "mkdir \"a 'b\"; cp pinhole.exr \"a 'b/in \\$x.exr\""));
   const json trade = json::parse(
-      shell(folder, program() +
-                        " trade \"a 'b/in \\$x.exr\" -o 'o o' --json --eye=display --focus 3 "
-                        "--fstop 1.4 --focal-length 50")
+      shell(folder,
+            program() +
+                " trade \"a 'b/in \\$x.exr\" -o 'o o' --runs 1 --json --eye=display --focus 3 "
+                "--fstop 1.4 --focal-length 50")
           .out);
   for (const json& point : trade["points"]) {
     const std::string command = point["command"];
@@ -233,9 +244,9 @@ TEST_F(TradeCommand, ATruthsLayerIsTheInputs) {
                          Sample::single_float)
       .write(folder / "in.exr");
   const json layered = json::parse(
-      defray(folder, "trade in.exr -o t --json --layer a --truth layers.exr" + lens).out);
-  const json plain =
-      json::parse(defray(folder, "trade pinhole.exr -o t --json --truth truth_bg.exr" + lens).out);
+      defray(folder, "trade in.exr -o t --runs 1 --json --layer a --truth layers.exr" + lens).out);
+  const json plain = json::parse(
+      defray(folder, "trade pinhole.exr -o t --runs 1 --json --truth truth_bg.exr" + lens).out);
   EXPECT_NEAR(named(layered, "normal")["true_db"], named(plain, "normal")["true_db"], 0.01);
   expect_refused("in.exr -o none --layer b --truth lost.exr" + lens, 3, {"lost.exr"});
 }
