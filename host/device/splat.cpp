@@ -14,18 +14,18 @@ constexpr std::size_t list_bytes = std::size_t{64} << 20;
 
 }  // namespace
 
-std::vector<DefraySplat> DeviceBackend::splat_project(const std::vector<DefraySplatNode>& nodes,
-                                                      const DefraySplatParams& params) {
+Values<DefraySplat> DeviceBackend::splat_project(const Values<DefraySplatNode>& nodes,
+                                                 const DefraySplatParams& params) {
   if (nodes.empty()) return {};
   DefraySplatParams p = params;
   p.count = static_cast<std::uint32_t>(nodes.size());
   Values<DefraySplat> splats;
   const cl::Buffer out = session_.out(splats, nodes.size());
-  session_.launch("splat_project", {nodes.size()}, p, session_.view(nodes), out);
-  return std::move(splats).take();
+  session_.launch("splat_project", {nodes.size()}, p, session_.in(nodes), out);
+  return splats;
 }
 
-SplatPlanes DeviceBackend::splat_resolve(const std::vector<DefraySplat>& splats,
+SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
                                          const DefraySplatParams& params,
                                          const Progress& progress) {
   const std::uint32_t tiles_x = (params.width + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
@@ -35,8 +35,7 @@ SplatPlanes DeviceBackend::splat_resolve(const std::vector<DefraySplat>& splats,
   std::array<cl::Buffer, 4> colour;
   for (std::size_t c = 0; c < 4; ++c) colour[c] = session_.out(planes[c], pixels);
   const cl::Buffer depth = session_.out(planes[4], pixels), count = session_.out(planes[5], pixels);
-  const std::vector<DefraySplat> one(1);  // a buffer holds something
-  const cl::Buffer in = session_.view(splats.empty() ? one : splats);
+  const cl::Buffer in = session_.in(splats);
   const auto counts = splats_a_tile(splats, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
   const std::size_t most = std::min(list_bytes, session_.memory_bytes()) / sizeof(std::uint32_t);
   for (std::uint32_t tile = 0; tile < counts.size();) {

@@ -137,8 +137,8 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
 
 }  // namespace
 
-std::vector<DefraySplat> TwinBackend::splat_project(const std::vector<DefraySplatNode>& nodes,
-                                                    const DefraySplatParams& params) {
+Values<DefraySplat> TwinBackend::splat_project(const Values<DefraySplatNode>& nodes,
+                                               const DefraySplatParams& params) {
   std::vector<DefraySplat> splats;
   splats.reserve(nodes.size());
   for (const DefraySplatNode& node : nodes) splats.push_back(project(params, node));

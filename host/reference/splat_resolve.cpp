@@ -71,7 +71,7 @@ float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) 
 
 }  // namespace
 
-SplatPlanes TwinBackend::splat_resolve(const std::vector<DefraySplat>& splats,
+SplatPlanes TwinBackend::splat_resolve(const Values<DefraySplat>& splats,
                                        const DefraySplatParams& p, const Progress& progress) {
   std::vector<Pixel> pixels(std::size_t{p.width} * p.height);
   for (std::size_t i = 0; i < splats.size(); ++i) {

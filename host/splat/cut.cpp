@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "base/parallel.h"
+#include "base/plane.h"
 #include "base/vec3.h"
 #include "splat/view.h"
 
@@ -72,29 +76,84 @@ class View {
   const DefraySplatParams& p_;
 };
 
-}  // namespace
+/// So many halvings down the parts begin that threads take: 64 parts.
+constexpr int levels_above_parts = 6;
 
-std::vector<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySplatParams& view,
-                                           bool lod) {
-  const View camera(view);
+/// A part of the hierarchy and what is drawn of it.
+struct Part {
+  std::uint32_t first, end;  ///< Nodes.
   std::vector<DefraySplatNode> cut;
-  for (std::uint32_t i = 0; i < tree.nodes.size();) {
-    const HierarchyNode& node = tree.nodes[i];
-    const SeenNode seen = camera.see(node);
-    if (camera.is_outside(seen)) {
-      i = node.next;
-    } else if (lod && camera.is_small(seen, node)) {
-      cut.push_back(node.splat);
-      i = node.next;
-    } else if (tree.is_leaf(i)) {
-      cut.insert(cut.end(), tree.points.begin() + node.first_point,
-                 tree.points.begin() + node.end_point);
-      i = node.next;
-    } else {
-      ++i;
+};
+
+class Cut {
+ public:
+  Cut(const Hierarchy& tree, const DefraySplatParams& view, bool lod)
+      : tree_(tree), camera_(view), lod_(lod) {}
+
+  /// In the hierarchy's order.
+  void collect(std::uint32_t node, int levels, std::vector<Part>& parts) const {
+    const HierarchyNode& n = tree_.nodes[node];
+    const SeenNode seen = camera_.see(n);
+    if (camera_.is_outside(seen)) return;
+    if (levels == 0 || tree_.is_leaf(node) || stands_for_all(seen, n)) {
+      parts.push_back({node, n.next, {}});
+      return;
+    }
+    collect(node + 1, levels - 1, parts);
+    collect(tree_.nodes[node + 1].next, levels - 1, parts);
+  }
+
+  void draw(Part& part) const {
+    for (std::uint32_t i = part.first; i < part.end;) {
+      const HierarchyNode& node = tree_.nodes[i];
+      const SeenNode seen = camera_.see(node);
+      if (camera_.is_outside(seen)) {
+        i = node.next;
+      } else if (stands_for_all(seen, node)) {
+        part.cut.push_back(node.splat);
+        i = node.next;
+      } else if (tree_.is_leaf(i)) {
+        part.cut.insert(part.cut.end(), tree_.points.begin() + node.first_point,
+                        tree_.points.begin() + node.end_point);
+        i = node.next;
+      } else {
+        ++i;
+      }
     }
   }
-  return cut;
+
+ private:
+  bool stands_for_all(const SeenNode& seen, const HierarchyNode& node) const {
+    return lod_ && camera_.is_small(seen, node);
+  }
+
+  const Hierarchy& tree_;
+  const View camera_;
+  const bool lod_;
+};
+
+}  // namespace
+
+Values<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySplatParams& view,
+                                      bool lod) {
+  const Cut cut(tree, view, lod);
+  std::vector<Part> parts;
+  if (!tree.nodes.empty()) cut.collect(0, levels_above_parts, parts);
+  const int count = static_cast<int>(parts.size());
+  parallel_for(count, [&](int i) { cut.draw(parts[size(i)]); });
+  std::vector<std::size_t> place;
+  std::size_t all = 0;
+  for (const Part& part : parts) {
+    place.push_back(all);
+    all += part.cut.size();
+  }
+  auto nodes = Values<DefraySplatNode>::room(all);
+  const std::span<DefraySplatNode> to = nodes.edit();
+  parallel_for(count, [&](int i) {
+    std::copy(parts[size(i)].cut.begin(), parts[size(i)].cut.end(),
+              to.begin() + static_cast<std::ptrdiff_t>(place[size(i)]));
+  });
+  return nodes;
 }
 
 }  // namespace defray

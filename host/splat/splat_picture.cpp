@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 #include "splat/cut.h"
@@ -12,8 +13,7 @@
 namespace defray {
 namespace {
 
-void describe(const std::vector<DefraySplat>& splats, const DefraySplatParams& p,
-              SplatReport& report) {
+void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, SplatReport& report) {
   report.seen = splats.size();
   if (splats.empty()) return;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
@@ -28,19 +28,20 @@ void describe(const std::vector<DefraySplat>& splats, const DefraySplatParams& p
 }
 
 /// The share of nodes whose normals point away from the camera.
-double share_from_behind(const std::vector<DefraySplatNode>& nodes, const DefraySplatParams& p) {
+double share_from_behind(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p) {
   const auto is_away = [&](const DefraySplatNode& n) {
     const Vec3 from_eye = Vec3{n.x, n.y, n.z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
     return dot({n.area_x, n.area_y, n.area_z}, from_eye) >= 0;
   };
-  const auto count = std::count_if(nodes.begin(), nodes.end(), is_away);
+  const std::size_t count =
+      parallel_count(nodes.size(), [&](std::size_t i) { return is_away(nodes.begin()[i]); });
   return nodes.empty() ? 0 : static_cast<double>(count) / static_cast<double>(nodes.size());
 }
 
-void make_transparent(std::vector<DefraySplatNode>& nodes, double transparency) {
+void make_transparent(Values<DefraySplatNode>& nodes, double transparency) {
   if (transparency == 0) return;
   const auto kept = static_cast<float>(1 - transparency);
-  for (DefraySplatNode& n : nodes) {
+  for (DefraySplatNode& n : nodes.edit()) {
     for (float* value : {&n.r, &n.g, &n.b, &n.a}) *value *= kept;
   }
 }
@@ -75,12 +76,13 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   Stopwatch watch;
   const auto done = [&](const char* stage) { report.stages.push_back({stage, watch.lap()}); };
   report.points = tree.points.size();
-  std::vector<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
+  Values<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
   make_transparent(nodes, transparency);
   report.drawn = nodes.size();
   if (params.one_sided) report.from_behind = share_from_behind(nodes, params);
   done("cut");
-  std::vector<DefraySplat> splats = backend.splat_project(nodes, params);
+  Values<DefraySplat> splats = backend.splat_project(nodes, params);
+  splats.host();  // once the kernel has made them
   done("project");
   splats = in_order(splats);
   describe(splats, params, report);

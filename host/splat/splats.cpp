@@ -1,8 +1,11 @@
 #include "splat/splats.h"
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <utility>
+#include <numeric>
+#include <span>
+
+#include "base/parallel.h"
 
 namespace defray {
 namespace {
@@ -18,23 +21,45 @@ void for_each_tile(const DefraySplat& s, int tiles_x, const Visit& visit) {
   }
 }
 
+struct DepthKey {
+  std::uint32_t depth;  ///< A float's bits: depths are above 0, and in the order of their values.
+  std::uint32_t index;
+};
+
+/// By depth, equal ones as they are: digit by digit, the last first. With it `in_order` takes 0.55
+/// to 0.6 of the time with std::sort (a quarter of a million to four million splats).
+void sort(std::vector<DepthKey>& keys) {
+  constexpr int digit = 11;
+  std::vector<DepthKey> other(keys.size());
+  for (int shift = 0; shift < 32; shift += digit) {
+    const auto digit_of = [&](const DepthKey& key) {
+      return key.depth >> shift & ((1u << digit) - 1);
+    };
+    std::array<std::uint32_t, 1 << digit> place{};
+    for (const DepthKey& key : keys) ++place[digit_of(key)];
+    std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
+    for (const DepthKey& key : keys) other[place[digit_of(key)]++] = key;
+    keys.swap(other);
+  }
+}
+
 }  // namespace
 
-std::vector<DefraySplat> in_order(const std::vector<DefraySplat>& splats) {
-  // Depths are above 0: their bits are in the order of their values.
-  std::vector<std::uint64_t> keys;
-  for (std::uint32_t i = 0; i < splats.size(); ++i) {
-    if (!has_pixels(splats[i])) continue;
-    keys.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(splats[i].z_near)} << 32 | i);
+Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
+  const std::span<const DefraySplat> all = splats.host();
+  std::vector<DepthKey> keys;
+  keys.reserve(all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (has_pixels(all[i])) keys.push_back({std::bit_cast<std::uint32_t>(all[i].z_near), i});
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<DefraySplat> sorted;
-  sorted.reserve(keys.size());
-  for (const std::uint64_t key : keys) sorted.push_back(splats[key & 0xffffffffu]);
+  sort(keys);
+  auto sorted = Values<DefraySplat>::room(keys.size());
+  const std::span<DefraySplat> to = sorted.edit();
+  parallel_for_each(keys.size(), [&](std::size_t i) { to[i] = all[keys[i].index]; });
   return sorted;
 }
 
-std::vector<std::uint32_t> splats_a_tile(const std::vector<DefraySplat>& splats, int tiles_x,
+std::vector<std::uint32_t> splats_a_tile(const Values<DefraySplat>& splats, int tiles_x,
                                          int tiles_y) {
   std::vector<std::uint32_t> counts(size(tiles_x) * size(tiles_y));
   for (const DefraySplat& s : splats) {
@@ -43,9 +68,8 @@ std::vector<std::uint32_t> splats_a_tile(const std::vector<DefraySplat>& splats,
   return counts;
 }
 
-SplatTiles next_tiles(const std::vector<DefraySplat>& splats,
-                      const std::vector<std::uint32_t>& counts, int tiles_x,
-                      std::uint32_t first_tile, std::size_t most) {
+SplatTiles next_tiles(const Values<DefraySplat>& splats, const std::vector<std::uint32_t>& counts,
+                      int tiles_x, std::uint32_t first_tile, std::size_t most) {
   SplatTiles tiles{first_tile, 0, {0}, {}};
   std::size_t entries = 0;
   while (first_tile + tiles.tile_count < counts.size()) {
@@ -57,8 +81,9 @@ SplatTiles next_tiles(const std::vector<DefraySplat>& splats,
   }
   tiles.list.resize(entries);
   std::vector<std::uint32_t> next(tiles.first.begin(), tiles.first.end() - 1);
+  const std::span<const DefraySplat> all = splats.host();
   for (std::uint32_t i = 0; i < splats.size(); ++i) {
-    for_each_tile(splats[i], tiles_x, [&](std::uint32_t tile) {
+    for_each_tile(all[i], tiles_x, [&](std::uint32_t tile) {
       const std::uint32_t t = tile - first_tile;  // wraps round below the first
       if (t < tiles.tile_count) tiles.list[next[t]++] = i;
     });

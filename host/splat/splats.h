@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "frame/values.h"
 #include "kernels/splat_params.h"
 
 namespace defray {
@@ -16,10 +17,10 @@ struct SplatPlanes {
 
 /// Those that have pixels, in the order in which `splat_resolve` takes them: by z_near, equal ones
 /// as they were.
-std::vector<DefraySplat> in_order(const std::vector<DefraySplat>& splats);
+Values<DefraySplat> in_order(const Values<DefraySplat>& splats);
 
 /// Tiles one after the other, row by row: how many splats meet each.
-std::vector<std::uint32_t> splats_a_tile(const std::vector<DefraySplat>& splats, int tiles_x,
+std::vector<std::uint32_t> splats_a_tile(const Values<DefraySplat>& splats, int tiles_x,
                                          int tiles_y);
 
 /// A group of tiles and the splats that meet each.
@@ -31,8 +32,7 @@ struct SplatTiles {
 
 /// The next tiles from `first_tile` on whose list has no more than `most` entries, but one tile at
 /// least.
-SplatTiles next_tiles(const std::vector<DefraySplat>& splats,
-                      const std::vector<std::uint32_t>& counts, int tiles_x,
-                      std::uint32_t first_tile, std::size_t most);
+SplatTiles next_tiles(const Values<DefraySplat>& splats, const std::vector<std::uint32_t>& counts,
+                      int tiles_x, std::uint32_t first_tile, std::size_t most);
 
 }  // namespace defray

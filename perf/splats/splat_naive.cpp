@@ -66,7 +66,7 @@ __kernel void resolve(const DefraySplatParams p, __global const DefraySplat* spl
 )CLC";
 
 /// Upper bound of the fragments: all boxes.
-std::size_t fragments_of(const std::vector<DefraySplat>& splats) {
+std::size_t fragments_of(const Values<DefraySplat>& splats) {
   std::size_t count = 1;
   for (const DefraySplat& s : splats) {
     count += size(s.end_x - s.first_x) * size(s.end_y - s.first_y);
@@ -86,7 +86,7 @@ NaiveSplats::NaiveSplats(const DeviceInfo& info)
       queue_(context_, info.device, CL_QUEUE_PROFILING_ENABLE),
       program_(context_, kernel_source({"splat/splat_project.cl"}, {}) + source, true) {}
 
-std::vector<Plane> NaiveSplats::draw(const std::vector<DefraySplat>& splats,
+std::vector<Plane> NaiveSplats::draw(const Values<DefraySplat>& splats,
                                      const DefraySplatParams& params, int repetitions,
                                      double& seconds) {
   DefraySplatParams p = params;
@@ -96,7 +96,8 @@ std::vector<Plane> NaiveSplats::draw(const std::vector<DefraySplat>& splats,
     return cl::Buffer(context_, CL_MEM_READ_WRITE, bytes);
   };
   const cl::Buffer in(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
-                      splats.size() * sizeof(DefraySplat), const_cast<DefraySplat*>(splats.data()));
+                      splats.size() * sizeof(DefraySplat),
+                      const_cast<DefraySplat*>(splats.begin()));
   const cl::Buffer heads = buffer(pixels * 4), next = buffer(most * 4), splat_of = buffer(most * 4);
   const cl::Buffer weights = buffer(most * 4), out = buffer(pixels * 16), count = buffer(4);
   cl::Kernel rasterise(program_, "rasterise"), resolve(program_, "resolve");

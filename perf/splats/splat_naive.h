@@ -12,7 +12,7 @@ class NaiveSplats {
 
   /// R G B A of splats in order, and the seconds on the device, the best of `repetitions`. Throws
   /// Error(internal) where a pixel has more fragments than fit.
-  std::vector<Plane> draw(const std::vector<DefraySplat>& splats, const DefraySplatParams& params,
+  std::vector<Plane> draw(const Values<DefraySplat>& splats, const DefraySplatParams& params,
                           int repetitions, double& seconds);
 
  private:

@@ -1,12 +1,15 @@
 // The tree of a point cloud, and what a view takes of it.
 #include "splat/hierarchy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "base/random.h"
 #include "base/vec3.h"
 #include "splat/cut.h"
+#include "splat/splats.h"
 #include "splat/view.h"
 #include "support.h"
 
@@ -126,7 +129,7 @@ DefraySplatParams view(int side, double distance, double focus, double aperture_
   return splat_params(pose, {}, lens, settings);
 }
 
-double area_of(const std::vector<DefraySplatNode>& cut) {
+double area_of(const Values<DefraySplatNode>& cut) {
   double area = 0;
   for (const DefraySplatNode& n : cut) area += n.area_z;
   return area;
@@ -150,6 +153,33 @@ TEST(Cut, IsAsFineAsPixelsOrBlurAskFor) {
   DefraySplatParams discs = blurred;
   discs.has_discs = 1;
   EXPECT_GT(cut_hierarchy(tree, discs, true).size(), coarse.size());
+}
+
+TEST(Cut, KeepsTheHierarchysOrder) {
+  const Hierarchy tree = grid();
+  const auto all = cut_hierarchy(tree, view(58, 4, 4, 0), false);
+  ASSERT_EQ(all.size(), tree.points.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ASSERT_TRUE(all[i].x == tree.points[i].x && all[i].y == tree.points[i].y) << i;
+  }
+}
+
+TEST(Splats, AreInOrderOfDepthEqualOnesAsTheyWere) {
+  std::vector<DefraySplat> splats(20000);
+  std::mt19937 random(5);
+  for (std::size_t i = 0; i < splats.size(); ++i) {
+    splats[i].z_near = std::ldexp(1.0f + static_cast<float>(random() % 3000) / 3000,
+                                  static_cast<int>(random() % 60) - 30);
+    splats[i].x = static_cast<float>(i);
+    splats[i].end_x = splats[i].end_y = i % 5 == 0 ? 0 : 1;  // a fifth has no pixels
+  }
+  const auto sorted = in_order(splats);
+  std::erase_if(splats, [](const DefraySplat& s) { return s.end_x == 0; });
+  std::stable_sort(splats.begin(), splats.end(),
+                   [](const auto& a, const auto& b) { return a.z_near < b.z_near; });
+  ASSERT_EQ(sorted.size(), splats.size());
+  for (std::size_t i = 0; i < splats.size(); ++i) ASSERT_EQ(sorted[i].x, splats[i].x) << i;
+  EXPECT_TRUE(in_order(std::vector<DefraySplat>()).empty());
 }
 
 TEST(Cut, LeavesOutWhatCannotBeSeen) {

@@ -130,7 +130,7 @@ TEST(SplatResolve, DiscsAreEvenAndHoldTheirLight) {
 }
 
 /// Splats of all sizes over a picture of this size.
-std::vector<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
+Values<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
   std::vector<DefraySplatNode> nodes;
   for (int i = 0; i < count; ++i) {
     Random random(i, 5, seed);
