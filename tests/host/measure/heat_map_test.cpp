@@ -62,6 +62,18 @@ TEST_F(HeatMapPicture, IsLighterTheSmallerTheValue) {
   EXPECT_DOUBLE_EQ(brightness(p, 1, 1), 3);                   // not measured: white
 }
 
+TEST_F(HeatMapPicture, LabelsAreBlackOnWhite) {
+  const LdrPicture p = drawn();
+  float darkest = 1;
+  for (std::size_t i = 0; i < size(top) * size(p.width); ++i) {
+    darkest = std::min(darkest, p.planes[0][i]);
+    ASSERT_EQ(p.planes[1][i], p.planes[0][i]);
+    ASSERT_EQ(p.planes[2][i], p.planes[0][i]);
+  }
+  EXPECT_LT(darkest, 0.02f);  // thin lines
+  EXPECT_EQ(p.planes[0][0], 1);
+}
+
 TEST_F(HeatMapPicture, FramesTheSmallestAlone) {
   const LdrPicture p = drawn();
   for (int row = 0; row < 2; ++row) {
