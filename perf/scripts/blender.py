@@ -8,6 +8,7 @@ blender); without it it says so and is done.
 """
 import argparse
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -22,9 +23,11 @@ CAMERA = PROJECT / "cli/blender/defray_camera.py"
 
 
 def run(folder, *command):
-    done = subprocess.run([str(c) for c in command], cwd=folder, capture_output=True, text=True)
+    # Blender takes relative names from PWD.
+    done = subprocess.run([str(c) for c in command], cwd=folder, env={**os.environ, "PWD": folder},
+                          capture_output=True, text=True)
     if done.returncode:
-        sys.exit(f"{command[0]}: {done.stderr.strip()}")
+        sys.exit(f"{command[0]}: {done.stderr.strip() or done.stdout.strip()}")
     return done.stdout
 
 

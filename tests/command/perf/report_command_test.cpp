@@ -127,6 +127,33 @@ TEST_F(ReportCommand, MeasuresEveryTableWhoseMarkersStandThere) {
   EXPECT_NE(table_in("a.md", "speed").find("| scalar twin, one thread | "), std::string::npos);
 }
 
+TEST_F(ReportCommand, ScriptsPutTheirTablesBetweenTheirMarkers) {
+  SKIP_UNLESS_FULL();
+  std::ofstream(folder / "own.py") << "import sys\n"
+                                      "sys.path.insert(0, '" DEFRAY_SOURCE_DIR
+                                      "/perf/scripts')\n"
+                                      "from table import Table\n"
+                                      "table = Table('what', 'how much')\n"
+                                      "table.row('one', '1')\n"
+                                      "table.update(sys.argv[1], 'own.py')\n";
+  const std::string rows = "| what | how much |\n|---|---|\n| one | 1 |\n";
+  write("a.md", "Before\n" + marked("own.py", "old\n") + marked("speed", "kept\n") + "After\n");
+  const Result result = shell(folder, "python3 own.py a.md");
+  expect_ok(result);
+  EXPECT_EQ(result.out, rows);
+  EXPECT_EQ(text_of("a.md"),
+            "Before\n" + marked("own.py", rows) + marked("speed", "kept\n") + "After\n");
+  // Those of scripts are no tables of `report`'s, nor the other way round.
+  expect_refused("--update a.md --table own.py", 2, {"unknown table 'own.py'"});
+  write("b.md", marked("speed"));
+  const Result none = shell(folder, "python3 own.py b.md");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.err,
+            "b.md: has no markers '<!-- own.py:begin -->' and '<!-- own.py:end -->' around one "
+            "place\n");
+  EXPECT_EQ(text_of("b.md"), marked("speed"));
+}
+
 TEST_F(ReportCommand, RefusesWhatItCannotDo) {
   write("a.md", "# Title\n");
   expect_refused("--update a.md", 3, {"a.md", "has no markers", "accuracy"});
