@@ -100,16 +100,4 @@ struct Frame {
 float no_fragment();
 bool is_fragment(float depth);
 
-/// The picture's part of a plane of one layer.
-template <typename T>
-std::vector<T> cropped(std::span<const T> plane, const Frame& f) {
-  std::vector<T> out;
-  out.reserve(size(f.width - 2 * f.margin) * size(f.height - 2 * f.margin));
-  for (int y = f.margin; y < f.height - f.margin; ++y) {
-    const auto row = plane.begin() + static_cast<std::ptrdiff_t>(y) * f.width;
-    out.insert(out.end(), row + f.margin, row + f.width - f.margin);
-  }
-  return out;
-}
-
 }  // namespace defray

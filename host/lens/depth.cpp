@@ -11,8 +11,6 @@ namespace defray {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double largest_half = 65504;
-constexpr double far_away = 1e9;
 /// Where a range begins at the camera, its 0 is as near as a float can be.
 constexpr double nearest_float = std::numeric_limits<float>::min();
 /// 1/z of a denormal lies farther than floats go: background too.

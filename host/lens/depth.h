@@ -9,6 +9,10 @@
 
 namespace defray {
 
+/// Stored depths that mean background, where nothing else is said: renderers write the largest half
+/// float, or more than any scene has.
+inline constexpr double largest_half = 65504, far_away = 1e9;
+
 /// Whether a stored finite number says that there is nothing.
 bool is_background(double stored, const DepthSettings& settings);
 

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "base/error.h"
+#include "lens/depth.h"
 
 namespace defray {
 namespace {
-
-constexpr double background_from = 1e9, half_background = 65504;
 
 DepthCandidate candidate_of(const ImageFile& file, const ChannelName& channel) {
   DepthCandidate d{channel, is_mist(channel)};
@@ -19,8 +18,7 @@ DepthCandidate candidate_of(const ImageFile& file, const ChannelName& channel) {
   d.largest = -d.smallest;
   for (const float value : values) {
     const auto z = static_cast<double>(value);
-    if (!std::isfinite(z) || std::fabs(z) >= background_from || std::fabs(z) == half_background ||
-        z == 0) {
+    if (!std::isfinite(z) || std::fabs(z) >= far_away || std::fabs(z) == largest_half || z == 0) {
       ++d.background;
       continue;
     }

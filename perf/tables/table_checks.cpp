@@ -103,7 +103,7 @@ Figures measure_validation(TableBench& b) {
     const DeviceResult& d = results.back();
     figures.table.rows.push_back(
         {fmt::format("{} {}: {}", d.platform, driver_of(d.version), d.device), result_of(d),
-         fmt::format("{} of {} kernels", count_equal(d, results[0]), d.kernels.size()),
+         fmt::format("{} of {} checks", count_equal(d, results[0]), d.kernels.size()),
          fmt::format("{:.0f} s", seconds)});
   }
   return figures;

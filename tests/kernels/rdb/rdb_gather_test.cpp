@@ -12,6 +12,17 @@
 namespace defray::test::rdb_gather_test {
 namespace {
 
+/// The picture's part of a plane of one layer.
+template <typename T>
+std::vector<T> cropped(std::span<const T> plane, const Frame& f) {
+  std::vector<T> out;
+  for (int y = f.margin; y < f.height - f.margin; ++y) {
+    const auto row = plane.begin() + static_cast<std::ptrdiff_t>(y) * f.width;
+    out.insert(out.end(), row + f.margin, row + f.width - f.margin);
+  }
+  return out;
+}
+
 RayResult rays(Backend& backend, const Frame& f, RayPlan plan, RaysBy by) {
   plan.by = by;
   return backend.rays(f, plan);
