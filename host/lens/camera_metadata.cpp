@@ -1,5 +1,6 @@
 #include "lens/camera_metadata.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -14,6 +15,8 @@ namespace {
 constexpr double degrees_in_radian = 180 / std::numbers::pi;
 /// Fields of view are below this.
 constexpr double half_turn_deg = 180;
+/// How far off a frame's middle the optical axis may lie, NDC.
+constexpr double largest_shift = 0.25;
 /// V-Ray's distance to a target that the camera has not.
 constexpr double no_distance = 1e17;
 
@@ -31,7 +34,8 @@ bool is_fov(const CameraAttribute& a) { return a.field == std::string("fov_deg")
 
 /// The field of view, degrees, of a camera with this projection; empty where it is none of a
 /// perspective camera. OpenEXR's worldToNDC goes from 0 to 1 over the frame, that of RenderMan and
-/// others from -1 to 1: what the optical axis is nearer to, the one's middle or the other's, tells.
+/// others from -1 to 1: where the optical axis lies tells, in the one's middle or the other's, or
+/// beside it by a shifted lens; none in between.
 std::optional<double> fov_of(const Matrix4& world_to_ndc) {
   const auto column = [&](std::size_t i) {
     const auto at = [&](std::size_t j) { return static_cast<double>(world_to_ndc[4 * j + i]); };
@@ -44,7 +48,9 @@ std::optional<double> fov_of(const Matrix4& world_to_ndc) {
   const double x = dot(column(0), axis) / squared, y = dot(column(1), axis) / squared;
   const Vec3 across = column(0) - axis * x;
   const double focal = std::sqrt(dot(across, across) / squared);  // NDC per unit at distance 1
-  const double half_width = std::hypot(x, y) < std::hypot(x - 0.5, y - 0.5) ? 1 : 0.5;
+  const double to_zero = std::hypot(x, y), to_half = std::hypot(x - 0.5, y - 0.5);
+  if (!(std::min(to_zero, to_half) < largest_shift)) return std::nullopt;
+  const double half_width = to_zero < to_half ? 1 : 0.5;
   const double fov_deg = 2 * std::atan(half_width / focal) * degrees_in_radian;
   return fov_deg > 0 && fov_deg < half_turn_deg ? std::optional(fov_deg) : std::nullopt;
 }
@@ -87,16 +93,12 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"focal_length_mm", "Exif:FocalLength", 1, "EXIF"},
       {"focal_length_mm", "nominalFocalLength", 1, "OpenEXR"},
       {"focal_length_mm", "pinholeFocalLength", 1, "OpenEXR"},
-      {"focal_length_mm", "exr/nuke/camera/focal", 1, "Nuke"},
       {"focal_length_mm", "nuke/camera/focal", 1, "Nuke"},
       {"focal_length_mm", "cameraFocalLength", 1, "V-Ray, Arnold"},
-      {"focal_length_mm", "vray/cameraFocalLength", 1, "V-Ray"},
       {"focal_length_mm", "IFM_focalLength", 1, "Iray"},
       {"focal_length_mm", "Lens", 1, "Blender"},
-      {"sensor_width_mm", "exr/nuke/camera/haperture", 1, "Nuke"},
       {"sensor_width_mm", "nuke/camera/haperture", 1, "Nuke"},
       {"sensor_width_mm", "cameraAperture", 1, "V-Ray"},
-      {"sensor_width_mm", "vray/cameraAperture", 1, "V-Ray"},
       {"sensor_width_mm", "CameraFilmApertureHorizontal", 1, "Arnold"},
       {"sensor_width_mm", "horizontalAperture", 1, "USD"},
       {"fov_deg", "cameraFov", 1, "V-Ray"},
@@ -108,18 +110,14 @@ const std::vector<CameraAttribute>& camera_attributes() {
       {"fstop", "Exif:FNumber", 1, "EXIF"},
       {"fstop", "aperture", 1, "OpenEXR"},
       {"fstop", "cameraFNumber", 1, "V-Ray"},
-      {"fstop", "vray/cameraFNumber", 1, "V-Ray"},
-      {"fstop", "exr/nuke/camera/fstop", 1, "Nuke"},
       {"fstop", "nuke/camera/fstop", 1, "Nuke"},
       {"fstop", "rs/camera/FStop", 1, "Redshift"},
       {"fstop", "fStop", 1, "USD"},
       {"focus_distance_units", "focus", 0, "OpenEXR"},
       {"focus_distance_units", "Exif:SubjectDistance", 0, "EXIF"},
-      {"focus_distance_units", "exr/nuke/camera/focal_point", 1, "Nuke"},
       {"focus_distance_units", "nuke/camera/focal_point", 1, "Nuke"},
       {"focus_distance_units", "cameraFocusDistance", 1, "V-Ray"},
       {"focus_distance_units", "cameraTargetDistance", 1, "V-Ray"},
-      {"focus_distance_units", "vray/cameraFocusDistance", 1, "V-Ray"},
       {"focus_distance_units", "rs/camera/DOFFocusDistance", 1, "Redshift"},
       {"focus_distance_units", "focusDistance", 1, "USD"},
   };
@@ -128,15 +126,20 @@ const std::vector<CameraAttribute>& camera_attributes() {
 
 std::optional<FoundAttribute> find_attribute(const ImageFile& file,
                                              const CameraAttribute& attribute) {
-  const std::optional<std::string> text = file.metadata_text(attribute.name);
+  std::string name;
+  std::optional<std::string> text;
+  for (const char* before : {"", "exr/", "vray/"}) {
+    if (!text) text = file.metadata_text(name = before + std::string(attribute.name));
+  }
   if (!text) return std::nullopt;
   FoundAttribute found{attribute, *text, {}};
-  if (const auto matrix = file.metadata_matrix(attribute.name)) {
-    if (!is_fov(attribute) || !(found.value = fov_of(*matrix))) return std::nullopt;
-    found.text = fmt::format("{:.6g}", *found.value);
+  if (const auto matrix = file.metadata_matrix(name)) {
+    found.is_matrix = true;
+    if (is_fov(attribute)) found.value = fov_of(*matrix);
+    if (found.value) found.text = fmt::format("{:.6g}", *found.value);
     return found;
   }
-  const std::optional<double> number = file.metadata_number(attribute.name);
+  const std::optional<double> number = file.metadata_number(name);
   if (!number) return found;
   const bool is_focus = attribute.field == std::string("focus_distance_units");
   if (is_focus && *number >= no_distance && !std::isinf(*number)) return std::nullopt;
@@ -158,6 +161,7 @@ CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit,
       if (!found) continue;
       const double value = usable_value(file, *found);
       values.*field = attribute.factor > 0 ? value : value / metres_per_unit;
+      if (found->is_matrix) values.fit = SensorFit::horizontal;
     }
     if (!(values.*field)) values.sought[name] = join(sought, " ");
   }

@@ -17,7 +17,8 @@ struct CameraAttribute {
   const char* written;  ///< By whom.
 };
 
-/// All names that are looked for, the first that is there counts.
+/// All names that are looked for, as they are or behind "exr/" or "vray/"; the first that is there
+/// counts.
 const std::vector<CameraAttribute>& camera_attributes();
 
 /// A value of the lens among the metadata.
@@ -25,6 +26,7 @@ struct FoundAttribute {
   CameraAttribute attribute;
   std::string text;             ///< As stored; of a matrix, what it comes to.
   std::optional<double> value;  ///< Times the factor; empty where it is no number above 0.
+  bool is_matrix = false;       ///< A projection: it says itself which side of the frame it spans.
 };
 
 /// Empty where the file has no such attribute, or it says that there is no such value.

@@ -12,6 +12,8 @@ namespace defray {
 namespace {
 
 constexpr double smallest_seen_px = 0.5;
+/// What lies at a depth may be stored as one that is off by this share: 8 bits of it are.
+constexpr double stored_error = 0.01;
 /// CoC radii above this share of the frame's width, in more than this share of its pixels.
 constexpr double huge_radius = 0.04, huge_share = 0.95;
 
@@ -58,8 +60,11 @@ void note_focus(const Lens& lens, const DepthReport& report, std::vector<std::st
   const bool is_behind =
       begin > report.farthest_units && (report.background == 0 || !std::isinf(begin));
   if (!is_before && !is_behind) return;
+  const double focus = is_before ? end : begin;
+  const double nearest = is_before ? report.nearest_units : report.farthest_units;
+  if (std::fabs(focus - nearest) <= stored_error * nearest) return;
   notes.push_back(fmt::format("focus {:.6g} lies outside all depths, {:.6g} to {:.6g} units: {}",
-                              is_before ? end : begin, report.nearest_units, report.farthest_units,
+                              focus, report.nearest_units, report.farthest_units,
                               "nothing there is sharp; is the unit right?"));
 }
 

@@ -56,9 +56,11 @@ CameraValues before_focus(CameraValues camera) {
 CameraValues camera_of(const ImageFile& file, const RenderSettings& settings) {
   if (!settings.camera_from_metadata) return settings.camera;
   const CameraValues& stated = settings.camera;
-  return camera_from_metadata(file, settings.metres_per_unit,
-                              settings.focus_at ? before_focus(stated) : stated)
-      .overridden_by(stated);
+  const CameraValues found = camera_from_metadata(
+      file, settings.metres_per_unit, settings.focus_at ? before_focus(stated) : stated);
+  CameraValues camera = found.overridden_by(stated);
+  if (found.fit) camera.fit = found.fit;  // it goes with the field of view that was found
+  return camera;
 }
 
 /// Takes the steps out of a depth that was stored in steps, where they would show.

@@ -100,6 +100,11 @@ TEST_F(Metadata, AProjectionGivesTheSensor) {
   const std::string command = "prman.exr -o o.exr " + lens;
   EXPECT_NEAR(report(command + " --camera from-metadata")["sensor_width_mm"], 50, 1e-5);
   EXPECT_NEAR(report(command)["sensor_width_mm"], 36, 1e-5);
+  // It says itself that it is of the width.
+  for (const std::string fit : {"vertical", "auto"}) {
+    EXPECT_NEAR(report(command + " --camera from-metadata --sensor-fit " + fit)["sensor_width_mm"],
+                50, 1e-5);
+  }
   const Result info = defray(folder_, "info prman.exr");
   expect_ok(info);
   for (const std::string words : {"  fov_deg 53.1301 (worldToNDC, OpenEXR, RenderMan)",
@@ -117,7 +122,7 @@ TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
                  {"'cameraFocalLength' = 'long'", "V-Ray"});
   expect_refused("wide.exr -o o.exr --camera from-metadata --fstop 2", 2,
                  {"wide.exr's metadata has no such value, sought as", "focus", "cameraFocalLength",
-                  "exr/nuke/camera/focal"});
+                  "nuke/camera/focal"});
 }
 
 TEST_F(Metadata, WhatNoLensHasIsRefused) {

@@ -129,8 +129,8 @@ TEST(CameraMetadata, ProjectionsSpanFieldsOfView) {
     double left, right, shift;
   } cases[] = {{"OpenEXR's", 0, 1, 0},
                {"RenderMan's", -1, 1, 0},
-               {"OpenEXR's with a shifted lens", 0, 1, -0.6},
-               {"RenderMan's with a shifted lens", -1, 1, 0.3}};
+               {"OpenEXR's with a shifted lens", 0, 1, -0.4},
+               {"RenderMan's with a shifted lens", -1, 1, 0.2}};
   for (const auto& c : cases) {
     const std::vector<float> matrix = projection(tangent, c.left, c.right, c.shift);
     for (const std::string name : {"worldToNDC", "worldToScreen"}) {
@@ -141,7 +141,7 @@ TEST(CameraMetadata, ProjectionsSpanFieldsOfView) {
   }
 }
 
-TEST(CameraMetadata, WhatIsNoProjectionSaysNothing) {
+TEST(CameraMetadata, WhatIsNoProjectionIsRefused) {
   const Folder folder;
   std::vector<float> orthographic(16);
   for (const std::size_t i : {0, 5, 10, 15}) orthographic[i] = 1;
@@ -149,11 +149,41 @@ TEST(CameraMetadata, WhatIsNoProjectionSaysNothing) {
   for (std::size_t i = 0; i < 16; i += 4) flat[i] = 0;
   std::vector<float> broken = projection(0.36, -1, 1, 0);
   broken[3] = NAN;
-  for (const std::vector<float>& matrix : {orthographic, flat, broken, std::vector<float>(16)}) {
-    const CameraValues values = values_of_matrix(folder, "worldToNDC", matrix);
-    EXPECT_FALSE(values.fov_deg);
-    EXPECT_NE(values.sought.at("fov_deg").find("worldToNDC"), std::string::npos);
+  // Neither about the middle of 0 to 1, nor of -1 to 1.
+  const std::vector<float> shifted = projection(0.36, -1, 1, 0.3);
+  for (const std::vector<float>& matrix :
+       {orthographic, flat, broken, shifted, std::vector<float>(16)}) {
+    try {
+      values_of_matrix(folder, "worldToNDC", matrix);
+      ADD_FAILURE() << matrix[0];
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      const std::string text = error.what();
+      EXPECT_NE(text.find("with.exr: its metadata has 'worldToNDC'"), std::string::npos) << text;
+      EXPECT_NE(text.find("below 180 degrees"), std::string::npos) << text;
+    }
   }
+}
+
+TEST(CameraMetadata, NamesCountBehindAPrefix) {
+  const Folder folder;
+  for (const std::string before : {"", "exr/", "vray/"}) {
+    const CameraValues values = values_of(folder, [&](OIIO::ImageSpec& spec) {
+      spec.attribute(before + "focalLength", 35.0f);
+      spec.attribute(before + "cameraFov", 40.0f);
+      spec.attribute(before + "fStop", 2.0f);
+      spec.attribute(before + "cameraTargetDistance", 6.0f);
+    });
+    EXPECT_EQ(values.focal_length_mm, 35) << before;
+    EXPECT_EQ(values.fov_deg, 40) << before;
+    EXPECT_EQ(values.fstop, 2) << before;
+    EXPECT_EQ(values.focus_distance_units, 6) << before;
+    EXPECT_FALSE(values.fit) << before;
+  }
+  const std::vector<float> matrix = projection(1, -1, 1, 0);
+  const CameraValues projected = values_of_matrix(folder, "exr/worldToNDC", matrix);
+  EXPECT_NEAR(projected.fov_deg.value_or(0), 90, 1e-3);
+  EXPECT_EQ(projected.fit, SensorFit::horizontal);
 }
 
 TEST(CameraMetadata, ASensorCountsBesideAProjection) {
