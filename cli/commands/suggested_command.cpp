@@ -45,10 +45,12 @@ std::string lens_options(const FileInfo& info, const PartInfo& part) {
 }  // namespace
 
 std::string suggested_command(const FileInfo& info) {
-  if (!info.colour || info.depth.empty() || info.depth.front().is_mist) return "";
+  if (!info.colour) return "";
+  const bool has_depth = !info.depth.empty() && !info.depth.front().is_mist;
   const PartInfo& part = info.parts[static_cast<std::size_t>(info.colour->part)];
   return fmt::format("defray render {} -o out.exr{}{}", shell_quoted(info.path),
-                     depth_options(info, info.depth.front()), lens_options(info, part));
+                     has_depth ? depth_options(info, info.depth.front()) : " --depth FILE",
+                     lens_options(info, part));
 }
 
 }  // namespace defray::cli

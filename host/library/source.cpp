@@ -27,10 +27,23 @@ void choose_further_channels(const FramePaths& paths, const RenderSettings& sett
 /// Makes room for the blur of what ends at the data window's edge.
 void grow(Source& source, const RenderSettings& settings, FrameReport& report) {
   const Window from = report.data;
-  const Window to = grown_window(from, source.part().display,
-                                 has_alpha(source.colour) ? &source.colour.back() : nullptr,
-                                 source.depth, report.lens, report.display.width, settings.grow);
-  if (to == from) return;
+  const Plane* const alpha = has_alpha(source.colour) ? &source.colour.back() : nullptr;
+  const auto grown = [&](std::optional<Grow> how_far) {
+    return grown_window(from, source.part().display, alpha, source.depth, report.lens,
+                        report.display.width, how_far);
+  };
+  const Window to = grown(settings.grow);
+  if (to == from) {
+    const bool may_end_there = alpha && !settings.grow && grown(Grow::display) != from;
+    if (may_end_there) {
+      report.notes.push_back(
+          fmt::format("the data window {} has no transparent pixel, and counts as cut out of a "
+                      "picture: it does "
+                      "not grow by the blur; if what it shows ends there, {} display",
+                      to_string(from), field("grow")));
+    }
+    return;
+  }
   for (Plane& plane : source.colour) plane = enlarged(plane, from, to, 0);
   source.depth = enlarged(source.depth, from, to, std::numeric_limits<float>::infinity());
   source.file.grow(source.choice.part, to);

@@ -141,7 +141,9 @@ TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {
   suggested("two.exr");
   write("flat.exr", {"R", "G", "B"}, {0.1f, 0.2f, 0.3f});
   expect_lines("flat.exr", {"  no depth: give it with --depth FILE"});
-  EXPECT_EQ(data("flat.exr")["command"], "");
+  EXPECT_EQ(data("flat.exr")["command"],
+            "defray render flat.exr -o out.exr --depth FILE --focus-at 4,4 --fstop 2.8 "
+            "--focal-length 50 --sensor-width 36");
   write("normals.exr", {"N.X", "N.Y", "N.Z"}, {0.1f, 0.2f, 0.3f});
   EXPECT_NE(text("normals.exr").find("no colour: normals.exr: no colour: no layer has channels R"),
             std::string::npos);

@@ -100,6 +100,13 @@ TEST_F(Windows, GrowAsFarAsAsked) {
   write("opaque.exr", 1, at);
   EXPECT_EQ(rendered("opaque.exr").parts()[0].data, (Window{at, at, side, side}));
   EXPECT_GT(rendered("opaque.exr", "--grow display").parts()[0].data.width, side);
+  const std::string cut_out = "note: the data window 12x12+18+18 has no transparent pixel";
+  const auto says = [&](const std::string& options) {
+    return defray(folder_, "render opaque.exr -o out.exr " + options + lens).out.find(cut_out);
+  };
+  EXPECT_NE(says(""), std::string::npos);
+  EXPECT_EQ(says("--grow none"), std::string::npos) << "asked for";
+  EXPECT_EQ(says("--grow display"), std::string::npos);
   const Result said = defray(folder_, "render edge.exr -o out.exr" + lens);
   EXPECT_NE(said.out.find("note: the data window 12x12+0+0 grows by the blur to "),
             std::string::npos)
