@@ -6,7 +6,6 @@ tests/command/render/blender_scene.py; --quick takes one small size, a rehearsal
 nothing; --update puts the table between FILE's markers "blender.py". Needs Blender (apt-get install
 blender); without it it says so and is done.
 """
-import argparse
 import json
 import os
 import pathlib
@@ -15,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-from table import Table
+from table import Table, options
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 SCENE = PROJECT / "tests/command/render/blender_scene.py"
@@ -48,10 +47,8 @@ def psnrs(defray, folder, width, height):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("defray")
+    parser = options(__doc__)
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--update", metavar="FILE")
     given = parser.parse_args()
     if not shutil.which("blender"):
         print("Blender is not installed (apt-get install blender): nothing to compare with.")

@@ -9,7 +9,6 @@ and a C compiler; without GEGL it says so and is done.
 GEGL gets each pixel's true radius as its mask (share of the largest); both work on two threads,
 with pictures in memory: the median of seven runs of GEGL, and of the last seven frames of eight.
 """
-import argparse
 import json
 import os
 import pathlib
@@ -19,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-from table import Table
+from table import Table, options
 
 FRAMES = 8
 QUALITIES = ["preview", "draft", "normal"]
@@ -84,10 +83,8 @@ def built_in(defray, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("defray")
+    parser = options(__doc__)
     parser.add_argument("scenes", nargs="?", type=pathlib.Path)
-    parser.add_argument("--update", metavar="FILE")
     given = parser.parse_args()
     if not shutil.which("pkg-config") or subprocess.run(
             ["pkg-config", "--exists", "gegl-0.4"]).returncode:

@@ -6,7 +6,6 @@ perf/scripts/goals.py DEFRAY [--quick] [--update FILE]: built-in scenes at 1920x
 markers "goals.py". Medians of seven frames of a run, without its first, and
 (largest - smallest) / median. What GEGL is faster or slower by: perf/scripts/gegl.py.
 """
-import argparse
 import json
 import pathlib
 import shutil
@@ -16,7 +15,7 @@ import sys
 import tempfile
 import time
 
-from table import Table
+from table import Table, options
 
 
 
@@ -126,10 +125,8 @@ def measure(hd, uhd):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("defray")
+    parser = options(__doc__)
     parser.add_argument("--quick", action="store_true")
-    parser.add_argument("--update", metavar="FILE")
     given = parser.parse_args()
     small, frames = (8, 3) if given.quick else (1, 8)
     with tempfile.TemporaryDirectory() as name:

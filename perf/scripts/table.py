@@ -1,7 +1,17 @@
-"""A table of a script: printed row by row, and put between its markers of a file."""
+"""What the scripts share: their options, and their tables, printed row by row and put between markers of
+a file."""
+import argparse
 import os
 import pathlib
 import sys
+
+
+def options(about):
+    """A parser of what all take; `about` is the script's own text."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("defray")
+    parser.add_argument("--update", metavar="FILE")
+    return parser
 
 
 class Table:
