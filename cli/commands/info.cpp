@@ -59,7 +59,7 @@ void print_text(const FileInfo& info) {
   if (info.depth.empty()) fmt::print("  no depth: give it with --depth FILE\n");
   for (const DepthCandidate& d : info.depth) print_depth(d);
   for (const FoundAttribute& found : info.camera) {
-    fmt::print("  {} {} ({}, {}){}\n", found.attribute.field, value_of(found), found.attribute.name,
+    fmt::print("  {} {} ({}, {}){}\n", found.attribute.field, value_of(found), found.name,
                found.attribute.written,
                found.value ? "" : ", not usable: it must be a number above 0");
   }
@@ -91,7 +91,7 @@ void print_json(const FileInfo& info) {
   }
   for (const FoundAttribute& found : info.camera) {
     camera.push_back({{"field", found.attribute.field},
-                      {"attribute", found.attribute.name},
+                      {"attribute", found.name},
                       {"value", value_of(found)},
                       {"usable", found.value.has_value()}});
   }

@@ -69,6 +69,9 @@ class ImageFile {
   /// Any of them as text.
   std::optional<std::string> metadata_text(const std::string& name) const;
 
+  /// Its name as the file spells it; names are alike whatever their case.
+  std::optional<std::string> metadata_name(const std::string& name) const;
+
   /// True where writing with the file's own compression (DWA, B44, PXR24, JPEG in TIFF) changes
   /// values.
   bool is_lossy() const;

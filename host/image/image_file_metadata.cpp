@@ -89,4 +89,11 @@ std::optional<std::string> ImageFile::metadata_text(const std::string& name) con
   return std::nullopt;
 }
 
+std::optional<std::string> ImageFile::metadata_name(const std::string& name) const {
+  for (const Part& part : parts_) {
+    if (const ParamValue* value = part.spec.find_attribute(name)) return value->name().string();
+  }
+  return std::nullopt;
+}
+
 }  // namespace defray

@@ -173,7 +173,9 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
     std::vector<int> channels = choice.channels;
     if (lower_extension(path) == ".hdr") channels = hdr_channels(channels);
     ImageFile alone = file.extract(choice.part, channels);
-    alone.set_bits(0, {}, bits);
+    // Of PNG and JPEG only 16 bits stay: 8 linear ones are too few.
+    const bool is_deep = bits == Bits::as_input && is_tiff(path) && part.integer_bits == 16;
+    alone.set_bits(0, {}, is_deep ? Bits::sixteen : bits);
     alone.write(name);
   });
 }

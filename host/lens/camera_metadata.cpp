@@ -22,12 +22,18 @@ constexpr double no_distance = 1e17;
 
 using MetadataField = std::optional<double> CameraValues::*;
 
-const std::pair<const char*, MetadataField> metadata_fields[] = {
-    {"focal_length_mm", &CameraValues::focal_length_mm},
-    {"sensor_width_mm", &CameraValues::sensor_width_mm},
-    {"fov_deg", &CameraValues::fov_deg},
-    {"fstop", &CameraValues::fstop},
-    {"focus_distance_units", &CameraValues::focus_distance_units},
+struct MetadataValue {
+  const char* name;
+  const char* words;
+  MetadataField field;
+};
+
+const MetadataValue metadata_values[] = {
+    {"focal_length_mm", "focal length", &CameraValues::focal_length_mm},
+    {"sensor_width_mm", "sensor width", &CameraValues::sensor_width_mm},
+    {"fov_deg", "field of view", &CameraValues::fov_deg},
+    {"fstop", "f-number", &CameraValues::fstop},
+    {"focus_distance_units", "focus distance", &CameraValues::focus_distance_units},
 };
 
 bool is_fov(const CameraAttribute& a) { return a.field == std::string("fov_deg"); }
@@ -66,13 +72,13 @@ std::optional<double> value_of(const CameraAttribute& a, double number) {
   return is_fov(a) && value >= half_turn_deg ? std::nullopt : std::optional(value);
 }
 
-double usable_value(const ImageFile& file, const FoundAttribute& found) {
+double usable_value(const ImageFile& file, const FoundAttribute& found, const char* words) {
   if (found.value) return *found.value;
   const CameraAttribute& attribute = found.attribute;
   fail(ErrorKind::input,
        "{}: its metadata has '{}' = '{}', which is no {} ({}): it must be a number above 0{}; {} "
        "wins over it",
-       file.path(), attribute.name, found.text, attribute.field, attribute.written,
+       file.path(), found.name, found.text, words, attribute.written,
        is_fov(attribute) ? ", below 180 degrees" : "", field(attribute.field));
 }
 
@@ -126,20 +132,19 @@ const std::vector<CameraAttribute>& camera_attributes() {
 
 std::optional<FoundAttribute> find_attribute(const ImageFile& file,
                                              const CameraAttribute& attribute) {
-  std::string name;
-  std::optional<std::string> text;
+  std::optional<std::string> name;
   for (const char* before : {"", "exr/", "vray/"}) {
-    if (!text) text = file.metadata_text(name = before + std::string(attribute.name));
+    if (!name) name = file.metadata_name(before + std::string(attribute.name));
   }
-  if (!text) return std::nullopt;
-  FoundAttribute found{attribute, *text, {}};
-  if (const auto matrix = file.metadata_matrix(name)) {
+  if (!name) return std::nullopt;
+  FoundAttribute found{attribute, *name, *file.metadata_text(*name), {}};
+  if (const auto matrix = file.metadata_matrix(*name)) {
     found.is_matrix = true;
     if (is_fov(attribute)) found.value = fov_of(*matrix);
     if (found.value) found.text = fmt::format("{:.6g}", *found.value);
     return found;
   }
-  const std::optional<double> number = file.metadata_number(name);
+  const std::optional<double> number = file.metadata_number(*name);
   if (!number) return found;
   const bool is_focus = attribute.field == std::string("focus_distance_units");
   if (is_focus && *number >= no_distance && !std::isinf(*number)) return std::nullopt;
@@ -151,7 +156,7 @@ CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit,
                                   const CameraValues& stated) {
   CameraValues values;
   values.source = file.path() + "'s metadata";
-  for (const auto& [name, field] : metadata_fields) {
+  for (const auto& [name, words, field] : metadata_values) {
     if (is_stated(stated, field) || is_stated(values, field)) continue;
     std::vector<std::string> sought;
     for (const CameraAttribute& attribute : camera_attributes()) {
@@ -159,7 +164,7 @@ CameraValues camera_from_metadata(const ImageFile& file, double metres_per_unit,
       sought.emplace_back(attribute.name);
       const auto found = values.*field ? std::nullopt : find_attribute(file, attribute);
       if (!found) continue;
-      const double value = usable_value(file, *found);
+      const double value = usable_value(file, *found, words);
       values.*field = attribute.factor > 0 ? value : value / metres_per_unit;
       if (found->is_matrix) values.fit = SensorFit::horizontal;
     }

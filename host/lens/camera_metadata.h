@@ -24,6 +24,7 @@ const std::vector<CameraAttribute>& camera_attributes();
 /// A value of the lens among the metadata.
 struct FoundAttribute {
   CameraAttribute attribute;
+  std::string name;             ///< As the file spells it.
   std::string text;             ///< As stored; of a matrix, what it comes to.
   std::optional<double> value;  ///< Times the factor; empty where it is no number above 0.
   bool is_matrix = false;       ///< A projection: it says itself which side of the frame it spans.

@@ -51,9 +51,15 @@ TEST_F(Files, BitsAreThoseAskedFor) {
   EXPECT_EQ(type("k.tif"), "uint16");
   expect_ok(render("g.tif --depth in.exr -o l.png"));
   EXPECT_EQ(type("l.png"), "uint16");
+  expect_ok(render("b.png --depth in.exr -o o.tif"));
+  EXPECT_EQ(type("o.tif"), "uint16");
+  expect_ok(render("b.png --depth in.exr -o o.exr"));
+  EXPECT_EQ(type("o.exr"), "float");
   expect_ok(render("b.png --depth in.exr -o m.jpg"));
   expect_ok(render("a.png --depth in.exr -o n.png"));
   EXPECT_EQ(type("n.png"), "uint8");
+  expect_ok(render("a.png --depth in.exr -o p.tif"));
+  EXPECT_EQ(type("p.tif"), "float") << "eight linear bits would show steps";
   expect_refused("in.exr -o o.exr --bits 16", 2,
                  {"o.exr: --bits has no such format; allowed are half float"});
   expect_refused("in.exr -o o.jpg --bits 16", 2, {"allowed are 8"});

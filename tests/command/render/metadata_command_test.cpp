@@ -86,6 +86,14 @@ TEST_F(Metadata, NamesOfRenderers) {
   EXPECT_NEAR(vray["sensor_width_mm"], 36, 1e-4);
   EXPECT_DOUBLE_EQ(vray["aperture_diameter_mm"], 6);
   write("redshift.exr", [](OIIO::ImageSpec& spec) { spec.attribute("rs/camera/fov", 1.0f); });
+  write("arnold.exr",
+        [](OIIO::ImageSpec& spec) { spec.attribute("exr/CameraFocalLength", -35.0f); });
+  const std::string name = "exr/CameraFocalLength";  // as the file spells it
+  expect_refused("arnold.exr -o o.exr --camera from-metadata --focus 3 --fstop 2", 3,
+                 {"'" + name + "' = '-35', which is no focal length"});
+  EXPECT_NE(defray(folder_, "info arnold.exr").out.find("(" + name + ", "), std::string::npos);
+  EXPECT_NE(defray(folder_, "info --json arnold.exr").out.find('"' + name + '"'),
+            std::string::npos);
   EXPECT_NEAR(report("redshift.exr -o o.exr --camera from-metadata --focus 3 --fstop 2 "
                      "--focal-length 50")["sensor_width_mm"],
               100 * std::tan(0.5), 1e-5);
@@ -116,7 +124,7 @@ TEST_F(Metadata, AProjectionGivesTheSensor) {
 TEST_F(Metadata, ErrorsNameFileAttributeAndValue) {
   write("zero.exr", [](OIIO::ImageSpec& spec) { spec.attribute("FNumber", 0.0f); });
   expect_refused("zero.exr -o o.exr --camera from-metadata --focus 3 --focal-length 50", 3,
-                 {"zero.exr: its metadata has '", "FNumber' = '0', which is no fstop"});
+                 {"zero.exr: its metadata has '", "FNumber' = '0', which is no f-number"});
   write("text.exr", [](OIIO::ImageSpec& spec) { spec.attribute("cameraFocalLength", "long"); });
   expect_refused("text.exr -o o.exr --camera from-metadata --focus 3 --fstop 2", 3,
                  {"'cameraFocalLength' = 'long'", "V-Ray"});
