@@ -128,6 +128,7 @@ typedef struct {
   DEFRAY_UINT all_cells;          ///< Lens points of all passes.
   DEFRAY_UINT has_data_of;        ///< 0: every fragment has data of its own (`rdb_nearest`).
   DEFRAY_UINT has_landing_radii;  ///< 0: rays of all radii land as their own (`rdb_scatter`).
+  DEFRAY_UINT has_spans;          ///< 1: fragments are pieces of a surface, see span.clh.
 } DefrayRdbParams;
 
 /// The rays of a window's pixels, from where they end: `rdb_pad`, `rdb_tiles`, `rdb_reach`,
@@ -156,6 +157,7 @@ typedef struct {
   DEFRAY_UINT bin_shift;
   DEFRAY_UINT has_coverage;  ///< 0: every fragment is whole and was seen.
   DEFRAY_UINT has_rim;       ///< 1: the lens's rim cuts off cells, see rim.clh.
+  DEFRAY_UINT has_spans;     ///< 1: fragments are pieces of a surface, see span.clh.
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
   DEFRAY_UINT wants_winners;  ///< 0: nobody does; 1: in tiles with highlights; 2: everywhere.
@@ -266,8 +268,8 @@ static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 36);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
-static_assert(sizeof(DefrayRdbParams) == 80);
-static_assert(sizeof(DefrayRaysParams) == 104);
+static_assert(sizeof(DefrayRdbParams) == 84);
+static_assert(sizeof(DefrayRaysParams) == 108);
 #endif
 
 #endif

@@ -13,6 +13,7 @@ RayPlan ray_plan(const ChainSettings& settings, bool wants_nearest) {
   RayPlan plan;
   plan.lens = make_lens_points(settings.aperture, round_cells(settings.cells_per_side));
   plan.lens.landing_radii = landing_radii(plan.lens);
+  plan.has_spans = true;
   plan.wants_nearest = wants_nearest;
   plan.by = settings.rays;
   return plan;

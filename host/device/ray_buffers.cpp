@@ -52,6 +52,7 @@ DefrayRdbParams RayBuffers::params() const {
   p.origin_x = plan_.origin_x;
   p.origin_y = plan_.origin_y;
   p.has_rim = !plan_.rim_x.empty();
+  p.has_spans = plan_.has_spans;
   p.has_landing_radii = !plan_.lens.landing_radii.empty();
   p.all_cells = static_cast<std::uint32_t>(plan_.lens.points.size());
   p.has_data_of = !frame_.data_of.empty();
@@ -60,7 +61,7 @@ DefrayRdbParams RayBuffers::params() const {
 
 void RayBuffers::find_nearest(const DefrayRdbParams& p, const RayWindow& window) {
   if (!plan_.wants_nearest) return;
-  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.data_of, lens, rim_x,
+  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.coc, window.data_of, lens, rim_x,
                   rim_y, nearest_);
 }
 

@@ -9,9 +9,9 @@
 namespace defray {
 namespace {
 
-// It writes keys, what sends rays, coverage, and colours.
+// It writes keys, largest radii, what sends rays, coverage, and colours.
 const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}, 0,
-                                3 * Launch::plane + Launch::colour});
+                                4 * Launch::plane + Launch::colour});
 const LaunchRow rdb_reach_launch({"rdb_reach", WorkGroup{16, 1}});
 const LaunchRow rdb_tiles_launch({"rdb_tiles", WorkGroup{16, 1}});
 
@@ -41,6 +41,7 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
   params.bin_shift = word(bins.shift);
   params.has_coverage = !frame.coverage.empty();
   params.has_rim = !plan.rim_x.empty();
+  params.has_spans = plan.has_spans;
   params.origin_x = plan.origin_x;
   params.origin_y = plan.origin_y;
   near_ = bins_by_distance(bins, params.reach_tiles);
@@ -49,7 +50,7 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
 
 std::vector<BandRows> RayTileWindow::windows() const {
   const std::size_t surfaces = params.stride * size(frame_.layers);
-  return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + 1, DEFRAY_RAY_TILE,
+  return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + 2, DEFRAY_RAY_TILE,
                           {surfaces * launch_of("rdb_pad").bytes_a_surface},
                           session_.memory_bytes() / 2);
 }
@@ -65,11 +66,12 @@ void RayTileWindow::prepare(const BandRows& rows) {
     return session_.buffer((is_needed ? lines() * params.stride : 1) * sizeof(cl_int));
   };
   keys = plane(true);
+  largest = plane(params.has_spans);
   sending = plane(params.has_coverage);
   coverage = plane(params.has_coverage);
   channels = four_channels(params.channels, [&](std::size_t) { return plane(true); });
   session_.launch("rdb_pad", {params.stride, lines()}, params, planes.coc, planes.depth,
-                  planes.coverage, planes.channels, keys, sending, coverage, channels);
+                  planes.coverage, planes.channels, keys, largest, sending, coverage, channels);
 
   const std::size_t bytes = std::size_t{params.tiles_x} * params.tiles_y * sizeof(TileBins);
   tiles_ = session_.buffer(bytes);
@@ -78,7 +80,7 @@ void RayTileWindow::prepare(const BandRows& rows) {
   const std::vector<std::size_t> all{params.tiles_x, params.tiles_y};
   DefrayRaysParams along_y = params;
   along_y.along_y = 1;
-  session_.launch("rdb_tiles", all, params, keys, coverage, tiles_);
+  session_.launch("rdb_tiles", all, params, keys, largest, coverage, tiles_);
   session_.launch("rdb_reach", all, params, near_on_device_, tiles_, along_x);
   session_.launch("rdb_reach", all, along_y, near_on_device_, along_x, reach);
 }
@@ -87,6 +89,7 @@ RayTiles RayTileWindow::read() {
   const std::size_t surfaces = lines() * params.stride;
   RayTiles out;
   read_all(session_, keys, surfaces, out.padded.keys);
+  if (params.has_spans) read_all(session_, largest, surfaces, out.padded.largest);
   if (params.has_coverage) {
     read_all(session_, sending, surfaces, out.padded.sending);
     read_all(session_, coverage, surfaces, out.padded.coverage);

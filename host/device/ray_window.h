@@ -25,7 +25,7 @@ class RayTileWindow {
 
   DefrayRaysParams params{};
   RayWindow planes;  ///< Not padded.
-  cl::Buffer keys, sending, coverage, reach;
+  cl::Buffer keys, largest, sending, coverage, reach;
   std::array<cl::Buffer, 4> channels;
 
  private:

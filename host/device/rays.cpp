@@ -111,7 +111,7 @@ void RaysGather::gather_pass(int first_cell) {
   const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
   const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
   session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
-                  window_.sending, window_.coverage, window_.channels, segments_, first_,
+                  window_.largest, window_.sending, window_.coverage, window_.channels, segments_, first_,
                   window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
                   buffers_.light_first, buffers_.winner, buffers_.means, filled_, buffers_.seen);
 }

@@ -20,6 +20,9 @@ const LaunchRow rdb_merge_launch({.kernel = "rdb_merge",
                                   .bytes_a_target = 4 * Launch::plane + Launch::colour});
 const LaunchRow rdb_scatter_launch({"rdb_scatter", WorkGroup{64, 1}});
 
+/// Rows farther away than rays come from: what is there says what their pixels span.
+int span_rows(const RayPlan& plan) { return plan.has_spans ? 2 : 0; }
+
 }  // namespace
 
 RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
@@ -30,7 +33,8 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
       holds_frame_(holds_planes(session, "rdb_merge", frame)),
       passes_(plan_rdb_passes(frame.width, frame.wanted_rows(), frame.height,
                               static_cast<int>(cells_),
-                              rdb_reach(frame.coc_range().largest_radius()), session.memory_bytes(),
+                              rdb_reach(frame.coc_range().largest_radius()) + span_rows(plan),
+                              session.memory_bytes(),
                               lights && !lights->empty())),
       buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().rows),
                size(passes_.front().cell_count), winners_),

@@ -21,7 +21,8 @@ struct TileBins {
 
 /// Planes with a strip's columns and rows of nothing around them, [layer][row][stride].
 struct PaddedPlanes {
-  std::vector<std::int32_t> keys;  ///< Signed radii; DEFRAY_NO_KEY: no surface.
+  std::vector<std::int32_t> keys;     ///< Least radii of spans; DEFRAY_NO_KEY: no surface.
+  std::vector<std::int32_t> largest;  ///< Their largest; empty: there are no spans.
   /// turn | (coverage - 1) << 16, and coverage; empty where the frame has none.
   std::vector<std::uint32_t> sending, coverage;
   std::vector<std::vector<float>> channels;

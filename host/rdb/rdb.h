@@ -18,6 +18,7 @@ struct RayPlan {
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
   /// lens/cats_eye.h has it. Empty: none.
   std::vector<std::int32_t> rim_x = {}, rim_y = {};
+  bool has_spans = false;          ///< Fragments are pieces of a surface (kernels/rdb/span.clh).
   bool wants_nearest = false;      ///< RayResult::nearest is filled.
   RaysBy by = RdbSettings().rays;  ///< The same bits.
 };

@@ -26,7 +26,11 @@ bool is_there(const Frame& f, std::size_t surface) {
 /// Copies surface (x, y, layer) to its place `to`.
 void pad(const Frame& f, const RayPlan& plan, int x, int y, std::size_t surface, std::size_t to,
          PaddedPlanes& out) {
-  if (is_there(f, surface)) out.keys[to] = f.coc_quanta[surface];
+  if (is_there(f, surface)) {
+    const Span span = span_of(f, plan, surface);
+    out.keys[to] = span.least;
+    if (plan.has_spans) out.largest[to] = span.largest;
+  }
   for (std::size_t c = 0; c < f.channels.size(); ++c) {
     out.channels[c][to] = f.channels[c][surface];
   }
@@ -44,6 +48,7 @@ PaddedPlanes padded(const Frame& f, const RayPlan& plan) {
   const std::size_t count = stride * rows * size(f.layers);
   const std::size_t shares = f.coverage.empty() ? 0 : count;
   PaddedPlanes out{std::vector<std::int32_t>(count, DEFRAY_NO_KEY),
+                   std::vector<std::int32_t>(plan.has_spans ? count : 0, DEFRAY_NO_KEY),
                    std::vector<std::uint32_t>(shares), std::vector<std::uint32_t>(shares),
                    std::vector<std::vector<float>>(f.channels.size(), std::vector<float>(count))};
   for (int layer = 0; layer < f.layers; ++layer) {
@@ -58,7 +63,8 @@ PaddedPlanes padded(const Frame& f, const RayPlan& plan) {
 }
 
 /// What a tile's pixels hold.
-TileBins held_by(const Frame& f, const RadiusBins& bins, int tile_x, int tile_y) {
+TileBins held_by(const Frame& f, const RayPlan& plan, const RadiusBins& bins, int tile_x,
+                 int tile_y) {
   TileBins held;
   constexpr int side = DEFRAY_RAY_TILE;
   for (int y = tile_y * side; y < std::min(f.height, (tile_y + 1) * side); ++y) {
@@ -67,7 +73,10 @@ TileBins held_by(const Frame& f, const RadiusBins& bins, int tile_x, int tile_y)
         const std::size_t i = f.index(x, y, layer);
         if (!is_there(f, i)) continue;
         const bool is_whole = f.coverage.empty() || f.coverage[i] == DEFRAY_WHOLE;
-        add_bin(layer == 0 && is_whole ? held.plain : held.special, bin_of(bins, f.coc_quanta[i]));
+        const Span span = span_of(f, plan, i);
+        for (int b = bin_of(bins, span.least); b <= bin_of(bins, span.largest); ++b) {
+          add_bin(layer == 0 && is_whole ? held.plain : held.special, b);
+        }
       }
     }
   }
@@ -89,7 +98,7 @@ RayTiles ray_tiles(const Frame& f, const RayPlan& plan) {
   RayTiles out;
   out.padded = padded(f, plan);
   for (int i = 0; i < across * down; ++i) {
-    out.held.push_back(held_by(f, bins, i % across, i / across));
+    out.held.push_back(held_by(f, plan, bins, i % across, i / across));
   }
   for (int here = 0; here < across * down; ++here) {
     TileBins reach;

@@ -68,6 +68,11 @@ class CellScatter {
     }
   }
 
+  /// How far from its source a ray of radius r ends, without jitter.
+  std::array<double, 2> lands_at(double r) const {
+    return {std::ceil(r * u_ - 0.5), std::ceil(r * v_ - 0.5)};
+  }
+
   /// Whether a fragment that covers this share of its pixel sends a ray: the fractions of
   /// k rho + h, h a pixel's own, fill 0 to 1 evenly (rho: 1 / the plastic number, 16 bits of it).
   bool sends(int px, int py, double share) const {
@@ -104,9 +109,46 @@ class CellScatter {
 
 }  // namespace
 
+namespace {
+
+/// Whether a surface goes on across a step, in view of those before and after it.
+bool goes_on(double before, double step, double after) {
+  const auto is_like = [&](double other) {
+    return std::fabs(other) <= DEFRAY_RAMP_QUANTA && std::fabs(step - other) <= DEFRAY_BEND_QUANTA;
+  };
+  if (!(std::fabs(step) <= DEFRAY_RAMP_QUANTA)) return false;
+  return std::fabs(step) <= DEFRAY_JUMP_QUANTA || is_like(before) || is_like(after);
+}
+
+}  // namespace
+
+Span span_of(const Frame& f, const RayPlan& plan, std::size_t surface) {
+  const std::int32_t own = f.coc_quanta[surface];
+  Span span{own, own};
+  if (!plan.has_spans) return span;
+  const int x = static_cast<int>(surface % size(f.width));
+  const int row = static_cast<int>(surface / size(f.width));
+  const int y = row / f.layers, layer = row % f.layers;
+  for (const auto& way : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    // Radius so many pixels on, the fragment's own there or infinite.
+    const auto radius = [&](int n) {
+      const int px = x + n * way[0], py = y + n * way[1];
+      if (px < 0 || px >= f.width || py < 0 || py >= f.height) return HUGE_VAL;
+      const std::size_t at = f.index(px, py, layer);
+      return is_fragment(f.depth[at]) ? static_cast<double>(f.coc_quanta[at]) : HUGE_VAL;
+    };
+    const double step = radius(1) - own;
+    if (!goes_on(own - radius(-1), step, radius(2) - radius(1))) continue;
+    const std::int32_t half_way = own + static_cast<std::int32_t>(std::floor(step / 2));
+    span = {std::min(span.least, half_way), std::max(span.largest, half_way)};
+  }
+  return span;
+}
+
 std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::size_t cell) {
   const CellScatter scatter(f, plan, cell);
   std::vector<std::int64_t> winner(f.pixels(), -1);
+  std::vector<std::int32_t> nearest(f.pixels());  // radii as which they won
   const auto depth = f.depth.host();
   const auto coc = f.coc_quanta.host();
   const auto coverage = f.coverage.host();
@@ -117,14 +159,29 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
     if (!coverage.empty() && !scatter.sends(x, y, (coverage[source] & 0x7fffffffu) / 65536.0)) {
       continue;
     }
-    const double r = std::ldexp(lands_as(plan.lens, coc[source]), -DEFRAY_COC_FRACTION_BITS);
-    scatter.for_each_target(x, y, r, [&](std::size_t target) {
-      // Sources come in index order: an equal radius never replaces an earlier one.
-      const std::int64_t held = winner[target];
-      if (held < 0 || coc[source] < coc[static_cast<std::size_t>(held)]) {
+    const auto reach_as = [&](std::int32_t radius) {
+      const double r = std::ldexp(lands_as(plan.lens, radius), -DEFRAY_COC_FRACTION_BITS);
+      scatter.for_each_target(x, y, r, [&](std::size_t target) {
+        // Sources come in index order: an equal radius never replaces an earlier one.
+        if (winner[target] >= 0 && radius >= nearest[target]) return;
         winner[target] = static_cast<std::int64_t>(source);
-      }
-    });
+        nearest[target] = radius;
+      });
+    };
+    if (plan.lens.jitter != 0) {
+      reach_as(coc[source]);
+      continue;
+    }
+    const Span span = span_of(f, plan, source);
+    const auto offset = [&](std::int32_t radius) {
+      return scatter.lands_at(
+          std::ldexp(lands_as(plan.lens, radius), -DEFRAY_COC_FRACTION_BITS));
+    };
+    reach_as(span.least);
+    if (offset(span.least) == offset(span.largest)) continue;  // and so do those between
+    for (std::int32_t radius = span.least + 1; radius <= span.largest; ++radius) {
+      if (offset(radius) != offset(radius - 1)) reach_as(radius);
+    }
   }
   return winner;
 }
@@ -132,19 +189,21 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
 namespace {
 
 /// What shows through where no ray arrives: the farthest fragment behind a pixel and those around
-/// it, two columns and one row to each side. -1: none.
-std::int64_t farthest_behind(const Frame& f, std::size_t pixel) {
+/// it, two columns and one row to each side, by the least of its span. -1: none.
+std::int64_t farthest_behind(const Frame& f, const RayPlan& plan, std::size_t pixel) {
   if (f.layers < 2 || f.coverage.empty()) return -1;
   const int x0 = static_cast<int>(pixel % static_cast<std::size_t>(f.width));
   const int y0 = static_cast<int>(pixel / static_cast<std::size_t>(f.width));
   std::int64_t found = -1;
+  std::int32_t farthest = 0;
   for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
     for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
       const std::size_t i = f.index(x, y, 1);
       if (!is_fragment(f.depth[i]) || (f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0) continue;
-      if (found < 0 || f.coc_quanta[i] > f.coc_quanta[static_cast<std::size_t>(found)]) {
-        found = static_cast<std::int64_t>(i);
-      }
+      const std::int32_t radius = span_of(f, plan, i).least;
+      if (found >= 0 && radius <= farthest) continue;
+      found = static_cast<std::int64_t>(i);
+      farthest = radius;
     }
   }
   return found;
@@ -160,7 +219,7 @@ void for_each_winner(const Frame& f, const RayPlan& plan, const Begin& begin, co
     const auto winner = rdb_scatter(f, plan, cell);
     begin();
     for (std::size_t i = 0; i < winner.size(); ++i) {
-      const std::int64_t shown = winner[i] >= 0 ? winner[i] : farthest_behind(f, i);
+      const std::int64_t shown = winner[i] >= 0 ? winner[i] : farthest_behind(f, plan, i);
       if (shown >= 0) visit(i, static_cast<std::size_t>(shown), winner[i] >= 0);
     }
     if (progress) progress(static_cast<double>(cell + 1) / static_cast<double>(count));

@@ -18,6 +18,15 @@ namespace defray::reference {
 /// to a few double roundings, before any limit.
 double coc_px(const Lens& lens, int display_width_px, double depth_units);
 
+/// CoC radii, quanta.
+struct Span {
+  std::int32_t least, largest;
+};
+
+/// Twin of kernels/rdb/span.clh: half way to the pixels around that go on a fragment's surface; its
+/// own radius alone where the plan has no spans.
+Span span_of(const Frame& frame, const RayPlan& plan, std::size_t surface);
+
 /// Twin of kernel `rdb_scatter` for one lens point over the whole frame: index of the nearest
 /// surface whose ray arrives at each target pixel, or -1.
 std::vector<std::int64_t> rdb_scatter(const Frame& frame, const RayPlan& plan, std::size_t cell);

@@ -92,6 +92,7 @@ RayTiles tiles_of(Backend& backend, const Case& c, const Input& in) {
 Outcome run_pad(Backend& backend, const Case& c, const Input& in) {
   const PaddedPlanes padded = tiles_of(backend, c, in).padded;
   Outcome out = integers(padded.keys);
+  out.integers.insert(out.integers.end(), padded.largest.begin(), padded.largest.end());
   out.integers.insert(out.integers.end(), padded.sending.begin(), padded.sending.end());
   out.integers.insert(out.integers.end(), padded.coverage.begin(), padded.coverage.end());
   out.planes = padded.channels;

@@ -14,14 +14,17 @@ std::size_t words(int width, int height, int cells) {
          static_cast<std::size_t>(cells * cells);
 }
 
-std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window,
-                            std::span<const std::int32_t> coc) {
+std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Frame& frame,
+                            const RayPlan& plan) {
   if (w.source == DEFRAY_EMPTY) return w.key == DEFRAY_EMPTY ? -1 : -2;
   const std::int64_t index = window + w.source;
-  const bool is_there = index < static_cast<std::int64_t>(coc.size());
-  const bool is_its_own =
-      is_there && coc[static_cast<std::size_t>(index)] + (std::int64_t{1} << 31) == w.key;
-  return is_its_own ? index : -2;
+  if (index >= static_cast<std::int64_t>(frame.surfaces())) return -2;
+  const auto source = static_cast<std::size_t>(index);
+  const std::int64_t radius = std::int64_t{w.key} - (std::int64_t{1} << 31);
+  const std::int32_t own = frame.coc_quanta[source];
+  const reference::Span span = plan.lens.jitter == 0 ? reference::span_of(frame, plan, source)
+                                                     : reference::Span{own, own};
+  return radius >= span.least && radius <= span.largest ? index : -2;
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const std::size_t cell = i / band + size(pass.first_cell);
       all[cell * pixels + first + i % band] =
-          index_in_frame(winners[i], window, frame.coc_quanta.host());
+          index_in_frame(winners[i], window, frame, plan);
     }
   }
   return all;

@@ -114,6 +114,7 @@ const ApertureTable& lopsided_aperture() {
 RayPlan ray_plan(const Case& c) {
   RayPlan plan = plan_rays({c.cells, c.jitter, c.seed});
   if (c.seed % 2 == 0 && !c.jitter) plan.lens.landing_radii = landing_radii(plan.lens);
+  plan.has_spans = c.seed % 3 != 0;
   plan.origin_x = static_cast<int>(c.seed % 5) - 2;
   plan.origin_y = static_cast<int>(c.seed % 3);
   if (c.seed % 4 == 1) {

@@ -2,8 +2,8 @@
 //
 // Through one lens point u a radius r lands at the offset landing(r u), which changes at known
 // radii: the segments (dx, dy, least radius, span), the same for all pixels. In a segment a target
-// sees one source pixel, (dx, dy) before it, and its ray arrives exactly if its radius is in the
-// segment. Segments come in ascending radius: what arrives first is the nearest, and the cell is
+// sees one source pixel, (dx, dy) before it, and its ray arrives exactly if its radius, or one that
+// it spans, is in the segment. Segments come in ascending radius: what arrives first is the nearest, and the cell is
 // done. No winners are stored and none is compared. Cells are added in the lens's order, as
 // rdb_merge adds them: the same sums.
 //
@@ -11,7 +11,7 @@
 // The cells come in passes: some devices end a kernel's loops after so many turns, or a kernel
 // after so many seconds.
 //
-// keys, sending, coverage, channel0..3   padded planes of the window, from rdb_pad
+// keys, largest, sending, coverage, channel0..3   padded planes of the window, from rdb_pad
 // segments        of the pass, in the order of cells, radii ascending within each
 // first           [cells of the pass][bins + 1]  the first segment that reaches into a bin; last of
 //                                    a cell: one past its own
@@ -48,7 +48,7 @@ INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* r
         ints hit[ROWS], some = 0;
         EACH_ROW {
           const ints key = LOAD(r->keys + from + j * stride);
-          hit[j] = open[j] & IS(as_uints(key - segment.z) <= (uints)(uint)segment.w);
+          hit[j] = open[j] & are_in(r, from + j * stride, key, segment);
           some |= hit[j];
         }
         if (!any_of(some)) continue;
@@ -77,6 +77,7 @@ void keep(const DefrayRaysParams p, const Rays* r, Strip* s) {
 }
 
 __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict keys,
+                         __global const int* restrict largest,
                          __global const uint* restrict sending,
                          __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
                          __global const int4* restrict segments, __global const int* restrict first,
@@ -89,7 +90,8 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
   const int y = (int)(p.band_y + get_global_id(1) * ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
 
-  const Rays r = {keys, sending, coverage, channel0, channel1, channel2, channel3, segments, first};
+  const Rays r = {keys,     p.has_spans ? largest : keys, sending,  coverage, channel0, channel1,
+                  channel2, channel3,                     segments, first};
   Strip s;
   s.x = x;
   s.y = y;

@@ -21,20 +21,29 @@
 // Global size: (width, band_rows).
 #include "base/colour.clh"
 #include "rdb/rim.clh"
+#include "rdb/span.clh"
 
 // What shows through where no ray arrives: the farthest fragment behind the pixel and those around
-// it. Windows reach one row beyond their band: no band changes the answer.
+// it, by the least of the radii that it spans. Windows reach one row beyond their band: no band changes the answer.
 uint farthest_behind(const DefrayRdbParams p, __global const int* restrict coc_quanta,
                      __global const uint* restrict depth_bits,
                      __global const uint* restrict coverage, const int2 target) {
   uint found = DEFRAY_EMPTY;
+  int farthest = 0;
   if (p.layers < 2u || !p.has_coverage) return found;
   const int row = (int)(p.band_y - p.window_y) + target.y;
   for (int y = max(row - 1, 0); y <= min(row + 1, (int)p.window_rows - 1); ++y) {
     for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
       const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
       if (depth_bits[i] == DEFRAY_EMPTY || (coverage[i] & ~DEFRAY_SYNTHESISED) == 0u) continue;
-      if (found == DEFRAY_EMPTY || coc_quanta[i] > coc_quanta[found]) found = i;
+      int radius = coc_quanta[i];
+      if (p.has_spans) {
+        const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
+        radius = span_of(all, (int3)(x, y, 1)).x;
+      }
+      if (found != DEFRAY_EMPTY && radius <= farthest) continue;
+      found = i;
+      farthest = radius;
     }
   }
   return found;

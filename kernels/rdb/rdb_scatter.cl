@@ -7,6 +7,9 @@
 // smaller source index (without jitter only those of one pixel meet), so the result does not depend
 // on the order of arrival. All arithmetic is on integers: the same cells win on every device.
 //
+// With spans a fragment reaches the cells of all radii that it spans, as the least of those that
+// end there.
+//
 // A pixel may hold several fragments. One that covers only a share of its pixel sends that share of
 // its rays, spread evenly over the lens.
 //
@@ -28,7 +31,7 @@
 // cell_count).
 #include "base/colour.clh"
 #include "base/pcg3d.clh"
-#include "params.h"
+#include "rdb/span.clh"
 
 #ifdef DEFRAY_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
@@ -46,6 +49,13 @@ int landing_radius(const DefrayRdbParams p, __global const int* landing_radii, c
   const uint size = abs(radius);
   if (!p.has_landing_radii || size >= DEFRAY_SMALL_QUANTA) return radius;
   return radius < 0 ? -landing_radii[size] : landing_radii[size];
+}
+
+// Where rays of a radius end, in whole pixels from where they begin.
+int2 lands_at(const DefrayRdbParams p, __global const int* landing_radii, const long2 u,
+              const int radius) {
+  const long r = landing_radius(p, landing_radii, radius);
+  return (int2)(landing(r * u.x), landing(r * u.y));
 }
 
 // Jitter of a target pixel's lens points, in [-largest, largest)^2: a hash of absolute frame
@@ -72,6 +82,9 @@ bool arrives(const int2 x, const int2 p, const int2 origin, const long r, const 
          landing(r * v.x) == x.x - p.x && landing(r * v.y) == x.y - p.y;
 }
 
+// Keys grow with depth.
+uint key_of(const int radius) { return as_uint(radius) ^ 0x80000000u; }
+
 void deposit(__global uint2* winner, const size_t slot, const uint key, const uint source,
              const uint is_index_pass) {
 #ifdef DEFRAY_INT64_ATOMICS
@@ -85,6 +98,23 @@ void deposit(__global uint2* winner, const size_t slot, const uint key, const ui
     atomic_min(half_keys, source);
   }
 #endif
+}
+
+// The first radius after `from`, up to `last`, whose ray ends elsewhere; last + 1: none.
+int next_elsewhere(const DefrayRdbParams p, __global const int* landing_radii, const long2 u,
+                   const int from, const int last) {
+  const int2 here = lands_at(p, landing_radii, u, from);
+  if (all(lands_at(p, landing_radii, u, last) == here)) return last + 1;
+  int same = from, other = last;
+  while (other - same > 1) {
+    const int between = same + (other - same) / 2;
+    if (all(lands_at(p, landing_radii, u, between) == here)) {
+      same = between;
+    } else {
+      other = between;
+    }
+  }
+  return other;
 }
 
 __kernel void rdb_clear(const DefrayRdbParams p, __global uint2* winner) {
@@ -106,24 +136,39 @@ __kernel void rdb_scatter(const DefrayRdbParams p, __global const int* restrict 
   const uint source = row * p.width + sx;
   if (depth_bits[source] == DEFRAY_EMPTY) return;
   const int radius = coc_quanta[source];
-  const uint key = as_uint(radius) ^ 0x80000000u;
-  const long r = landing_radius(p, landing_radii, radius);
   const long2 u = convert_long2(lens[p.first_cell + cell]);
-  const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
   const int2 from = (int2)((int)sx, (int)(p.window_y + row / p.layers));
   const int2 origin = (int2)(p.origin_x, p.origin_y);
   const uint2 at = as_uint2(from + origin);
   if (p.has_coverage && !sends(coverage[source], p.first_cell + cell, at.x, at.y)) return;
-  const int left = max(from.x + landing(r * u.x - spread), 0);
-  const int right = min(from.x + landing(r * u.x + spread), (int)p.width - 1);
-  const int top = max(from.y + landing(r * u.y - spread), (int)p.band_y);
-  const int bottom = min(from.y + landing(r * u.y + spread), (int)(p.band_y + p.band_rows) - 1);
+  const int2 first = (int2)(0, (int)p.band_y);
+  const int2 last = (int2)((int)p.width, (int)(p.band_y + p.band_rows)) - 1;
+  const size_t slot = (size_t)cell * p.band_rows * p.width;  // of the band's first pixel
 
-  for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      if (p.jitter_lens == 0 || arrives((int2)(x, y), from, origin, r, u, p.seed, p.jitter_lens)) {
-        const size_t target = ((size_t)cell * p.band_rows + (uint)y - p.band_y) * p.width + (uint)x;
-        deposit(winner, target, key, source, p.is_index_pass);
+  if (p.jitter_lens == 0) {
+    int2 span = (int2)(radius);
+    if (p.has_spans) {
+      const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
+      span = span_of(all, (int3)((int)sx, (int)(row / p.layers), (int)(row % p.layers)));
+    }
+    for (int r = span.x; r <= span.y; r = next_elsewhere(p, landing_radii, u, r, span.y)) {
+      const int2 to = from + lands_at(p, landing_radii, u, r) - first;
+      if (any(to < 0) || any(to > last - first)) continue;
+      deposit(winner, slot + (size_t)to.y * p.width + (uint)to.x, key_of(r), source,
+              p.is_index_pass);
+    }
+    return;
+  }
+
+  const long r = landing_radius(p, landing_radii, radius);
+  const long spread = (long)abs(radius) * p.jitter_lens;  // in int: Mesa 22.3 gets |long| wrong
+  const int2 low = from + (int2)(landing(r * u.x - spread), landing(r * u.y - spread));
+  const int2 high = from + (int2)(landing(r * u.x + spread), landing(r * u.y + spread));
+  for (int y = max(low.y, first.y); y <= min(high.y, last.y); ++y) {
+    for (int x = max(low.x, 0); x <= min(high.x, last.x); ++x) {
+      if (arrives((int2)(x, y), from, origin, r, u, p.seed, p.jitter_lens)) {
+        deposit(winner, slot + (size_t)(y - first.y) * p.width + (uint)x, key_of(radius), source,
+                p.is_index_pass);
       }
     }
   }

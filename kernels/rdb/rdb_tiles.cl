@@ -2,13 +2,15 @@
 //
 // rdb_pad copies planes [window_rows][layers][width] to padded ones, [layers][rows][stride], with a
 // strip's columns and rows of nothing around them:
-//   key       the signed CoC radius, 1/256 px; DEFRAY_NO_KEY where there is no fragment
+//   key       the least CoC radius of its span (span.clh), 1/256 px; DEFRAY_NO_KEY where there is no
+//             fragment
+//   largest   the span's largest; if has_spans, else the same
 //   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
 //   coverage  as it is; if has_coverage
 //   channels  as they are
 // Global size: (stride, padded rows x layers).
 //
-// rdb_tiles finds the bins of CoC radii that a tile holds, in two sets of bits: those of whole
+// rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of whole
 // surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other
 // tiles that may reach it, along x and then, on its own result, along y: `near` says which bins
 // reach from how many tiles away, and a square dilates one axis at a time. Integers only: the same
@@ -20,11 +22,13 @@
 #include "base/colour.clh"
 #include "base/pcg3d.clh"
 #include "rdb/rays.clh"
+#include "rdb/span.clh"
 
 __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc_quanta,
                       __global const uint* restrict depth_bits,
                       __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
-                      __global int* restrict padded_key, __global uint* restrict padded_sending,
+                      __global int* restrict padded_key, __global int* restrict padded_largest,
+                      __global uint* restrict padded_sending,
                       __global uint* restrict padded_coverage, WRITTEN_CHANNELS(padded)) {
   const uint column = get_global_id(0), line = get_global_id(1);
   const uint rows = p.window_rows + 2u * DEFRAY_RAY_ROWS;
@@ -36,7 +40,12 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
   const size_t from = is_inside ? ((size_t)y * p.layers + layer) * p.width + (uint)x : 0;
   const uint share = p.has_coverage ? coverage[from] & ~DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
   const bool is_there = is_inside && depth_bits[from] != DEFRAY_EMPTY && share > 0u;
-  padded_key[to] = is_there ? coc_quanta[from] : DEFRAY_NO_KEY;
+  const int radius = coc_quanta[from];
+  const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
+  const int2 span =
+      is_there && p.has_spans ? span_of(all, (int3)(x, y, (int)layer)) : (int2)(radius);
+  padded_key[to] = is_there ? span.x : DEFRAY_NO_KEY;
+  if (p.has_spans) padded_largest[to] = is_there ? span.y : DEFRAY_NO_KEY;
   set_colour(CHANNELS(padded), to, is_inside ? colour_at(CHANNELS(channel), from) : (float4)(0.0f));
   if (!p.has_coverage) return;
   const uint2 at = (uint2)((uint)(x + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
@@ -45,7 +54,12 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
   padded_coverage[to] = is_inside ? coverage[from] : 0u;
 }
 
+int bin_of(const DefrayRaysParams p, const int radius) {
+  return clamp((radius >> p.bin_shift) - p.first_bin, 0, DEFRAY_RAY_BINS - 1);
+}
+
 __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict key,
+                        __global const int* restrict largest,
                         __global const uint* restrict coverage, __global ulong* restrict tiles) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   if (tile_x >= p.tiles_x || tile_y >= p.tiles_y) return;
@@ -61,8 +75,10 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
         const int quanta = key[row + x];
         if (quanta == DEFRAY_NO_KEY) continue;
         const bool is_plain = layer == 0u && (!p.has_coverage || coverage[row + x] == DEFRAY_WHOLE);
-        const int bin = clamp((quanta >> p.bin_shift) - p.first_bin, 0, DEFRAY_RAY_BINS - 1);
-        found[(is_plain ? 0 : DEFRAY_RAY_WORDS) + bin / 64] |= 1ul << (bin % 64);
+        const int last = bin_of(p, p.has_spans ? largest[row + x] : quanta);
+        for (int bin = bin_of(p, quanta); bin <= last; ++bin) {
+          found[(is_plain ? 0 : DEFRAY_RAY_WORDS) + bin / 64] |= 1ul << (bin % 64);
+        }
       }
     }
   }
