@@ -129,6 +129,7 @@ typedef struct {
   DEFRAY_UINT has_data_of;        ///< 0: every fragment has data of its own (`rdb_nearest`).
   DEFRAY_UINT has_landing_radii;  ///< 0: rays of all radii land as their own (`rdb_scatter`).
   DEFRAY_UINT has_spans;          ///< 1: fragments are pieces of a surface, see span.clh.
+  DEFRAY_UINT winner_words;       ///< 2: source and key (`rdb_scatter`); 1: the source alone.
 } DefrayRdbParams;
 
 /// The rays of a window's pixels, from where they end: `rdb_pad`, `rdb_tiles`, `rdb_reach`,
@@ -268,7 +269,7 @@ static_assert(sizeof(DefrayTiltshiftParams) == 28);
 static_assert(sizeof(DefrayGatherParams) == 36);
 static_assert(sizeof(DefrayTileParams) == 24);
 static_assert(sizeof(DefrayCocParams) == 28);
-static_assert(sizeof(DefrayRdbParams) == 84);
+static_assert(sizeof(DefrayRdbParams) == 88);
 static_assert(sizeof(DefrayRaysParams) == 108);
 #endif
 

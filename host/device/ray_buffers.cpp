@@ -14,14 +14,13 @@ const LaunchRow rdb_nearest_launch({"rdb_nearest", WorkGroup{64, 1}});
 }  // namespace
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
-                       const LightSources* lights, std::size_t pixels, std::size_t winner_cells,
+                       const LightSources* lights, std::size_t pixels, std::size_t winner_bytes,
                        KeptBuffer& winners)
     : lens(session.view(plan.lens.points)),
       landing_radii(plan.lens.landing_radii.empty() ? lens : session.view(plan.lens.landing_radii)),
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
-      winner(winners.take(session,
-                          pixels * std::max<std::size_t>(winner_cells, 1) * sizeof(RdbWinner))),
+      winner(winners.take(session, pixels * std::max(winner_bytes, sizeof(cl_uint)))),
       light_first(lens),
       session_(session),
       frame_(frame),
@@ -61,8 +60,8 @@ DefrayRdbParams RayBuffers::params() const {
 
 void RayBuffers::find_nearest(const DefrayRdbParams& p, const RayWindow& window) {
   if (!plan_.wants_nearest) return;
-  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.coc, window.data_of, lens, rim_x,
-                  rim_y, nearest_);
+  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.coc, window.data_of,
+                  lens, rim_x, rim_y, nearest_);
 }
 
 void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {

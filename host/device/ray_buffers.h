@@ -32,10 +32,10 @@ class KeptBuffer {
 
 class RayBuffers {
  public:
-  /// For bands of at most so many pixels, and winners of so many cells in `winners`. All must
-  /// stay alive.
+  /// For bands of at most so many pixels, each with so many bytes of winners in `winners`. All
+  /// must stay alive.
   RayBuffers(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-             std::size_t pixels, std::size_t winner_cells, KeptBuffer& winners);
+             std::size_t pixels, std::size_t winner_bytes, KeptBuffer& winners);
 
   bool has_lights() const { return lights_ != nullptr; }
 

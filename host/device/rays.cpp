@@ -16,9 +16,10 @@ namespace {
 
 const LaunchRow rdb_gather_launch({.kernel = "rdb_gather", .group = {1, 1}, .rows_at_once = 64});
 
-/// Cells whose winners somebody asks for: the light sources, or the nearest hits.
-std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
-  return plan.wants_nearest || (lights && !lights->empty()) ? plan.lens.points.size() : 0;
+/// Bytes of a pixel's winners where somebody asks for them: the light sources, or the nearest hits.
+std::size_t winner_bytes_of(const RayPlan& plan, const LightSources* lights) {
+  const bool is_asked_for = plan.wants_nearest || (lights && !lights->empty());
+  return is_asked_for ? plan.lens.points.size() * sizeof(cl_uint) : 0;
 }
 
 /// Winners of so many bytes a compute unit stay in a CPU's caches from the kernel that writes them
@@ -27,10 +28,10 @@ std::size_t winner_cells_of(const RayPlan& plan, const LightSources* lights) {
 constexpr std::size_t winners_at_once = 8 << 20;
 
 /// Rows of a band: winners of all its cells take a quarter of the memory at most.
-int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_cells) {
+int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_bytes) {
   const int rows_at_once = launch_of("rdb_gather").rows_at_once;
-  if (winner_cells == 0) return rows_at_once;
-  const std::size_t row = size(frame.width) * winner_cells * sizeof(RdbWinner);
+  if (winner_bytes == 0) return rows_at_once;
+  const std::size_t row = size(frame.width) * winner_bytes;
   const std::size_t strip = row * DEFRAY_RAY_ROWS, memory = session.memory_bytes() / 4;
   if (memory < strip) return 1;
   const std::size_t at_once = winners_at_once * session.info().compute_units;
@@ -56,7 +57,7 @@ class RaysGather {
   const Frame& frame_;
   const LensPoints& lens_;
   RadiusBins bins_;
-  std::size_t winner_cells_;  ///< 0: nobody wants winners.
+  std::size_t winner_bytes_;  ///< Of a pixel; 0: nobody wants winners.
   int rows_;                  ///< Most of a band.
   RayBuffers buffers_;
   RayTileWindow window_;
@@ -72,9 +73,9 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       frame_(frame),
       lens_(plan.lens),
       bins_(bins_of(frame)),
-      winner_cells_(winner_cells_of(plan, lights)),
-      rows_(rows_of_band(session, frame, winner_cells_)),
-      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_cells_,
+      winner_bytes_(winner_bytes_of(plan, lights)),
+      rows_(rows_of_band(session, frame, winner_bytes_)),
+      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_bytes_,
                winners),
       window_(session, frame, plan, bins_),
       sharp_(sharp_bins(bins_, lens_)),
@@ -82,7 +83,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
   DefrayRaysParams& p = window_.params;
   // Those who ask for winners look at all columns.
-  const int margin = winner_cells_ > 0 ? 0 : frame.margin;
+  const int margin = winner_bytes_ > 0 ? 0 : frame.margin;
   p.band_x = word(margin / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE);
   p.band_end = word(frame.width - margin);
   p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
@@ -111,9 +112,10 @@ void RaysGather::gather_pass(int first_cell) {
   const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
   const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
   session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
-                  window_.largest, window_.sending, window_.coverage, window_.channels, segments_, first_,
-                  window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
-                  buffers_.light_first, buffers_.winner, buffers_.means, filled_, buffers_.seen);
+                  window_.largest, window_.sending, window_.coverage, window_.channels, segments_,
+                  first_, window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x,
+                  buffers_.rim_y, buffers_.light_first, buffers_.winner, buffers_.means, filled_,
+                  buffers_.seen);
 }
 
 void RaysGather::gather(int y, int rows, RayResult& out) {
@@ -127,6 +129,7 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   r.band_y = p.band_y;
   r.band_rows = p.band_rows;
   r.cell_count = word(cells);
+  r.winner_words = 1;
   r.is_first_pass = r.is_last_pass = 1;
   buffers_.begin(r, out);
   for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);

@@ -34,10 +34,9 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
       passes_(plan_rdb_passes(frame.width, frame.wanted_rows(), frame.height,
                               static_cast<int>(cells_),
                               rdb_reach(frame.coc_range().largest_radius()) + span_rows(plan),
-                              session.memory_bytes(),
-                              lights && !lights->empty())),
+                              session.memory_bytes(), lights && !lights->empty())),
       buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().rows),
-               size(passes_.front().cell_count), winners_),
+               size(passes_.front().cell_count) * sizeof(RdbWinner), winners_),
       filled_(session.buffer(size(frame.width) * size(passes_.front().rows) * sizeof(cl_uint))) {}
 
 bool RdbRun::is_last_of_band(const RdbPass& pass) const {
@@ -56,6 +55,7 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   p.band_rows = word(pass.rows);
   p.first_cell = word(pass.first_cell);
   p.cell_count = word(pass.cell_count);
+  p.winner_words = sizeof(RdbWinner) / sizeof(cl_uint);
   p.is_first_pass = pass.first_cell == 0;
   p.is_last_pass = is_last_of_band(pass);
   return p;

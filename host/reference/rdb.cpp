@@ -174,8 +174,7 @@ std::vector<std::int64_t> rdb_scatter(const Frame& f, const RayPlan& plan, std::
     }
     const Span span = span_of(f, plan, source);
     const auto offset = [&](std::int32_t radius) {
-      return scatter.lands_at(
-          std::ldexp(lands_as(plan.lens, radius), -DEFRAY_COC_FRACTION_BITS));
+      return scatter.lands_at(std::ldexp(lands_as(plan.lens, radius), -DEFRAY_COC_FRACTION_BITS));
     };
     reach_as(span.least);
     if (offset(span.least) == offset(span.largest)) continue;  // and so do those between

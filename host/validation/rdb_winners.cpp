@@ -22,8 +22,8 @@ std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Frame
   const auto source = static_cast<std::size_t>(index);
   const std::int64_t radius = std::int64_t{w.key} - (std::int64_t{1} << 31);
   const std::int32_t own = frame.coc_quanta[source];
-  const reference::Span span = plan.lens.jitter == 0 ? reference::span_of(frame, plan, source)
-                                                     : reference::Span{own, own};
+  const reference::Span span =
+      plan.lens.jitter == 0 ? reference::span_of(frame, plan, source) : reference::Span{own, own};
   return radius >= span.least && radius <= span.largest ? index : -2;
 }
 
@@ -42,8 +42,7 @@ std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame
     const std::size_t first = size(pass.y) * size(frame.width);
     for (std::size_t i = 0; i < winners.size(); ++i) {
       const std::size_t cell = i / band + size(pass.first_cell);
-      all[cell * pixels + first + i % band] =
-          index_in_frame(winners[i], window, frame, plan);
+      all[cell * pixels + first + i % band] = index_in_frame(winners[i], window, frame, plan);
     }
   }
   return all;

@@ -13,7 +13,8 @@
 // excess       [highlights]       their light
 // table        [side][side]       summed light of the aperture (host/lens/aperture_table.h)
 // cell_at      [side][side]       nearest lens point, over the square around the lens
-// winner, coc_quanta, coverage (window)     as in rdb_merge; all cells in one pass
+// winner                          as in rdb_nearest; all cells in one pass
+// coc_quanta, coverage (window)   as in rdb_merge
 // rim_x, rim_y                    as in rdb_merge; what the rim leaves counts as all light
 // sum0..3      [band_rows][width] in and out
 // Global size: (width, band_rows).
@@ -100,15 +101,15 @@ uint cell_between(__global const uint* restrict cell_at, const int2 eighths, con
 }
 
 // Whether the RDB's cell on the way from a source to a target is held by a surface in front of it.
-bool is_hidden(const uint2 held, __global const int* restrict coc_quanta, const int4 source) {
-  return held.x != DEFRAY_EMPTY && coc_of(coc_quanta, held.x) < source.z - DEFRAY_JUMP_QUANTA;
+bool is_hidden(const uint held, __global const int* restrict coc_quanta, const int4 source) {
+  return held != DEFRAY_EMPTY && coc_of(coc_quanta, held) < source.z - DEFRAY_JUMP_QUANTA;
 }
 
 __kernel void highlights_add(
     const DefrayRdbParams p, const DefrayLightParams l, __global const uint* restrict first,
     __global const uint* restrict list, __global const int4* restrict where,
     __global const float4* restrict excess, __global const uint* restrict table,
-    __global const uint* restrict cell_at, __global const uint2* restrict winner,
+    __global const uint* restrict cell_at, __global const uint* restrict winner,
     __global const int* restrict coc_quanta, __global const uint* restrict coverage,
     __global const int* restrict rim_x, __global const int* restrict rim_y, WRITTEN_CHANNELS(sum)) {
   const uint x = get_global_id(0);
@@ -138,8 +139,8 @@ __kernel void highlights_add(
     for (int k = 0; k < points * points; ++k) {
       const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
       const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
-      const uint2 held = winner[cell * cells_apart + target];
-      const bool is_free = is_veiled && held.x == own;
+      const uint held = winner[(cell * cells_apart + target) * p.winner_words];
+      const bool is_free = is_veiled && held == own;
       visible += is_free || !is_hidden(held, coc_quanta, h) ? 1u : 0u;
     }
     if (visible == 0u) continue;

@@ -3,9 +3,9 @@
 // Through one lens point u a radius r lands at the offset landing(r u), which changes at known
 // radii: the segments (dx, dy, least radius, span), the same for all pixels. In a segment a target
 // sees one source pixel, (dx, dy) before it, and its ray arrives exactly if its radius, or one that
-// it spans, is in the segment. Segments come in ascending radius: what arrives first is the nearest, and the cell is
-// done. No winners are stored and none is compared. Cells are added in the lens's order, as
-// rdb_merge adds them: the same sums.
+// it spans, is in the segment. Segments come in ascending radius: what arrives first is the
+// nearest, and the cell is done. No winners are stored and none is compared. Cells are added in the
+// lens's order, as rdb_merge adds them: the same sums.
 //
 // A tile's bins say which radii there are within reach; only segments that meet them are looked at.
 // The cells come in passes: some devices end a kernel's loops after so many turns, or a kernel
@@ -19,8 +19,9 @@
 // sharp           [words]            bins whose rays end where they begin, whatever the lens point
 // lens, rim_x, rim_y                 as in rdb_merge
 // light_first     [light tiles + 1]  as `first` in highlights_add
-// winner          [cells][band_rows][width]  (x: source in the window, y: key) where highlights_add
-//                                    or rdb_nearest ask for it
+// winner          [cells][band_rows][width]  source in the window, all ones where no ray has
+// arrived;
+//                                    where highlights_add or rdb_nearest ask for it
 // sum0..3         [band_rows][width] colours' sums; after the last pass the means
 // filled, seen    [band_rows][width] as in rdb_merge
 // Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh).
@@ -84,14 +85,17 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const ulong* restrict occupied,
                          __global const ulong* restrict sharp, __global const int2* restrict lens,
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
-                         __global const uint* restrict light_first, __global uint2* winner,
+                         __global const uint* restrict light_first, __global uint* winner,
                          WRITTEN_CHANNELS(sum), __global uint* filled, __global uint* seen) {
   const int x = (int)(p.band_x + get_global_id(0) * LANES);
   const int y = (int)(p.band_y + get_global_id(1) * ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
 
-  const Rays r = {keys,     p.has_spans ? largest : keys, sending,  coverage, channel0, channel1,
-                  channel2, channel3,                     segments, first};
+  const Rays r = {keys,     p.has_spans ? largest : keys,
+                  sending,  coverage,
+                  channel0, channel1,
+                  channel2, channel3,
+                  segments, first};
   Strip s;
   s.x = x;
   s.y = y;

@@ -1,10 +1,11 @@
 // rdb_nearest: the nearest fragment that a pixel's rays meet, for channels that cannot be averaged.
 //
-// Of all cells' winners the one of the smallest radius of its own; equal ones go to the smaller source index.
-// Fragments without data of their own do not count, nor do cells that the rim cuts off. The cells
-// come in passes: the minimum runs on over them, the same for every band height and memory budget.
+// Of all cells' winners the one of the smallest radius of its own; equal ones go to the smaller
+// source index. Fragments without data of their own do not count, nor do cells that the rim cuts
+// off. The cells come in passes: the minimum runs on over them, the same for every band height and
+// memory budget.
 //
-// winner          [cell_count][band_rows][width]   from rdb_scatter
+// winner          [cell_count][band_rows][width][winner_words]  from rdb_scatter or rdb_gather
 // coc_quanta      [window_rows][layers][width]     as in rdb_scatter
 // data_of         [window_rows][layers][width]     all ones: no data; if has_data_of, else all have
 // lens            [cells]                          u_k, 2^-16 of the aperture radius
@@ -14,7 +15,7 @@
 // Global size: (width, band_rows).
 #include "rdb/rim.clh"
 
-__kernel void rdb_nearest(const DefrayRdbParams p, __global const uint2* restrict winner,
+__kernel void rdb_nearest(const DefrayRdbParams p, __global const uint* restrict winner,
                           __global const int* restrict coc_quanta,
                           __global const uint* restrict data_of, __global const int2* restrict lens,
                           __global const int* restrict rim_x, __global const int* restrict rim_y,
@@ -27,7 +28,7 @@ __kernel void rdb_nearest(const DefrayRdbParams p, __global const uint2* restric
   const size_t cell_stride = (size_t)p.band_rows * p.width;
   uint2 best = p.is_first_pass ? (uint2)(DEFRAY_EMPTY) : nearest[target];
   for (uint k = 0; k < p.cell_count; ++k) {
-    const uint held = winner[k * cell_stride + target].x;
+    const uint held = winner[(k * cell_stride + target) * p.winner_words];
     if (held == DEFRAY_EMPTY) continue;
     const uint2 w = (uint2)(held, as_uint(coc_quanta[held]) ^ 0x80000000u);
     const bool is_nearer = w.y < best.y || (w.y == best.y && w.x < best.x);

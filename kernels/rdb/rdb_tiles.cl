@@ -2,7 +2,8 @@
 //
 // rdb_pad copies planes [window_rows][layers][width] to padded ones, [layers][rows][stride], with a
 // strip's columns and rows of nothing around them:
-//   key       the least CoC radius of its span (span.clh), 1/256 px; DEFRAY_NO_KEY where there is no
+//   key       the least CoC radius of its span (span.clh), 1/256 px; DEFRAY_NO_KEY where there is
+//   no
 //             fragment
 //   largest   the span's largest; if has_spans, else the same
 //   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
@@ -10,11 +11,11 @@
 //   channels  as they are
 // Global size: (stride, padded rows x layers).
 //
-// rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of whole
-// surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of other
-// tiles that may reach it, along x and then, on its own result, along y: `near` says which bins
-// reach from how many tiles away, and a square dilates one axis at a time. Integers only: the same
-// on every device.
+// rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of
+// whole surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of
+// other tiles that may reach it, along x and then, on its own result, along y: `near` says which
+// bins reach from how many tiles away, and a square dilates one axis at a time. Integers only: the
+// same on every device.
 //
 // tiles  [tiles_y][tiles_x][2][words]
 // near   [reach_tiles + 1][words]

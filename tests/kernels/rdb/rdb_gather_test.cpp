@@ -49,6 +49,7 @@ RayPlan plan_of(int points, bool wants_nearest = false) {
   RayPlan plan;
   plan.lens = make_lens_points(Aperture{}, points);
   if (points % 3 == 1) plan.lens.landing_radii = landing_radii(plan.lens);
+  plan.has_spans = !wants_nearest;
   plan.wants_nearest = wants_nearest;
   return plan;
 }
