@@ -186,7 +186,7 @@ TEST(Rdb, HugeFrameInBandsEqualsItsParts) {
 }
 
 const FaultRows faults{
-    {"rdb_merge", "behind by radii of their own", {"if (p.has_spans) {", "if (0) {"}},
+    {"rdb_merge", "behind by radii of their own", {"radius = span_of(all,", "span_of(all,"}},
     {"rdb_merge", "made-up fragments count as seen", {"1u - (coverage[s] >> 31)", "1u"}},
     {"rdb_merge", "count begun anew with each pass", {"? 0u : seen[target]", "? 0u : 0u"}},
     {"rdb_merge",
@@ -218,7 +218,7 @@ const FaultRows faults{
      {"(coverage[i] & ~DEFRAY_SYNTHESISED) == 0u", "false"}},
     {"rdb_merge",
      "the nearest behind",
-     {"coc_quanta[i] > coc_quanta[found]", "coc_quanta[i] < coc_quanta[found]"}},
+     {"radius <= farthest", "radius >= farthest"}},
 };
 
 }  // namespace
