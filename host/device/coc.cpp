@@ -7,8 +7,8 @@
 namespace defray {
 namespace {
 
-const LaunchRow coc_launch({"coc", WorkGroup{64, 0}});
-const LaunchRow tiltshift_launch({"tiltshift", WorkGroup{64, 1}});
+const LaunchRow coc_launch({.kernel = "coc", .group = {64, 0}});
+const LaunchRow tiltshift_launch({.kernel = "tiltshift", .group = {64, 1}});
 
 }  // namespace
 

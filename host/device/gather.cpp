@@ -27,7 +27,9 @@ Launch gather_launch(const char* kernel, int reach_px) {
 const LaunchRow gather_aware_launch(gather_launch("gather_aware", 1));
 // 2: colours lie between that pixel and the next, and products are rounded.
 const LaunchRow gather_literal_launch(gather_launch("gather_literal", 2));
-const LaunchRow gather_reach_launch({"gather_reach", WorkGroup{16, 1}, 0, 2 * Launch::plane});
+const LaunchRow gather_reach_launch({.kernel = "gather_reach",
+                                     .group = {16, 1},
+                                     .bytes_a_surface = 2 * Launch::plane});
 
 // A work-item's surface is a tile.
 constexpr std::size_t tile_bytes = DEFRAY_GATHER_TILE * DEFRAY_GATHER_TILE * Launch::plane;

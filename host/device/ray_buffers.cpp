@@ -8,8 +8,8 @@
 namespace defray {
 namespace {
 
-const LaunchRow highlights_add_launch({"highlights_add", WorkGroup{64, 1}});
-const LaunchRow rdb_nearest_launch({"rdb_nearest", WorkGroup{64, 1}});
+const LaunchRow highlights_add_launch({.kernel = "highlights_add", .group = {64, 1}});
+const LaunchRow rdb_nearest_launch({.kernel = "rdb_nearest", .group = {64, 1}});
 
 }  // namespace
 

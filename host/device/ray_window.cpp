@@ -10,10 +10,11 @@ namespace defray {
 namespace {
 
 // It writes keys, what sends rays, coverage, and colours.
-const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}, 0,
-                                3 * Launch::plane + Launch::colour});
-const LaunchRow rdb_reach_launch({"rdb_reach", WorkGroup{16, 1}});
-const LaunchRow rdb_tiles_launch({"rdb_tiles", WorkGroup{16, 1}});
+const LaunchRow rdb_pad_launch({.kernel = "rdb_pad",
+                                .group = {64, 1},
+                                .bytes_a_surface = 3 * Launch::plane + Launch::colour});
+const LaunchRow rdb_reach_launch({.kernel = "rdb_reach", .group = {16, 1}});
+const LaunchRow rdb_tiles_launch({.kernel = "rdb_tiles", .group = {16, 1}});
 
 int reach_of(const Frame& frame, const RadiusBins& bins) {
   const std::int32_t largest = std::max(std::abs(bins.least), std::abs(bins.largest));

@@ -10,7 +10,7 @@
 namespace defray {
 namespace {
 
-const LaunchRow rdb_clear_launch({"rdb_clear", WorkGroup{256, 0}});
+const LaunchRow rdb_clear_launch({.kernel = "rdb_clear", .group = {256, 0}});
 // Cells take the most (rdb/rdb_plan.h); what is read says whether the frame stays on the device.
 // Of a band: means, what was filled and what was seen, and the nearest hit, its key and source.
 const LaunchRow rdb_merge_launch({.kernel = "rdb_merge",
@@ -18,7 +18,7 @@ const LaunchRow rdb_merge_launch({.kernel = "rdb_merge",
                                   .reach_px = 1,
                                   .bytes_a_surface = 3 * Launch::plane + Launch::colour,
                                   .bytes_a_target = 4 * Launch::plane + Launch::colour});
-const LaunchRow rdb_scatter_launch({"rdb_scatter", WorkGroup{64, 1}});
+const LaunchRow rdb_scatter_launch({.kernel = "rdb_scatter", .group = {64, 1}});
 
 }  // namespace
 

@@ -6,8 +6,8 @@
 namespace defray {
 namespace {
 
-const LaunchRow splat_project_launch({"splat_project", WorkGroup{64, 0}});
-const LaunchRow splat_resolve_launch({"splat_resolve", WorkGroup{1, 4}});
+const LaunchRow splat_project_launch({.kernel = "splat_project", .group = {64, 0}});
+const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {1, 4}});
 
 /// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
 constexpr std::size_t list_bytes = std::size_t{64} << 20;
