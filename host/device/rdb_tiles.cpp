@@ -1,8 +1,9 @@
-#include "device/ray_window.h"
+#include "device/rdb_tiles.h"
 
 #include <algorithm>
 #include <cstdlib>
 
+#include "device/device_backend.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
@@ -99,6 +100,12 @@ RayTiles RayTileWindow::read() {
   read_all(session_, tiles_, tiles, out.held);
   read_all(session_, reach, tiles, out.reach);
   return out;
+}
+
+RayTiles DeviceBackend::ray_tiles(const Frame& frame, const RayPlan& plan) {
+  RayTileWindow window(session_, frame, plan, bins_of(frame));
+  window.prepare({0, frame.height, 0, frame.height});
+  return window.read();
 }
 
 }  // namespace defray
