@@ -52,6 +52,12 @@
 #define DEFRAY_FILL_CELL 4
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
+/// So many of the first pixels of what `fill` meets may be mixed.
+#define DEFRAY_FILL_MIXED 3
+/// Beyond the first pure one it looks at so many pixels, each so many further on than the last: at
+/// how colours go on, and at the slant, which the first of them tells.
+#define DEFRAY_FILL_LOOKS 4
+#define DEFRAY_FILL_LOOK_PX 4
 /// Most directions in which `fill` looks for what goes on behind.
 #define DEFRAY_FILL_DIRECTIONS 16
 /// Most samples a side of the square over which `soften` averages.

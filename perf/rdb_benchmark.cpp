@@ -9,7 +9,7 @@
 
 #include "base/stopwatch.h"
 #include "device/device_backend.h"
-#include "device/rdb_run.h"
+#include "device/rdb_scatter.h"
 #include "lens/lens.h"
 #include "reference/twin_backend.h"
 
@@ -107,7 +107,7 @@ void coc(benchmark::State& state) {
 void rdb_scatter(benchmark::State& state) {
   const Frame f = frame_of(state);
   const RayPlan rays_plan = plan(RaysBy::scatter);
-  RdbRun run(session(), f, rays_plan);
+  RdbScatter run(session(), f, rays_plan);
   for (auto _ : state) {
     for (const RdbPass& pass : run.passes()) run.scatter(pass);
     run.finish();
@@ -119,7 +119,7 @@ void rdb_scatter(benchmark::State& state) {
 void rdb_merge(benchmark::State& state) {
   const Frame f = frame_of(state);
   const RayPlan rays_plan = plan(RaysBy::scatter);
-  RdbRun run(session(), f, rays_plan);
+  RdbScatter run(session(), f, rays_plan);
   RayResult out{std::vector<Plane>(f.channels.size(), Plane(f.pixels())),
                 std::vector<std::uint32_t>(f.pixels())};
   for (auto _ : state) {

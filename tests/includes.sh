@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Checks that the host's includes go downwards in host/README.md's list of rooms: includes.sh PROJECT
+# Checks that the host's includes name their room, and go downwards in host/README.md's list of rooms:
+# includes.sh PROJECT
 set -euo pipefail
 cd "$1/host"
-grep -rn --include='*.cpp' --include='*.h' '^#include "' . | awk '
+grep -rnE --include='*.cpp' --include='*.h' --include='*.def' '^ *# *include *"' . | awk '
   # The rooms, first to last: rows of the first table.
   NR == FNR {
     if (match($0, /^\| \[?`[a-z/]+`/)) {
@@ -16,11 +17,13 @@ grep -rn --include='*.cpp' --include='*.h' '^#include "' . | awk '
     split($0, part, ":")
     sub("^\\./(include/)?", "", part[1])
     own = part[1]; sub("/.*", "", own)
-    other = $0; sub(".*#include \"", "", other); sub("/.*", "", other)
-    if (!(own in level)) { print part[1] ": room " own " is not in host/README.md"; bad = 1 }
-    if (other in level && level[other] > level[own]) {
-      print part[1] ":" part[2] ": " own " includes " other ", which lies above it"; bad = 1
-    }
+    other = $0; sub(".*include *\"", "", other); sub("\".*", "", other)
+    wrong = ""
+    if (!(own in level)) wrong = "room " own " is not in host/README.md"
+    else if (!sub("/.*", "", other)) wrong = "includes " other " without its room"
+    else if (!(other in level) && other != "kernels") wrong = other " is no room of host/README.md"
+    else if (level[other] > level[own]) wrong = own " includes " other ", which lies above it"
+    if (wrong) { print part[1] ":" part[2] ": " wrong; bad = 1 }
     seen++
   }
   END {

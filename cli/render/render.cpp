@@ -88,24 +88,14 @@ void take_focus_of_frame(RenderCommand& job) {
   job.settings.focus_at.reset();
 }
 
-int render(const OptionTable& options, RenderCommand& job, PictureStreams& streams) {
-  const auto frames = frames_of(job);
-  options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
-  finish(job);
-  check_lens(job, frames);
-  make_folders(job);
-  take_focus_of_frame(job);
-  SequenceRun sequence(job, frames);
-  const std::size_t failed = sequence.render();
-  streams.finish();
-  if (job.show) sequence.show_last();
-  if (failed > 0) {
-    fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames.size());
-  }
+/// Says what is not as it was asked for.
+int exit_code_of(const SequenceRun& sequence, const RenderCommand& job, std::size_t frames) {
+  const std::size_t failed = sequence.failed();
+  if (failed > 0) fmt::print(stderr, "defray: error: {} of {} frames failed\n", failed, frames);
   const std::size_t missed = job.strict_target ? sequence.missed() : 0;
   if (missed > 0) {
-    fmt::print(stderr, "defray: error: {} of {} frames miss --target-db {}\n", missed,
-               frames.size(), *job.settings.error.target_db);
+    fmt::print(stderr, "defray: error: {} of {} frames miss --target-db {}\n", missed, frames,
+               *job.settings.error.target_db);
   }
   return failed + missed > 0 ? ExitCode::failed : ExitCode::ok;
 }
@@ -116,7 +106,17 @@ int run(const OptionTable& options, RenderCommand& job) {
   PictureStreams streams(job.paths.input, job.paths.output);
   job.named = [&](const std::string& text) { return streams.named(text); };
   try {
-    return render(options, job, streams);
+    const auto frames = frames_of(job);
+    options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
+    finish(job);
+    check_lens(job, frames);
+    make_folders(job);
+    take_focus_of_frame(job);
+    SequenceRun sequence(job, frames);
+    sequence.render();
+    streams.finish();
+    if (job.show) sequence.show_last();
+    return exit_code_of(sequence, job, frames.size());
   } catch (const Error& error) {
     throw Error(error.kind(), streams.named(error.marked()));
   }

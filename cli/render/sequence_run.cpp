@@ -101,7 +101,7 @@ SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
   return work;
 }
 
-std::size_t SequenceRun::render() {
+void SequenceRun::render() {
   const auto read_ahead = [&](std::size_t i) {
     return std::async(job_.no_overlap ? std::launch::deferred : std::launch::async,
                       [this, i] { return read(frames_[i]); });
@@ -133,7 +133,6 @@ std::size_t SequenceRun::render() {
     if (job_.no_overlap) finish(writing.get());
   }
   if (writing.valid()) finish(writing.get());
-  return failed_;
 }
 
 void SequenceRun::finish(Work work) {

@@ -25,9 +25,13 @@ class SequenceRun {
   /// Opens the device. A single frame without a number is a picture. Throws Error.
   SequenceRun(const RenderCommand& job, std::vector<std::optional<int>> frames);
 
-  /// Renders all, and tells about each in its order. How many have failed, where --skip-bad-frames
-  /// lets the run go on; else throws the first one's Error.
-  std::size_t render();
+  /// Renders all, and tells about each in its order. Throws the first one's Error that fails,
+  /// unless
+  /// --skip-bad-frames lets the run go on.
+  void render();
+
+  /// Frames that have failed.
+  std::size_t failed() const { return failed_; }
 
   /// Frames of which no quality is expected to reach the target.
   std::size_t missed() const { return missed_; }

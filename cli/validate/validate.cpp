@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "exit_code.h"
 #include "image/safe_output.h"
+#include "opencl/device.h"
 #include "options/math_words.h"
 #include "progress.h"
 #include "validate/case_command.h"

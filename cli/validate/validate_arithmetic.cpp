@@ -6,6 +6,7 @@
 
 #include "defray/defray.h"
 #include "image/safe_output.h"
+#include "opencl/device.h"
 #include "progress.h"
 #include "validate/validate.h"
 #include "validation/arithmetic.h"

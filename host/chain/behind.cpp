@@ -6,44 +6,37 @@
 namespace defray {
 namespace {
 
-/// Rows of strips below each other, so far apart that none matches another.
+/// Rows of strips below each other, so far apart that none matches another: their frame and its
+/// pixels, which come a strip at a time.
 class StripFrame {
  public:
   StripFrame(const Frame& front, std::size_t strips, int rows, int apart)
       : frame(front.without_planes()), rows_(rows), apart_(apart) {
     frame.margin = 0;
     frame.height = static_cast<int>(strips) * (rows + apart) - apart;
-    coc_.resize(frame.pixels());
-    inverse_.resize(frame.pixels());
-    pixels_.resize(frame.pixels());
+    frame.coc_quanta = Quanta(frame.pixels());
+    frame.inverse = Values<float>(frame.pixels());
+    pixels = Words(frame.pixels());
   }
 
-  void add(const Frame& front, const Words& pixels, Rows strip) {
+  void add(const Frame& front, const Words& front_pixels, Rows strip) {
     const std::size_t count = size(strip.count()) * size(frame.width);
     const std::size_t from = front.index(0, strip.y), to = frame.index(0, next_);
     const auto copy = [&](const auto& plane, auto& into) {
       const auto rows = plane.host().subspan(from, count);
-      std::copy(rows.begin(), rows.end(), into.begin() + static_cast<std::ptrdiff_t>(to));
+      std::copy(rows.begin(), rows.end(), into.edit().subspan(to).begin());
     };
-    copy(front.coc_quanta, coc_);
-    copy(front.inverse, inverse_);
-    copy(pixels, pixels_);
+    copy(front.coc_quanta, frame.coc_quanta);
+    copy(front.inverse, frame.inverse);
+    copy(front_pixels, pixels);
     next_ += rows_ + apart_;
   }
 
-  std::vector<PatternShift> shifts(const PatternSettings& settings) {
-    frame.coc_quanta = std::move(coc_);
-    frame.inverse = std::move(inverse_);
-    return find_shifts(frame, std::move(pixels_), settings);
-  }
-
   Frame frame;
+  Words pixels;
 
  private:
   int rows_, apart_, next_ = 0;
-  std::vector<std::int32_t> coc_;
-  Plane inverse_;
-  std::vector<std::uint32_t> pixels_;
 };
 
 }  // namespace
@@ -86,7 +79,7 @@ void Behind::look_at_strips(const std::vector<Rows>& strips) {
     all.add(front_.frame, pixels_, rows);
     work_.done("patterns");
   }
-  shifts_ = all.shifts(settings_);
+  shifts_ = find_shifts(all.frame, all.pixels, settings_);
   if (work_.is_banded) restart(0);
   work_.done("patterns");
 }

@@ -54,7 +54,9 @@ std::size_t bytes_of_bands(const Frame& e, std::size_t channels, const ChainReac
   // CoC, depth, coverage, data, what highlights keep, alpha.
   const std::size_t layer = (6 + channels) * plane(layered);
   const std::size_t softened = channels * plane(sent);
-  const std::size_t padded = (3 + channels) * plane(sent);
+  // What rdb_pad writes, of four channels those that there are.
+  const std::size_t padded =
+      (launch_of("rdb_pad").bytes_a_surface / Launch::plane - 4 + channels) * plane(sent);
   const std::size_t result = (2 + channels) * plane(rows);
   return front + behind + layers * (layer + softened + padded) + result;
 }

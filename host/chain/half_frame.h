@@ -20,7 +20,7 @@ float detail_left(std::int32_t coc_quanta);
 /// a surface's own: of a lamp (more light than the others together) or of the lower median by CoC.
 /// Of odd sizes the last pixels count twice.
 struct HalfFrame {
-  Frame frame;
+  Frame frame;  ///< As any other; the rest is only for the way back to full size.
   std::vector<std::uint32_t> source;  ///< The pixel that CoC and depth are of.
   Plane detail;                       ///< Mean share of detail_left.
 };

@@ -119,7 +119,8 @@ void Layered::margin_to(int end) {
   work_.done("border");
 }
 
-void Layered::soften_to(int end) {
+void Layered::to(int end) {
+  if (!work_.settings.soften) return margin_to(end);
   const Rows rows = go_on(soften_done_, end, height());
   if (rows.empty()) return;
   margin_to(rows.end + work_.reach.soften);
@@ -128,14 +129,6 @@ void Layered::soften_to(int end) {
   f.known_range = work_.reach.all;
   softened_ = work_.backend.soften(f, work_.report.lens_points, std::move(softened_));
   work_.done("soften");
-}
-
-void Layered::to(int end) {
-  if (work_.settings.soften) {
-    soften_to(end);
-  } else {
-    margin_to(end);
-  }
 }
 
 Frame Layered::frame_for_rays(Rows rows) const {

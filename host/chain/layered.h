@@ -39,7 +39,6 @@ class Layered {
   void highlights_to(int end);
   void lights_to(int end);
   void margin_to(int end);
-  void soften_to(int end);
 
   Front& front_;
   Behind& behind_;

@@ -8,10 +8,13 @@
 namespace defray {
 namespace {
 
-// The first 3 pixels of what was found may be mixed; colours are looked at 4 times 4 px further on;
-// 1 for rounding.
-const LaunchRow fill_launch({"fill", WorkGroup{8, 1}, 3 + 16 + 1,
-                             5 * Launch::plane + 2 * Launch::colour, DEFRAY_RUN});
+// As far as it looks beyond what it has met, and 1 for rounding.
+const LaunchRow fill_launch({.kernel = "fill",
+                             .group = {8, 1},
+                             .reach_px = DEFRAY_FILL_MIXED +
+                                         DEFRAY_FILL_LOOKS * DEFRAY_FILL_LOOK_PX + 1,
+                             .bytes_a_surface = 5 * Launch::plane + 2 * Launch::colour,
+                             .run_px = DEFRAY_RUN});
 
 }  // namespace
 

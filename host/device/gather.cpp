@@ -1,4 +1,4 @@
-// Kernels `gather_*`: pass after pass, each over all bands.
+// Kernels `gather_aware` and `gather_literal`: pass after pass, each over all bands.
 #include "methods/gather.h"
 
 #include <algorithm>
@@ -27,14 +27,6 @@ Launch gather_launch(const char* kernel, int reach_px) {
 const LaunchRow gather_aware_launch(gather_launch("gather_aware", 1));
 // 2: colours lie between that pixel and the next, and products are rounded.
 const LaunchRow gather_literal_launch(gather_launch("gather_literal", 2));
-const LaunchRow gather_reach_launch({"gather_reach", WorkGroup{16, 1}, 0, 2 * Launch::plane});
-
-// A work-item's surface is a tile.
-constexpr std::size_t tile_bytes = DEFRAY_GATHER_TILE * DEFRAY_GATHER_TILE * Launch::plane;
-const LaunchRow gather_tiles_launch({.kernel = "gather_tiles",
-                                     .group = {16, 1},
-                                     .bytes_a_surface = tile_bytes + Launch::plane,
-                                     .bytes_a_value = tile_bytes});
 
 /// Four channels of each pixel together, as samples fetch them.
 using Packed = Values<cl_float4>;
@@ -59,35 +51,6 @@ Planes unpacked(const Packed& packed, std::size_t channels) {
 }
 
 }  // namespace
-
-Quanta DeviceBackend::gather_tiles(const Frame& f) {
-  const Frame tiles = gather_tiles_of(f);
-  Quanta largest;
-  for_each_band(session_, "gather_tiles", tiles, 0, [&](Band& band) {
-    const int y = band.rows().y * DEFRAY_GATHER_TILE;
-    const int rows = std::min(band.rows().rows * DEFRAY_GATHER_TILE, f.height - y);
-    Band pixels(session_, "gather_tiles", f, {y, rows, y, rows});
-    const cl::Buffer made = band.out(largest);
-    band.launch(tile_params(f.width, rows, 0), pixels.in(f.coc_quanta), made);
-  });
-  return largest;
-}
-
-Quanta DeviceBackend::gather_reach(const Frame& f) {
-  const Frame tiles = gather_tiles_of(f);
-  DefrayTileParams p = tile_params(f.width, f.height, f.coc_range().largest_radius());
-  Quanta reach = gather_tiles(f);
-  for (p.along_y = 0; p.along_y < 2; ++p.along_y) {
-    Quanta farther;
-    for_each_band(session_, "gather_reach", tiles, p.along_y ? p.reach_tiles : 0, [&](Band& band) {
-      p.tiles_y = word(band.rows().window_rows);
-      const cl::Buffer made = band.out(farther);
-      band.launch(p, band.in(reach), made);
-    });
-    reach = std::move(farther);
-  }
-  return reach;
-}
 
 Planes DeviceBackend::gather(const Frame& f, const GatherSettings& settings,
                              const Progress& progress) {

@@ -8,8 +8,9 @@
 namespace defray {
 namespace {
 
-const LaunchRow highlights_launch({"highlights", WorkGroup{64, 1}, 0,
-                                   3 * Launch::plane + Launch::colour});
+const LaunchRow highlights_launch({.kernel = "highlights",
+                                   .group = {64, 1},
+                                   .bytes_a_surface = 3 * Launch::plane + Launch::colour});
 
 }  // namespace
 

@@ -7,9 +7,17 @@ namespace defray {
 namespace {
 
 // Whether a step to the next pixel goes on is looked at one further.
-const LaunchRow mixed_launch({"mixed", WorkGroup{8, 1}, 2, 2 * Launch::plane, DEFRAY_RUN});
+const LaunchRow mixed_launch({.kernel = "mixed",
+                              .group = {8, 1},
+                              .reach_px = 2,
+                              .bytes_a_surface = 2 * Launch::plane,
+                              .run_px = DEFRAY_RUN});
 // A ramp's ends are looked for two pixels away, and what is flat one further.
-const LaunchRow repair_launch({"repair", WorkGroup{8, 1}, 3, 2 * Launch::plane, DEFRAY_RUN});
+const LaunchRow repair_launch({.kernel = "repair",
+                               .group = {8, 1},
+                               .reach_px = 3,
+                               .bytes_a_surface = 2 * Launch::plane,
+                               .run_px = DEFRAY_RUN});
 
 DefrayFrameParams window_of(const Frame& f, const Band& band) {
   return {word(f.width), word(band.rows().window_rows)};

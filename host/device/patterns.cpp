@@ -10,10 +10,11 @@
 namespace defray {
 namespace {
 
-const LaunchRow patterns_difference_launch({"patterns_difference", WorkGroup{8, 1}});
+const LaunchRow patterns_difference_launch({.kernel = "patterns_difference", .group = {8, 1}});
 // What matches are within reach of, and both surfaces.
-const LaunchRow patterns_match_launch({"patterns_match", WorkGroup{8, 1}, 0,
-                                       5 * Launch::plane + 2 * Launch::colour});
+const LaunchRow patterns_match_launch({.kernel = "patterns_match",
+                                       .group = {8, 1},
+                                       .bytes_a_surface = 5 * Launch::plane + 2 * Launch::colour});
 
 /// Rows of cells at once, if the memory holds their differences: those of all shifts stay in the
 /// cache from one kernel to the next.

@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
-#include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
-namespace {
-
-const LaunchRow highlights_add_launch({"highlights_add", WorkGroup{64, 1}});
-const LaunchRow rdb_nearest_launch({"rdb_nearest", WorkGroup{64, 1}});
-
-}  // namespace
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
                        const LightSources* lights, std::size_t pixels, std::size_t winner_bytes,
@@ -56,20 +49,6 @@ DefrayRdbParams RayBuffers::params() const {
   p.all_cells = static_cast<std::uint32_t>(plan_.lens.points.size());
   p.has_data_of = !frame_.data_of.empty();
   return p;
-}
-
-void RayBuffers::find_nearest(const DefrayRdbParams& p, const RayWindow& window) {
-  if (!plan_.wants_nearest) return;
-  session_.launch("rdb_nearest", {p.width, p.band_rows}, p, winner, window.coc, window.data_of,
-                  lens, rim_x, rim_y, nearest_);
-}
-
-void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {
-  if (!lights_) return;
-  const DefrayLightParams l{word(lights_->tiles_x), lights_->share_of_light};
-  session_.launch("highlights_add", {p.width, p.band_rows}, p, l, light_first, list_, where_,
-                  excess_, table_, cell_map_, winner, window.coc, window.coverage, rim_x, rim_y,
-                  means);
 }
 
 std::size_t RayBuffers::first_of(const DefrayRdbParams& p) const {

@@ -8,8 +8,11 @@
 namespace defray {
 namespace {
 
-const LaunchRow soften_launch({"soften", WorkGroup{2, 1}, 1, 2 * Launch::plane + 2 * Launch::colour,
-                               DEFRAY_RUN});
+const LaunchRow soften_launch({.kernel = "soften",
+                               .group = {2, 1},
+                               .reach_px = 1,
+                               .bytes_a_surface = 2 * Launch::plane + 2 * Launch::colour,
+                               .run_px = DEFRAY_RUN});
 
 }  // namespace
 

@@ -7,9 +7,11 @@ namespace defray {
 namespace {
 
 // A square of 7 px around. Two layers are written, the frame and what lies behind read.
-const LaunchRow split_launch({"split", WorkGroup{64, 1}, 3,
-                              3 * Launch::plane + Launch::colour +
-                                  (5 * Launch::plane + 2 * Launch::colour) / 2});
+const LaunchRow split_launch({.kernel = "split",
+                              .group = {64, 1},
+                              .reach_px = 3,
+                              .bytes_a_surface = 3 * Launch::plane + Launch::colour +
+                                                 (5 * Launch::plane + 2 * Launch::colour) / 2});
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
 // The one frame that stages take and give: planes of one size, on the host or on a device.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,10 @@ struct Frame {
 
   std::size_t index(int x, int y, int layer = 0) const {
     return (size(y) * size(layers) + size(layer)) * size(width) + size(x);
+  }
+  /// Of one layer: the pixel nearest to a place that may lie beyond the edges.
+  std::size_t index_within(int x, int y) const {
+    return index(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
   }
   std::size_t pixels() const { return size(width) * size(height); }
   std::size_t surfaces() const { return pixels() * size(layers); }

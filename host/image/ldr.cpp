@@ -105,12 +105,13 @@ void write_ldr(const std::string& path, const LdrPicture& picture) {
 
 void write_encoded(const std::string& path, const void* mat) {
   // Encoded in memory and written by us: the codecs report a full disk on their own, or not at all.
+  const cv::Mat& image = *static_cast<const cv::Mat*>(mat);
   std::vector<std::uint8_t> bytes;
   try {
-    cv::imencode(lower_extension(path), *static_cast<const cv::Mat*>(mat), bytes,
-                 {cv::IMWRITE_JPEG_QUALITY, 95});
+    cv::imencode(lower_extension(path), image, bytes, {cv::IMWRITE_JPEG_QUALITY, 95});
   } catch (const cv::Exception& error) {
-    fail(ErrorKind::output, "{}: cannot encode: {}", path, error.err);
+    fail(ErrorKind::output, "{}: cannot encode {}x{} pixels: {}", path, image.cols, image.rows,
+         error.err);
   }
   std::ofstream stream(path, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()),

@@ -13,11 +13,11 @@ namespace {
 // multiples of 2^-24.
 constexpr std::uint32_t dropped_bits = 13, rebias = (127u - 15u) << 10;
 constexpr std::uint32_t smallest_normal = 0x0400, beyond_halves = 0x7c00;
-constexpr float smallest = 0x1p-24f;
+constexpr float smallest_half = 0x1p-24f;
 
 float of_half(std::int32_t half) {
   const auto bits = static_cast<std::uint32_t>(half);
-  return bits < smallest_normal ? static_cast<float>(half) * smallest
+  return bits < smallest_normal ? static_cast<float>(half) * smallest_half
                                 : std::bit_cast<float>((bits + rebias) << dropped_bits);
 }
 
@@ -26,7 +26,8 @@ std::int32_t half_of(float value) {
   if (value < 0) return DepthLadder::no_step;
   const std::uint32_t normal = (std::bit_cast<std::uint32_t>(value) >> dropped_bits) - rebias;
   const bool is_normal = normal >= smallest_normal && normal < beyond_halves;
-  const float half = is_normal ? static_cast<float>(normal) : std::fmin(value / smallest, 0x1p10f);
+  const float half =
+      is_normal ? static_cast<float>(normal) : std::fmin(value / smallest_half, 0x1p10f);
   const auto step = static_cast<std::int32_t>(half);
   return of_half(step) == value ? step : DepthLadder::no_step;
 }

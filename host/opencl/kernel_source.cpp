@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "kernel_files.h"
+#include "kernels/kernel_files.h"
 
 namespace defray {
 namespace {

@@ -9,7 +9,7 @@ namespace defray {
 namespace {
 
 /// A function's, as rows of other files may come before anything of this one.
-std::vector<Launch>& rows() {
+std::vector<Launch>& table_rows() {
   static std::vector<Launch> table;
   return table;
 }
@@ -17,13 +17,13 @@ std::vector<Launch>& rows() {
 }  // namespace
 
 LaunchRow::LaunchRow(const Launch& launch) {
-  const auto place = std::find_if(rows().begin(), rows().end(), [&](const Launch& other) {
-    return std::string_view(launch.kernel) < other.kernel;
-  });
-  rows().insert(place, launch);
+  const auto place = std::find_if(
+      table_rows().begin(), table_rows().end(),
+      [&](const Launch& other) { return std::string_view(launch.kernel) < other.kernel; });
+  table_rows().insert(place, launch);
 }
 
-const std::vector<Launch>& launch_table() { return rows(); }
+const std::vector<Launch>& launch_table() { return table_rows(); }
 
 const Launch& launch_of(const std::string& kernel) {
   const auto& table = launch_table();

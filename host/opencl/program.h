@@ -1,5 +1,6 @@
 #pragma once
 // The kernels, compiled for a device.
+#include "opencl/device.h"
 #include "opencl/session_options.h"
 
 namespace defray {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "defray/device.h"
-#include "opencl/device.h"
 #include "opencl/kernel_source.h"
 
 namespace defray {

@@ -9,16 +9,12 @@
 namespace defray {
 namespace {
 
-ResultWithError apply(const Frame& frame, const MethodSettings& settings,
-                      const ErrorSettings& error, Backend& backend, bool wants_nearest,
-                      const Progress& progress) {
-  ResultWithError out{
-      apply_method(frame, settings, backend, wants_nearest, progress), settings, {}, {}};
-  if (!(error.wants_expected || error.target_db) || !is_predictable(settings)) return out;
+/// Where it is asked for, and can be.
+void predict(const Frame& frame, const ErrorSettings& error, ResultWithError& out) {
+  if (!(error.wants_expected || error.target_db) || !is_predictable(out.settings)) return;
   const Stopwatch watch;
-  out.prediction.emplace(frame, *settings.chain, out.result, error.wants_planes);
-  out.predict_seconds = watch.seconds();
-  return out;
+  out.prediction.emplace(frame, *out.settings.chain, out.result, error.wants_planes);
+  out.predict_seconds += watch.seconds();
 }
 
 // What is guessed of other rungs, minus what was found of them, on 17 settings of ten built-in
@@ -121,21 +117,21 @@ ResultWithError apply_with_error(const Frame& frame, const MethodSettings& setti
                                  const ErrorSettings& error, Backend& backend, bool wants_nearest,
                                  const Progress& progress) {
   validate(settings, error);
+  ResultWithError out{{}, settings, {}, {}};
   if (!error.target_db) {
-    return apply(frame, settings, error, backend, wants_nearest, progress);
+    out.result = apply_method(frame, settings, backend, wants_nearest, progress);
+    predict(frame, error, out);
+    return out;
   }
-  ResultWithError out;
-  double predict_seconds = 0;
   for (std::size_t rung = first_rung(error); rung < rungs().size();) {
-    MethodSettings chosen = settings;
-    chosen.chain = with_rung(*settings.chain, rungs()[rung]);
+    out.settings.chain = with_rung(*settings.chain, rungs()[rung]);
     const auto of_all = [&](double share) {
       progress((static_cast<double>(rung) + share) / static_cast<double>(rungs().size()));
     };
-    out = {};  // the last one's planes
-    out = apply(frame, chosen, error, backend, wants_nearest,
-                progress ? Progress(of_all) : Progress());
-    out.predict_seconds = predict_seconds += out.predict_seconds;
+    out.result = {}, out.prediction.reset();  // the last one's planes
+    out.result = apply_method(frame, out.settings, backend, wants_nearest,
+                              progress ? Progress(of_all) : Progress());
+    predict(frame, error, out);
     out.rung = rungs()[rung];
     if (out.prediction->of_frame().psnr_db >= *error.target_db) break;
     rung = next_rung(rung, *out.prediction, *settings.chain, *error.target_db);

@@ -90,7 +90,7 @@ class Filler {
       const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
       if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= reach(coc - own) &&
           passes_mixed(way, t - step, t)) {
-        for (int i = t; i <= t + 3; ++i) {
+        for (int i = t; i <= t + DEFRAY_FILL_MIXED; ++i) {
           const Place further = way.after(i);
           if (!frame_.contains(further)) return std::nullopt;
           const bool is_pure = !mixed_[frame_.index(further)];
@@ -113,13 +113,14 @@ class Filler {
 
   /// The surface after t steps, continued back to the start, no further than half the step in CoC.
   Found continued(const Way& way, int t, int own) const {
-    const Place back = way.steps(t), on = way.steps(4), beyond = way.start + back + on;
+    const Place back = way.steps(t), on = way.steps(DEFRAY_FILL_LOOK_PX),
+                beyond = way.start + back + on;
     const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
     Found found{q, static_cast<float>(t), static_cast<float>(coc), inverse_[q], 0};
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
-    const auto slant = static_cast<float>(coc - frame_.coc(b));  // over four pixels
+    const auto slant = static_cast<float>(coc - frame_.coc(b));  // over DEFRAY_FILL_LOOK_PX
     if (mixed_[b] || std::fabs(slant) > 4 * DEFRAY_JUMP_QUANTA) return found;
     const float most = 0.5f * static_cast<float>(coc - own);
     const float steps = static_cast<float>(back.x * on.x + back.y * on.y) /
@@ -133,7 +134,7 @@ class Filler {
     return found;
   }
 
-  /// With its colour's weight, from four pixels further on; a small highlight that does not lie at
+  /// With its colour's weight, from pixels further on; a small highlight that does not lie at
   /// the very edge gives its place to the brightest of them.
   Found looked_further(const Way& way, Found found) const {
     const int coc = frame_.coc(found.source), t = static_cast<int>(found.distance);
@@ -141,8 +142,10 @@ class Filler {
     float change = 0, size = sum_of_squares(colour), brightest = -1;
     std::size_t source = found.source;
     found.weight = 1 / (found.distance * found.distance);
-    for (int i = 1; i <= 4 && frame_.contains(way.after(t + 4 * i)); ++i) {
-      const std::size_t q = frame_.index(way.after(t + 4 * i));
+    for (int i = 1; i <= DEFRAY_FILL_LOOKS; ++i) {
+      const Place further = way.after(t + DEFRAY_FILL_LOOK_PX * i);
+      if (!frame_.contains(further)) break;
+      const std::size_t q = frame_.index(further);
       if (mixed_[q] || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
       const Colour c = colour_at(channels_, q);
       Colour difference = c;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/gather_frame.h"
+#include "reference/gather_samples.h"
 #include "reference/reference.h"
 
 namespace defray::reference {
@@ -53,14 +53,15 @@ struct WeighedSource {
 /// Sources of a layer with their weights, those without weight left out.
 /// weight(own CoC, their CoC, distance).
 template <typename Weight>
-std::vector<WeighedSource> weigh(const GatherFrame& frame, std::span<const std::int32_t> coc,
+std::vector<WeighedSource> weigh(const Frame& frame, std::span<const std::int32_t> coc,
                                  float quantum, int x, int y, const SampledDisc& layer,
                                  const Weight& weight) {
   std::vector<WeighedSource> sources;
   const float own = static_cast<float>(coc[frame.index(x, y)]) * quantum;
   for (const auto& [u, v] : layer.points) {
     const float dx = std::nearbyint(layer.radius * u), dy = std::nearbyint(layer.radius * v);
-    const std::size_t source = frame.index(x + static_cast<int>(dx), y + static_cast<int>(dy));
+    const std::size_t source =
+        frame.index_within(x + static_cast<int>(dx), y + static_cast<int>(dy));
     const float theirs = static_cast<float>(coc[source]) * quantum;
     const float share = weight(own, theirs, std::sqrt(dx * dx + dy * dy));
     if (share > 0) sources.push_back({source, share});
@@ -86,9 +87,9 @@ float covers(float coc, float distance) {
   return std::clamp(std::fabs(coc) + 0.5f - distance, 0.0f, 1.0f);
 }
 
-void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, float quantum, int x,
-                 int y, float search, const std::vector<std::array<float, 2>>& samples,
-                 std::vector<Plane>& out) {
+void aware_pixel(const Frame& frame, const std::vector<Plane>& channels,
+                 std::span<const std::int32_t> coc, float quantum, int x, int y, float search,
+                 const std::vector<std::array<float, 2>>& samples, std::vector<Plane>& out) {
   const std::size_t at = frame.index(x, y);
   const float own_radius = std::fabs(static_cast<float>(coc[at]) * quantum);
   const auto [near_layer, base_layer] = split_samples(search, own_radius, samples);
@@ -106,7 +107,7 @@ void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, fl
   const float base_weight = sum_of_weights(base, 1 / std::max(base_layer.area, 1.0f));
   const float rest = std::max(1.0f - near_weight, 0.0f);
   for (std::size_t c = 0; c < out.size(); ++c) {
-    const Plane& plane = frame.channels[c];
+    const Plane& plane = channels[c];
     const float near_mean = sum_of(plane, at, near) / std::max(near_weight, 1.0f);
     out[c][at] = plane[at] + (near_mean + rest * (sum_of(plane, at, base) / base_weight));
   }
@@ -117,18 +118,17 @@ void aware_pixel(const GatherFrame& frame, std::span<const std::int32_t> coc, fl
 std::vector<Plane> gather_aware(const DefrayGatherParams& p, const GatherSamples& samples,
                                 const std::vector<Plane>& channels, const Frame& f) {
   const auto coc_quanta = f.coc_quanta.host();
-  const GatherFrame frame{f.width, f.height, channels};
   const float quantum = std::ldexp(1.0f, -DEFRAY_COC_FRACTION_BITS) * p.radius_scale;
   const auto reach = gather_reach(f);
-  const int across = (frame.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
+  const int across = (f.width + DEFRAY_GATHER_TILE - 1) / DEFRAY_GATHER_TILE;
   std::vector<Plane> out(channels);
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
+  for (int y = 0; y < f.height; ++y) {
+    for (int x = 0; x < f.width; ++x) {
       const int tile = y / DEFRAY_GATHER_TILE * across + x / DEFRAY_GATHER_TILE;
       const float search = static_cast<float>(reach[static_cast<std::size_t>(tile)]) * quantum;
       if (search < 0.5f) continue;
       const auto turned = samples_of_pixel(p, samples, x, y);
-      aware_pixel(frame, coc_quanta, quantum, x, y, search, turned, out);
+      aware_pixel(f, channels, coc_quanta, quantum, x, y, search, turned, out);
     }
   }
   return out;

@@ -17,27 +17,25 @@ inline Place operator+(Place a, Place b) { return {a.x + b.x, a.y + b.y}; }
 inline Place operator-(Place a, Place b) { return {a.x - b.x, a.y - b.y}; }
 inline Place operator*(int n, Place a) { return {n * a.x, n * a.y}; }
 
-/// The CoC of a frame of one layer, which goes on beyond its edges.
+/// The CoC of a frame of one layer, which goes on beyond its edges, by place. Apart from the frame,
+/// whose values are looked for, on a device or here, each time that one is asked for.
 struct CocFrame {
-  explicit CocFrame(const Frame& f)
-      : width(f.width), height(f.height), coc_quanta(f.coc_quanta.host()) {}
-  int width, height;
+  explicit CocFrame(const Frame& f) : frame(f), coc_quanta(f.coc_quanta.host()) {}
+  const Frame& frame;
   std::span<const std::int32_t> coc_quanta;
 
-  bool contains(Place at) const { return at.x >= 0 && at.y >= 0 && at.x < width && at.y < height; }
-  std::size_t index(Place at) const {
-    return static_cast<std::size_t>(std::clamp(at.y, 0, height - 1)) *
-               static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(std::clamp(at.x, 0, width - 1));
+  bool contains(Place at) const {
+    return at.x >= 0 && at.y >= 0 && at.x < frame.width && at.y < frame.height;
   }
+  std::size_t index(Place at) const { return frame.index_within(at.x, at.y); }
   /// Limited to what differences can be taken of.
   std::int32_t coc(std::size_t pixel) const { return tame(coc_quanta[pixel]); }
   std::int32_t coc(Place at) const { return coc(index(at)); }
 
   template <typename Visit>
   void for_each_place(const Visit& visit) const {
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) visit(Place{x, y});
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) visit(Place{x, y});
     }
   }
 };

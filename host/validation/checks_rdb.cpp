@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/device_backend.h"
 #include "rdb/rdb_plan.h"
 #include "reference/reference.h"
+#include "validation/either.h"
 #include "validation/kernel_checks.h"
 #include "validation/rdb_winners.h"
 #include "validation/stage_input.h"

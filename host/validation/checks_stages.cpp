@@ -29,29 +29,30 @@ Outcome values_of(const std::vector<Frame>& surfaces) {
 }
 
 Outcome run_repair(Backend& backend, const Case& c, const Input& in) {
-  return words(backend.repair(blurred(c, StageFrame(c, in).frame)));
+  return words(backend.repair(blurred(c, stage_frame(c, in))));
 }
 
 Outcome run_mixed(Backend& backend, const Case& c, const Input& in) {
-  return words(backend.mixed(StageFrame(c, in).frame));
+  return words(backend.mixed(stage_frame(c, in)));
 }
 
 /// Of `fill`: either number, by the case.
 int directions_of(const Case& c) { return c.seed % 2 ? DEFRAY_FILL_DIRECTIONS : 8; }
 
 Outcome run_fill(Backend& backend, const Case& c, const Input& in) {
-  const StageFrame f(c, in);
-  return values_of({backend.fill(f.frame, f.mixed, directions_of(c))});
+  const Frame f = stage_frame(c, in);
+  return values_of({backend.fill(f, reference::TwinBackend().mixed(f), directions_of(c))});
 }
 
 std::size_t split_memory(const Case& c, const Input&) { return band_memory("split", c, 2); }
 
 /// With a margin.
 Outcome run_split(Backend& backend, const Case& c, const Input& in) {
-  StageFrame f(c, in);
-  f.frame.margin = static_cast<int>(c.seed % 4);
-  const Frame layers = backend.split(
-      f.frame, f.mixed, reference::TwinBackend().fill(f.frame, f.mixed, directions_of(c)));
+  reference::TwinBackend twins;
+  Frame f = stage_frame(c, in);
+  const Words mixed = twins.mixed(f);
+  f.margin = static_cast<int>(c.seed % 4);
+  const Frame layers = backend.split(f, mixed, twins.fill(f, mixed, directions_of(c)));
   Outcome v = values_of({layers});
   for (std::size_t i = 0; i < layers.depth.size(); ++i) {
     v.integers.push_back(std::bit_cast<std::int32_t>(layers.depth[i]));

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string_view>
 
-#include "device/device_backend.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
 #include "opencl/bands.h"
 #include "reference/reference.h"
 #include "validation/checks_patterns.h"
+#include "validation/either.h"
 #include "validation/stage_input.h"
 #include "validation/work.h"
 

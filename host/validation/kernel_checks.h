@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "device/device_backend.h"
-#include "rdb/rdb.h"
+#include "frame/backend.h"
 #include "validation/case.h"
 #include "validation/input.h"
 
@@ -57,13 +56,6 @@ std::vector<KernelCheck> splat_checks();
 /// What bands of the case's rows take, with the rows that a kernel looks at beyond them by the
 /// launch table.
 std::size_t band_memory(const char* kernel, const Case& c, int layers);
-
-/// Kernels that no stage shows by itself: the device's own, or else the twin's.
-template <typename OnDevice, typename ByTwin>
-auto either(Backend& backend, const OnDevice& on_device, const ByTwin& by_twin) {
-  auto* const device = dynamic_cast<DeviceBackend*>(&backend);
-  return device ? on_device(*device) : by_twin();
-}
 
 template <typename Range>
 Outcome integers(const Range& values) {

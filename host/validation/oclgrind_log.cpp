@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <string>
 
+#include "opencl/device.h"
+
 namespace defray::validation {
 
 OclgrindLog::OclgrindLog(const DeviceInfo& info) {

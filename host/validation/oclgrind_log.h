@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "opencl/device.h"
+namespace defray {
+struct DeviceInfo;
+}
 
 namespace defray::validation {
 

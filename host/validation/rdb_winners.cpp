@@ -1,6 +1,6 @@
 #include "validation/rdb_winners.h"
 
-#include "device/rdb_run.h"
+#include "device/rdb_scatter.h"
 #include "reference/reference.h"
 
 namespace defray::validation {
@@ -31,7 +31,7 @@ std::int64_t index_in_frame(const RdbWinner& w, std::int64_t window, const Frame
 
 std::vector<std::int64_t> winners_on_device(Session& session, const Frame& frame,
                                             const RayPlan& plan) {
-  RdbRun run(session, frame, plan);
+  RdbScatter run(session, frame, plan);
   const std::size_t pixels = frame.pixels();
   std::vector<std::int64_t> all(plan.lens.points.size() * pixels, -2);
   for (const RdbPass& pass : run.passes()) {

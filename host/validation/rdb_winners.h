@@ -4,8 +4,11 @@
 #include <vector>
 
 #include "frame/backend.h"
-#include "opencl/session.h"
 #include "rdb/rdb.h"
+
+namespace defray {
+class Session;
+}
 
 namespace defray::validation {
 

@@ -8,11 +8,10 @@
 #include "lens/landing_radii.h"
 #include "methods/linear.h"
 #include "methods/tiltshift.h"
-#include "reference/twin_backend.h"
 
 namespace defray::validation {
 
-StageFrame::StageFrame(const Case& c, const Input& in) : frame(frame_of(c, in)) {
+Frame stage_frame(const Case& c, const Input& in) {
   std::vector<std::int32_t> coc_quanta;
   Plane inverse;
   const int width = c.width, height = c.height;
@@ -35,9 +34,10 @@ StageFrame::StageFrame(const Case& c, const Input& in) : frame(frame_of(c, in)) 
       inverse.push_back(background + (std::isfinite(depth) ? 1 / depth : 0));
     }
   }
+  Frame frame = frame_of(c, in);
   frame.coc_quanta = std::move(coc_quanta);
   frame.inverse = std::move(inverse);
-  mixed = reference::TwinBackend().mixed(frame);
+  return frame;
 }
 
 Frame blurred(const Case& c, Frame frame) {
@@ -49,11 +49,7 @@ Frame blurred(const Case& c, Frame frame) {
     for (int x = 0; x < frame.width; ++x) {
       std::int64_t sum = 0;
       for (int k = 0; k < count; ++k) {
-        const int px = std::clamp(x + k * along_x, 0, frame.width - 1);
-        const int py = std::clamp(y + k * along_y, 0, frame.height - 1);
-        sum +=
-            frame.coc_quanta[static_cast<std::size_t>(py) * static_cast<std::size_t>(frame.width) +
-                             static_cast<std::size_t>(px)];
+        sum += frame.coc_quanta[frame.index_within(x + k * along_x, y + k * along_y)];
       }
       out.push_back(static_cast<std::int32_t>(sum / count));
     }
@@ -63,14 +59,14 @@ Frame blurred(const Case& c, Frame frame) {
 }
 
 Frame soft_fragments(const Case& c, const Input& in) {
-  const StageFrame stage(c, in);
+  const Frame stage = stage_frame(c, in);
   Frame f = in.fragments;
   const auto coc = f.coc_quanta.edit();
   for (int y = 0; y < c.height; ++y) {
     for (int layer = 0; layer < f.layers; ++layer) {
       for (int x = 0; x < c.width; ++x) {
         if (layer > 0 && c.seed % 2 != 0) continue;
-        coc[f.index(x, y, layer)] = stage.frame.coc_quanta[stage.frame.index(x, y)];
+        coc[f.index(x, y, layer)] = stage.coc_quanta[stage.index(x, y)];
       }
     }
   }

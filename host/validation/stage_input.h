@@ -10,12 +10,7 @@ namespace defray::validation {
 /// The case's frame as stages are meant to see it: patterns without surfaces become blocks of 9 x 6
 /// pixels with thin columns between them, two seeds of three slant all surfaces, and depth is
 /// 1/depth with the background at 0.
-struct StageFrame {
-  StageFrame(const Case& c, const Input& in);
-
-  Frame frame;
-  Words mixed;
-};
+Frame stage_frame(const Case& c, const Input& in);
 
 /// The frame's CoC with anti-aliased steps: means of two or three pixels along a direction.
 Frame blurred(const Case& c, Frame frame);

@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "image/display.h"
-#include "opencl/session.h"
+#include "opencl/session_options.h"
 #include "validation/grid.h"
 #include "validation/verdict.h"
+
+namespace defray {
+class Session;
+struct DeviceInfo;
+}  // namespace defray
 
 namespace defray::validation {
 

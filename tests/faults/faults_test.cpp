@@ -5,7 +5,7 @@
 #include <set>
 
 #include "fault.h"
-#include "kernel_files.h"
+#include "kernels/kernel_files.h"
 #include "support.h"
 #include "validation/oclgrind_log.h"
 #include "validation/report.h"

@@ -169,8 +169,8 @@ class Worker:
         made = open(f"{self.build.folder}/kernels/kernel_files.h").read()
         original = open(f"{self.build.project}/{path}").read()
         assert made.count(f'R"CLC({original})CLC"') == 1, path
-        os.makedirs(f"{overlay}/made")
-        with open(f"{overlay}/made/kernel_files.h", "w") as file:
+        os.makedirs(f"{overlay}/made/kernels")
+        with open(f"{overlay}/made/kernels/kernel_files.h", "w") as file:
             file.write(made.replace(f'R"CLC({original})CLC"', f'R"CLC({text})CLC"'))
         return True
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "device/rdb_run.h"
+#include "device/rdb_scatter.h"
 #include "lens/lens_grid.h"
 #include "properties.h"
 
@@ -19,7 +19,7 @@ namespace {
 std::vector<std::uint32_t> winners(const RandomFrame& frame, int cells_per_side) {
   const Frame all{frame.size.width, frame.size.height, frame.coc, frame.depth, frame.channels};
   const RayPlan plan = plan_rays({cells_per_side});
-  RdbRun run(session(), all, plan);
+  RdbScatter run(session(), all, plan);
   RC_ASSERT(run.passes().size() == 1u);
   run.scatter(run.passes()[0]);
   std::vector<std::uint32_t> sources;

@@ -132,6 +132,15 @@ TEST(Channels, MultiPartStereo) {
   EXPECT_EQ(choose_depth("f.exr", parts, right, colour(parts, right)).part, 3);
 }
 
+TEST(Channels, ANameThatSeveralPartsHaveIsAmbiguous) {
+  const std::vector<PartInfo> parts{part({"R", "G", "B"}, "rgba"), part({"Z"}, "left"),
+                                    part({"Z"}, "right")};
+  expect_error(ErrorKind::input,
+               {"f.exr: several channels are called 'Z': ", "left", "right", "choose with"}, [&] {
+                 depth(parts, {"", "", "Z"});
+               });
+}
+
 TEST(Channels, OfManyThatAreNoColourTwoDozenAreNamed) {
   std::vector<std::string> names;
   for (int i = 0; i < 27; ++i) names.push_back(fmt::format("c{:02}", i));

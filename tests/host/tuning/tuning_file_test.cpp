@@ -159,6 +159,9 @@ TEST_F(TuningFile, IsNotWrittenWhereItCannotBe) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::output) << error.what();
   }
+  std::filesystem::create_directories(path + ".lock");
+  expect_error(ErrorKind::output, {path + ".lock cannot be written"},
+               [&] { tuning::add(path, key, most_items, {}); });
 }
 
 TEST(TuningPath, IsOfTheDeviceInTheCacheFolder) {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "chain/chain.h"
-#include "kernel_files.h"
+#include "kernels/kernel_files.h"
 #include "lens/coc.h"
 #include "lens/lens.h"
 #include "opencl/launch_table.h"

@@ -1,7 +1,7 @@
 // Kernel rdb_gather against rdb_scatter and rdb_merge: the same bits, whatever the frame.
 #include "base/random.h"
 #include "chain/chain.h"
-#include "device/ray_window.h"
+#include "device/rdb_tiles.h"
 #include "lens/aperture_table.h"
 #include "lens/landing_radii.h"
 #include "lens/lens_points.h"

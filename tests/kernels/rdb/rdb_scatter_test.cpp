@@ -1,8 +1,9 @@
 // Kernel rdb_scatter against its scalar twin, and the twin against the paper's definition.
+#include "device/rdb_scatter.h"
+
 #include <cmath>
 #include <random>
 
-#include "device/rdb_run.h"
 #include "lens/lens_grid.h"
 #include "reference/reference.h"
 #include "support.h"
@@ -41,7 +42,7 @@ CellWinners winners_on_device(Session& s, Size size, const RdbSettings& settings
                               const std::vector<std::int32_t>& coc, const Plane& depth) {
   const Frame frame{size.width, size.height, coc, depth, std::vector<Plane>{depth}};
   const RayPlan plan = plan_rays(settings);
-  RdbRun run(s, frame, plan);
+  RdbScatter run(s, frame, plan);
   CellWinners all(make_lens_grid(settings.cells_per_side, settings.jitter).points.size(),
                   std::vector<std::int64_t>(depth.size(), -2));
   for (const RdbPass& pass : run.passes()) {

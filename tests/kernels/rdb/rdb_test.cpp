@@ -216,9 +216,7 @@ const FaultRows faults{
     {"rdb_merge",
      "what has no share shows through",
      {"(coverage[i] & ~DEFRAY_SYNTHESISED) == 0u", "false"}},
-    {"rdb_merge",
-     "the nearest behind",
-     {"radius <= farthest", "radius >= farthest"}},
+    {"rdb_merge", "the nearest behind", {"radius <= farthest", "radius >= farthest"}},
 };
 
 }  // namespace

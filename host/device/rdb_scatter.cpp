@@ -1,4 +1,4 @@
-#include "device/rdb_run.h"
+#include "device/rdb_scatter.h"
 
 #include <algorithm>
 
@@ -10,23 +10,16 @@
 namespace defray {
 namespace {
 
-const LaunchRow rdb_clear_launch({"rdb_clear", WorkGroup{256, 0}});
-// Cells take the most (rdb/rdb_plan.h); what is read says whether the frame stays on the device.
-// Of a band: means, what was filled and what was seen, and the nearest hit, its key and source.
-const LaunchRow rdb_merge_launch({.kernel = "rdb_merge",
-                                  .group = {64, 1},
-                                  .reach_px = 1,
-                                  .bytes_a_surface = 3 * Launch::plane + Launch::colour,
-                                  .bytes_a_target = 4 * Launch::plane + Launch::colour});
-const LaunchRow rdb_scatter_launch({"rdb_scatter", WorkGroup{64, 1}});
+const LaunchRow rdb_clear_launch({.kernel = "rdb_clear", .group = {256, 0}});
+const LaunchRow rdb_scatter_launch({.kernel = "rdb_scatter", .group = {64, 1}});
 
 /// Rows farther away than rays come from: what is there says what their pixels span.
 int span_rows(const RayPlan& plan) { return plan.has_spans ? 2 : 0; }
 
 }  // namespace
 
-RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
-               const LightSources* lights)
+RdbScatter::RdbScatter(Session& session, const Frame& frame, const RayPlan& plan,
+                       const LightSources* lights)
     : session_(session),
       frame_(frame),
       cells_(plan.lens.points.size()),
@@ -39,15 +32,15 @@ RdbRun::RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
                size(passes_.front().cell_count) * sizeof(RdbWinner), winners_),
       filled_(session.buffer(size(frame.width) * size(passes_.front().rows) * sizeof(cl_uint))) {}
 
-bool RdbRun::is_last_of_band(const RdbPass& pass) const {
+bool RdbScatter::is_last_of_band(const RdbPass& pass) const {
   return size(pass.first_cell + pass.cell_count) == cells_;
 }
 
-std::size_t RdbRun::first_source(const RdbPass& pass) const {
+std::size_t RdbScatter::first_source(const RdbPass& pass) const {
   return size(window_y(pass)) * size(frame_.layers) * size(frame_.width);
 }
 
-DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
+DefrayRdbParams RdbScatter::params_of(const RdbPass& pass) const {
   DefrayRdbParams p = buffers_.params();
   p.window_y = word(window_y(pass));
   p.window_rows = word(pass.window_y + pass.window_rows - window_y(pass));
@@ -61,7 +54,7 @@ DefrayRdbParams RdbRun::params_of(const RdbPass& pass) const {
   return p;
 }
 
-void RdbRun::view_window(const RdbPass& pass) {
+void RdbScatter::view_window(const RdbPass& pass) {
   if (window_band_y_ == pass.y || (holds_frame_ && window_band_y_ >= 0)) return;
   window_band_y_ = pass.y;
   const BandRows all{0, frame_.height, 0, frame_.height};
@@ -70,7 +63,7 @@ void RdbRun::view_window(const RdbPass& pass) {
              band.in(frame_.data_of), band.in(frame_.channels)};
 }
 
-void RdbRun::scatter(const RdbPass& pass) {
+void RdbScatter::scatter(const RdbPass& pass) {
   view_window(pass);
   DefrayRdbParams p = params_of(pass);
   const std::size_t cells = std::size_t{p.width} * p.band_rows * p.cell_count;
@@ -86,17 +79,7 @@ void RdbRun::scatter(const RdbPass& pass) {
   }
 }
 
-void RdbRun::merge(const RdbPass& pass) {
-  view_window(pass);
-  const DefrayRdbParams p = params_of(pass);
-  session_.launch("rdb_merge", {p.width, p.band_rows}, p, buffers_.winner, window_.coc,
-                  window_.depth, window_.coverage, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
-                  window_.channels, buffers_.means, filled_, buffers_.seen);
-  buffers_.find_nearest(p, window_);
-  if (is_last_of_band(pass)) buffers_.add_light(p, window_);
-}
-
-void RdbRun::run(RayResult& out, const Progress& progress) {
+void RdbScatter::run(RayResult& out, const Progress& progress) {
   double done = 0;
   for (const RdbPass& pass : passes_) {
     if (pass.first_cell == 0) begin_band(pass, out);
@@ -109,7 +92,7 @@ void RdbRun::run(RayResult& out, const Progress& progress) {
   }
 }
 
-std::vector<RdbWinner> RdbRun::winners(const RdbPass& pass) {
+std::vector<RdbWinner> RdbScatter::winners(const RdbPass& pass) {
   std::vector<RdbWinner> result(size(frame_.width) * size(pass.rows) * size(pass.cell_count));
   session_.read(buffers_.winner, result.data(), result.size() * sizeof(RdbWinner));
   return result;

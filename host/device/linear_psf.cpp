@@ -1,7 +1,6 @@
 // Kernel `linear_psf`.
-#include "methods/linear.h"
-
 #include "device/device_backend.h"
+#include "methods/linear.h"
 #include "methods/linear_source.h"
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"

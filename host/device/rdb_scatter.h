@@ -10,11 +10,11 @@ namespace defray {
 
 /// The frame's planes must stay alive and unchanged meanwhile. Passes go through scatter and merge
 /// in order.
-class RdbRun {
+class RdbScatter {
  public:
   /// `lights`, if any, must stay alive too: all cells of a band are then in one pass.
-  RdbRun(Session& session, const Frame& frame, const RayPlan& plan,
-         const LightSources* lights = nullptr);
+  RdbScatter(Session& session, const Frame& frame, const RayPlan& plan,
+             const LightSources* lights = nullptr);
 
   /// All passes, one after the other.
   void run(RayResult& out, const Progress& progress);

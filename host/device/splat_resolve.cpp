@@ -1,4 +1,4 @@
-// Kernels `splat_*`.
+// Kernel `splat_resolve`.
 #include "device/device_backend.h"
 #include "opencl/launch_table.h"
 #include "splat/splats.h"
@@ -6,24 +6,12 @@
 namespace defray {
 namespace {
 
-const LaunchRow splat_project_launch({"splat_project", WorkGroup{64, 0}});
-const LaunchRow splat_resolve_launch({"splat_resolve", WorkGroup{1, 4}});
+const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {1, 4}});
 
 /// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
 constexpr std::size_t list_bytes = std::size_t{64} << 20;
 
 }  // namespace
-
-Values<DefraySplat> DeviceBackend::splat_project(const Values<DefraySplatNode>& nodes,
-                                                 const DefraySplatParams& params) {
-  if (nodes.empty()) return {};
-  DefraySplatParams p = params;
-  p.count = static_cast<std::uint32_t>(nodes.size());
-  Values<DefraySplat> splats;
-  const cl::Buffer out = session_.out(splats, nodes.size());
-  session_.launch("splat_project", {nodes.size()}, p, session_.in(nodes), out);
-  return splats;
-}
 
 SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
                                          const DefraySplatParams& params,

@@ -10,7 +10,7 @@
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test::nearest_test {
+namespace defray::test::rdb_nearest_test {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -201,4 +201,4 @@ const FaultRows faults{
 };
 
 }  // namespace
-}  // namespace defray::test::nearest_test
+}  // namespace defray::test::rdb_nearest_test

@@ -5,8 +5,8 @@
 
 #include "base/parallel.h"
 #include "device/device_backend.h"
-#include "device/ray_window.h"
-#include "device/rdb_run.h"
+#include "device/rdb_scatter.h"
+#include "device/rdb_tiles.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 #include "rdb/segments.h"
@@ -39,12 +39,12 @@ int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_
   return std::min(static_cast<int>(strips) * DEFRAY_RAY_ROWS, rows_at_once);
 }
 
-/// What RdbRun computes, bit for bit, without jitter.
-class RaysGather {
+/// What RdbScatter computes, bit for bit, without jitter.
+class RdbGather {
  public:
   /// All must stay alive and unchanged meanwhile.
-  RaysGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-             KeptBuffer& winners);
+  RdbGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
+            KeptBuffer& winners);
 
   void run(RayResult& out, const Progress& progress);
 
@@ -67,8 +67,8 @@ class RaysGather {
   int table_cell_ = -1;                ///< Its first.
 };
 
-RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan,
-                       const LightSources* lights, KeptBuffer& winners)
+RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan,
+                     const LightSources* lights, KeptBuffer& winners)
     : session_(session),
       frame_(frame),
       lens_(plan.lens),
@@ -91,7 +91,7 @@ RaysGather::RaysGather(Session& session, const Frame& frame, const RayPlan& plan
 }
 
 /// The table of the pass that begins with a cell: of one pass it stays.
-void RaysGather::find_segments(int first_cell) {
+void RdbGather::find_segments(int first_cell) {
   if (first_cell == table_cell_) return;
   session_.finish();  // kernels may look at the one before
   table_.emplace(lens_, first_cell, bins_, frame_.width, frame_.height,
@@ -101,7 +101,7 @@ void RaysGather::find_segments(int first_cell) {
   segments_ = table_->segments.empty() ? first_ : session_.view(table_->segments);
 }
 
-void RaysGather::gather_pass(int first_cell) {
+void RdbGather::gather_pass(int first_cell) {
   find_segments(first_cell);
   DefrayRaysParams& p = window_.params;
   p.first_cell = word(first_cell);
@@ -118,7 +118,7 @@ void RaysGather::gather_pass(int first_cell) {
                   buffers_.seen);
 }
 
-void RaysGather::gather(int y, int rows, RayResult& out) {
+void RdbGather::gather(int y, int rows, RayResult& out) {
   DefrayRaysParams& p = window_.params;
   p.band_y = word(y);
   p.band_rows = word(rows);
@@ -138,7 +138,7 @@ void RaysGather::gather(int y, int rows, RayResult& out) {
   buffers_.read(r, out);
 }
 
-void RaysGather::run(RayResult& out, const Progress& progress) {
+void RdbGather::run(RayResult& out, const Progress& progress) {
   const Rows wanted = frame_.wanted_rows();
   const int first = std::max(wanted.y, frame_.margin);
   const int end = std::min(wanted.end, frame_.height - frame_.margin);
@@ -167,18 +167,12 @@ RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const Lig
   if (plan.wants_nearest) out.nearest.resize(pixels);
   if (plan.by == RaysBy::gather && plan.lens.jitter == 0) {
     if (frame.wanted_rows().y == 0) winners_ = {};
-    RaysGather(session_, frame, plan, lights, winners_).run(out, progress);
+    RdbGather(session_, frame, plan, lights, winners_).run(out, progress);
     if (frame.wanted_rows().end == frame.height) winners_ = {};
   } else {
-    RdbRun(session_, frame, plan, lights).run(out, progress);
+    RdbScatter(session_, frame, plan, lights).run(out, progress);
   }
   return out;
-}
-
-RayTiles DeviceBackend::ray_tiles(const Frame& frame, const RayPlan& plan) {
-  RayTileWindow window(session_, frame, plan, bins_of(frame));
-  window.prepare({0, frame.height, 0, frame.height});
-  return window.read();
 }
 
 }  // namespace defray

@@ -1,8 +1,9 @@
-#include "device/ray_window.h"
+#include "device/rdb_tiles.h"
 
 #include <algorithm>
 #include <cstdlib>
 
+#include "device/device_backend.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
 
@@ -10,10 +11,11 @@ namespace defray {
 namespace {
 
 // It writes keys, largest radii, what sends rays, coverage, and colours.
-const LaunchRow rdb_pad_launch({"rdb_pad", WorkGroup{64, 1}, 0,
-                                4 * Launch::plane + Launch::colour});
-const LaunchRow rdb_reach_launch({"rdb_reach", WorkGroup{16, 1}});
-const LaunchRow rdb_tiles_launch({"rdb_tiles", WorkGroup{16, 1}});
+const LaunchRow rdb_pad_launch({.kernel = "rdb_pad",
+                                .group = {64, 1},
+                                .bytes_a_surface = 4 * Launch::plane + Launch::colour});
+const LaunchRow rdb_reach_launch({.kernel = "rdb_reach", .group = {16, 1}});
+const LaunchRow rdb_tiles_launch({.kernel = "rdb_tiles", .group = {16, 1}});
 
 int reach_of(const Frame& frame, const RadiusBins& bins) {
   const std::int32_t largest = std::max(std::abs(bins.least), std::abs(bins.largest));
@@ -101,6 +103,12 @@ RayTiles RayTileWindow::read() {
   read_all(session_, tiles_, tiles, out.held);
   read_all(session_, reach, tiles, out.reach);
   return out;
+}
+
+RayTiles DeviceBackend::ray_tiles(const Frame& frame, const RayPlan& plan) {
+  RayTileWindow window(session_, frame, plan, bins_of(frame));
+  window.prepare({0, frame.height, 0, frame.height});
+  return window.read();
 }
 
 }  // namespace defray

@@ -1,16 +1,15 @@
 // Kernel linear_psf and its twin: bits, energy, and what must not leak.
-#include "methods/linear.h"
-
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "faults/fault.h"
+#include "methods/linear.h"
 #include "opencl/bands.h"
 #include "reference/reference.h"
 #include "support.h"
 
-namespace defray::test::linear_test {
+namespace defray::test::linear_psf_test {
 namespace {
 
 std::vector<Plane> render(Size size, const std::vector<std::int32_t>& coc,
@@ -216,4 +215,4 @@ const FaultRows faults{
 };
 
 }  // namespace
-}  // namespace defray::test::linear_test
+}  // namespace defray::test::linear_psf_test
