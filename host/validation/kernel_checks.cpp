@@ -25,7 +25,7 @@ Outcome run_coc(Backend& backend, const Case& c, const Input& in) {
 }
 
 /// The radius before it is rounded to quanta: 4 ulp = 8 u
-/// (tests/kernels/methods/coc_accuracy_test.cpp).
+/// (tests/kernels/lens/coc_accuracy_test.cpp).
 Exact exact_coc(const Case& c, const Input& in) {
   constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
   constexpr double limit = DEFRAY_COC_LIMIT_QUANTA;

@@ -89,7 +89,9 @@ TEST(FailingFiles, JpegsAndPngsThatOpenCvCannotUse) {
 
 TEST(FailingFiles, APictureThatMemoryDoesNotHoldIsNamed) {
   // Allocating fails there, instead of throwing.
-  if (dlsym(RTLD_DEFAULT, "__asan_init")) GTEST_SKIP() << "under AddressSanitizer";
+  for (const char* sanitizer : {"__asan_init", "__tsan_init"}) {
+    if (dlsym(RTLD_DEFAULT, sanitizer)) GTEST_SKIP() << "under a sanitizer";
+  }
   const Folder folder;
   ImageFile::from_planes({"Y"}, {Plane(64, 1.0f)}, 8, 8, Sample::single_float)
       .write(folder / "a.exr");
