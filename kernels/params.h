@@ -42,6 +42,10 @@
 /// Of 32, 64 and 96 all give `slanted` at 300 mm f/0.5 (1.2 px a pixel) 1.2 dB more, and change no
 /// other built-in scene by more than 0.001 dB; 96 forgives half floats the most.
 #define DEFRAY_BEND_QUANTA 96
+/// A step up to this one may be of one surface whatever those around it (span.clh). Of 0, 16 and 40
+/// none changes the built-in scenes by more than 0.03 dB; where every step up to a jump's went on
+/// blocks gained 0.1 dB at 640x400, and `cutout` lost 0.8 at 96x72, where shapes are close in CoC.
+#define DEFRAY_SMALL_STEP_QUANTA 16
 /// Depth is anti-aliased across steps of the CoC above this (2 px), or it does not matter.
 #define DEFRAY_RAMP_QUANTA 512
 /// CoC radii count as no larger than this where differences are taken: 2^20 px.

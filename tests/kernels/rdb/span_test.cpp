@@ -37,8 +37,10 @@ TEST(Span, GoesHalfWayToPixelsOfTheSameSurface) {
   expect_span(in_row({7, 7, 7, 7, 7}), 7, 7);
   expect_span(in_row({0, 100, 200, 300, 400}), 150, 250);
   expect_span(in_row({0, -51, -100, -151, -200}), -126, -76);
-  expect_span(in_row({0, 0, 0, 192, 192}), 0, 96);
-  expect_span(in_row({0, 0, 0, 193, 193}), 0, 0);              // another surface
+  expect_span(in_row({0, 0, 0, 16, 16}), 0, 8);
+  expect_span(in_row({0, 0, 0, 17, 17}), 0, 0);  // another surface
+  expect_span(in_row({0, 0, 60, 160, 160}), 60, 110);
+  expect_span(in_row({9, 9, 49, 150, 150}), 49, 49);
   expect_span(in_row({-600, -300, 0, 400, 1200}), -150, 0);    // steep on one side, no plane
   expect_span(in_row({-700, -350, 0, 440, 1200}), -175, 220);  // two slopes that are much alike
   expect_span(in_row({0, 0, 0, 600, 1200}), 0, 0);             // no ramp is so steep
@@ -55,8 +57,12 @@ TEST(Span, EndsWhereNothingIs) {
 TEST(Span, OneSurfaceMeetsItselfInOneRadius) {
   const RayPlan plan = plan_of(RaysBy::gather);
   for (int step = -DEFRAY_JUMP_QUANTA; step <= DEFRAY_JUMP_QUANTA; ++step) {
-    const Frame f{2, 1, std::vector<std::int32_t>{10, 10 + step}, Plane(2, 1.0f), {Plane(2)}};
-    const reference::Span a = reference::span_of(f, plan, 0), b = reference::span_of(f, plan, 1);
+    const Frame f{4,
+                  1,
+                  std::vector<std::int32_t>{10, 10 + step, 10 + 2 * step, 10 + 3 * step},
+                  Plane(4, 1.0f),
+                  {Plane(4)}};
+    const reference::Span a = reference::span_of(f, plan, 1), b = reference::span_of(f, plan, 2);
     EXPECT_EQ(step > 0 ? a.largest : a.least, step > 0 ? b.least : b.largest) << step;
   }
 }

@@ -97,8 +97,8 @@ TEST(KernelChecks, CompareAllThatAKernelWrites) {
     EXPECT_EQ(compared.integers, 13 * 7 * row.integers) << row.kernel;
     EXPECT_EQ(compared.floats, 13 * 7 * row.floats) << row.kernel;
   }
-  const Compared pad("rdb_pad");  // key, sending and coverage
-  EXPECT_EQ(pad.integers * colour, pad.floats * 3);
+  const Compared pad("rdb_pad");  // key, largest, sending and coverage
+  EXPECT_EQ(pad.integers * colour, pad.floats * 4);
 }
 
 TEST(KernelChecks, ShowWhatPatternsChange) {
