@@ -11,7 +11,7 @@ namespace {
 /// Whether a surface goes on across a step, in view of those before and after it.
 bool goes_on(double before, double step, double after) {
   const auto is_like = [&](double other) {
-    const double most = std::min(std::floor(std::fabs(step) / 2), double{DEFRAY_BEND_QUANTA});
+    const double most = std::min(std::floor(std::fabs(step) * 3 / 4), double{DEFRAY_BEND_QUANTA});
     return std::fabs(other) <= DEFRAY_RAMP_QUANTA && std::fabs(step - other) <= most;
   };
   if (!(std::fabs(step) <= DEFRAY_RAMP_QUANTA)) return false;

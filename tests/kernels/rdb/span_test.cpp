@@ -39,8 +39,8 @@ TEST(Span, GoesHalfWayToPixelsOfTheSameSurface) {
   expect_span(in_row({0, -51, -100, -151, -200}), -126, -76);
   expect_span(in_row({0, 0, 0, 16, 16}), 0, 8);
   expect_span(in_row({0, 0, 0, 17, 17}), 0, 0);  // another surface
-  expect_span(in_row({0, 0, 60, 160, 160}), 60, 110);
-  expect_span(in_row({9, 9, 49, 150, 150}), 49, 49);
+  expect_span(in_row({0, 0, 60, 160, 160}), 30, 110);
+  expect_span(in_row({9, 9, 29, 150, 150}), 29, 29);
   expect_span(in_row({-600, -300, 0, 400, 1200}), -150, 0);    // steep on one side, no plane
   expect_span(in_row({-700, -350, 0, 440, 1200}), -175, 220);  // two slopes that are much alike
   expect_span(in_row({0, 0, 0, 600, 1200}), 0, 0);             // no ramp is so steep
