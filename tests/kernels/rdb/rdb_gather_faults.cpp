@@ -99,9 +99,6 @@ const FaultRows faults{
     {"rdb_gather_winners",
      "layer forgotten",
      {"(row * (int)p.layers + n->layer)", "(row * (int)p.layers)"}},
-    {"rdb_gather_winners",
-     "fragments behind those of smaller radius beyond the segment",
-     {"max(key, (ints)(segment.z))", "key"}},
 };
 
 }  // namespace

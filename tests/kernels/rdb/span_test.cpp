@@ -1,4 +1,5 @@
 // Fragments as pieces of a surface: kernels/rdb/span.clh.
+#include <algorithm>
 #include <bit>
 
 #include "lens/lens_points.h"
@@ -105,6 +106,27 @@ TEST(Span, NothingShinesThroughASurfaceWhereItsCocGrows) {
       EXPECT_GT(slope < 20 ? 1 : leaks(device(), f, plan_of(by, false)), 0) << slope;
     }
   }
+}
+
+/// Two slanted layers, the second a hair nearer: where both span the radius at which rays begin to
+/// end somewhere, they are as near there, and the first counts.
+TEST(Span, OfLayersThatSpanOneRadiusTheFirstCounts) {
+  const int width = 80, height = 24;
+  std::vector<std::int32_t> coc;
+  Plane colour;
+  for (int row = 0; row < 2 * height; ++row) {
+    for (int x = 0; x < width; ++x) {
+      coc.push_back(60 * x - 5 * (row % 2) + 30 * (row / 2));
+      colour.push_back(static_cast<float>(row % 2));
+    }
+  }
+  Frame f{width, height, std::move(coc), Plane(size(width * height * 2), 1.0f), {colour}};
+  f.layers = 2;
+  const RayResult gathered = device().rays(f, plan_of(RaysBy::gather));
+  const RayResult scattered = device().rays(f, plan_of(RaysBy::scatter));
+  EXPECT_EQ(gathered.means, scattered.means);
+  EXPECT_LT(*std::ranges::min_element(gathered.means[0]), 0.9f);
+  EXPECT_EQ(gathered.means, twins().rays(f, plan_of(RaysBy::gather)).means);
 }
 
 TEST(Span, TheLiteralBufferHasPoints) { EXPECT_FALSE(plan_rays(RdbSettings()).has_spans); }
