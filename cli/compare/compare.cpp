@@ -52,7 +52,9 @@ bool misses_a_bound(const CompareOptions& o, const Found& found, const std::stri
   const auto check = [&](const char* option, const std::optional<double>& bound, double value,
                          bool is_kept) {
     if (!bound || is_kept) return;
-    fmt::print(stderr, "defray: {}{} {:g} is missed: {:.6g}\n", where, option, *bound, value);
+    std::string wanted = fmt::format("{:.6g}", *bound), found_is = fmt::format("{:.6g}", value);
+    if (wanted == found_is) wanted = fmt::format("{}", *bound), found_is = fmt::format("{}", value);
+    fmt::print(stderr, "defray: {}{} {} is missed: {}\n", where, option, wanted, found_is);
     misses = true;
   };
   check("--min-psnr", o.min_psnr, c.psnr_srgb_db, c.psnr_srgb_db >= o.min_psnr.value_or(0));

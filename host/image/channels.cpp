@@ -87,11 +87,14 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
     }
   }
   if (left.empty()) {
-    fail(ErrorKind::input,
-         "{}: no colour in {}; there is some in {}.{} Leave {} out, or name one of these", path,
+    const bool is_view = request.layer.empty();
+    const bool has_names = std::any_of(all.begin(), all.end(), [&](const ColourChoice& c) {
+      return !(is_view ? c.view : c.layer).empty();
+    });
+    fail(ErrorKind::input, "{}: no colour in {}; there is some in {}.{} Leave {} out{}", path,
          place_of(request.layer, request.view), colour_listing(all),
-         did_you_mean(request.layer, layers_of(all)),
-         field(request.layer.empty() ? "view" : "layer"));
+         did_you_mean(request.layer, layers_of(all)), field(is_view ? "view" : "layer"),
+         has_names ? ", or name one of these" : "");
   }
   static const std::set<std::string> beauty{"rgba", "rgb",    "beauty", "combined",
                                             "c",    "colour", "color",  "main"};

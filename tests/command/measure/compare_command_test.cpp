@@ -59,6 +59,9 @@ TEST_F(Compare, BoundsDecideTheExitCode) {
                            "--max-error 0.25 is missed: 0.5"}) {
     EXPECT_NE(missed.err.find(said), std::string::npos) << said << " is not in " << missed.err;
   }
+  EXPECT_NE(defray(folder_, "compare a.exr b.exr --max-error 0.49999999")
+                .err.find("--max-error 0.49999999 is missed: 0.5"),
+            std::string::npos);
   const Plane bad(1536, NAN);
   ImageFile::from_planes({"R", "G", "B"}, {bad, bad, bad}, 48, 32).write(folder_ / "nan.exr");
   EXPECT_EQ(code("a.exr nan.exr --max-error 9"), 1);

@@ -46,9 +46,11 @@ TEST_F(BadInput, Channels) {
   expect_render_refused("normals.exr -o out.exr" + lens, 3, {"no depth", "N.Z"});
   expect_render_refused("depth.exr -o out.exr" + lens, 3, {"no colour"});
   expect_render_refused("two.exr -o out.exr" + lens, 3, {"depth.Z, zdepth.Z", "--depth-channel"});
-  expect_render_refused("in.exr -o out.exr --layer beauty" + lens, 3,
-                        {"no colour in layer 'beauty'; there is some in no layer"});
-  expect_render_refused("in.exr -o out.exr --view left" + lens, 3, {"no colour in view 'left'; "});
+  expect_render_refused(
+      "in.exr -o out.exr --layer beauty" + lens, 3,
+      {"no colour in layer 'beauty'; there is some in no layer. Leave --layer out\n"});
+  expect_render_refused("in.exr -o out.exr --view left" + lens, 3,
+                        {"no colour in view 'left'; ", "Leave --view out\n"});
   expect_render_refused("in.exr -o out.exr --depth-channel z" + lens, 3, {"'z'", "'Z'"});
   expect_render_refused("in.exr --depth small.exr -o out.exr" + lens, 3,
                         {"20x10+0+0", "48x32+0+0"});

@@ -47,6 +47,31 @@ TEST_F(Mistakes, HalfFloatDepthHasAnyBackground) {
   }
 }
 
+/// What is far away does not shine through a cut-out whose CoC grows along it.
+TEST_F(Mistakes, ASlantedCutOutIsOpaqueWithin) {
+  constexpr int across = 240, down = 120;
+  std::vector<Plane> planes(5, Plane(across * down));
+  for (int i = 0; i < across * down; ++i) {
+    const int x = i % across, y = i / across;
+    const bool is_there = x >= 30 && x < 210 && y >= 12 && y < 108;
+    for (std::size_t c = 0; c < 4; ++c) planes[c][static_cast<std::size_t>(i)] = is_there ? 1 : 0;
+    planes[4][static_cast<std::size_t>(i)] =
+        is_there ? 4 + 0.004f * static_cast<float>(x - 30) : 1e4f;
+  }
+  for (const Sample depth : {Sample::single_float, Sample::half_float}) {
+    ImageFile::from_planes({"R", "G", "B", "A", "Z"}, planes, across, down, depth)
+        .write(folder_ / "cut.exr");
+    expect_ok(
+        defray(folder_, "render cut.exr -o o.exr --focus 4.36 --focal-length 300 --fstop 0.5"));
+    const Plane alpha = ImageFile::read(folder_ / "o.exr").plane(0, 3);
+    for (int y = 48; y < 72; ++y) {
+      for (int x = 72; x < 168; ++x) {
+        ASSERT_EQ(alpha[static_cast<std::size_t>(y * across + x)], 1) << x << ", " << y;
+      }
+    }
+  }
+}
+
 /// An opaque floor seen through a telephoto lens, its depth in floats and in half floats.
 TEST_F(Mistakes, HalfFloatDepthMakesNoRingsAndNoHoles) {
   constexpr int across = 160, down = 64;
