@@ -25,9 +25,8 @@ class SequenceRun {
   /// Opens the device. A single frame without a number is a picture. Throws Error.
   SequenceRun(const RenderCommand& job, std::vector<std::optional<int>> frames);
 
-  /// Renders all, and tells about each in its order. Throws the first one's Error that fails,
-  /// unless
-  /// --skip-bad-frames lets the run go on.
+  /// Renders all, and tells about each in its order. Throws the Error of the first that fails,
+  /// unless --skip-bad-frames lets the run go on.
   void render();
 
   /// Frames that have failed.
