@@ -53,7 +53,10 @@ bool misses_a_bound(const CompareOptions& o, const Found& found, const std::stri
                          bool is_kept) {
     if (!bound || is_kept) return;
     std::string wanted = fmt::format("{:.6g}", *bound), found_is = fmt::format("{:.6g}", value);
-    if (wanted == found_is) wanted = fmt::format("{}", *bound), found_is = fmt::format("{}", value);
+    if (wanted == found_is) {
+      wanted = fmt::format("{}", *bound);
+      found_is = fmt::format("{}", value);
+    }
     fmt::print(stderr, "defray: {}{} {} is missed: {}\n", where, option, wanted, found_is);
     misses = true;
   };

@@ -11,7 +11,7 @@ namespace defray {
 /// A winner of one cell: all ones where no ray arrived.
 struct RdbWinner {
   std::uint32_t source;  ///< Index in the pass's source window, row-major.
-  std::uint32_t key;     ///< Its signed radius + 2^31: the nearest has the smallest.
+  std::uint32_t key;  ///< The signed radius as which it won + 2^31: the nearest has the smallest.
 };
 
 /// Memory of so many cells of a pixel with the pixel's sums, its nearest hit among them: of one

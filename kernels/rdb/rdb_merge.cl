@@ -24,8 +24,8 @@
 #include "rdb/span.clh"
 
 // What shows through where no ray arrives: the farthest fragment behind the pixel and those around
-// it, by the least of the radii that it spans. Windows reach one row beyond their band: no band
-// changes the answer.
+// it, by the least of the radii that it spans. Windows reach one row beyond their band, and two
+// more where there are spans: no band changes the answer.
 uint farthest_behind(const DefrayRdbParams p, __global const int* restrict coc_quanta,
                      __global const uint* restrict depth_bits,
                      __global const uint* restrict coverage, const int2 target) {

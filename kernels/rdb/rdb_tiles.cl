@@ -2,10 +2,9 @@
 //
 // rdb_pad copies planes [window_rows][layers][width] to padded ones, [layers][rows][stride], with a
 // strip's columns and rows of nothing around them:
-//   key       the least CoC radius of its span (span.clh), 1/256 px; DEFRAY_NO_KEY where there is
-//   no
-//             fragment
-//   largest   the span's largest; if has_spans, else the same
+//   key       the least CoC radius that a fragment spans (span.clh), 1/256 px; without spans its
+//             own; DEFRAY_NO_KEY where there is no fragment
+//   largest   the largest; if has_spans
 //   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
 //   coverage  as it is; if has_coverage
 //   channels  as they are

@@ -103,7 +103,7 @@ TEST(Span, NothingShinesThroughASurfaceWhereItsCocGrows) {
         if (backend != &device() && slope != 51) continue;
         EXPECT_EQ(leaks(*backend, f, plan_of(by)), 0) << slope;
       }
-      EXPECT_GT(slope < 20 ? 1 : leaks(device(), f, plan_of(by, false)), 0) << slope;
+      if (slope >= 20) EXPECT_GT(leaks(device(), f, plan_of(by, false)), 0) << slope;
     }
   }
 }
