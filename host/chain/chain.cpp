@@ -113,10 +113,11 @@ MethodResult send_rays(const Frame& frame, const Front& front, Layered& layers, 
   const int height = front.frame.height;
   Picture picture(front.frame, work);
   std::vector<Rows> dark;
-  for (int y = 0; y < height; y += work.band_rows) {
-    const Rows rows{y, std::min(height, y + work.band_rows)};
+  for (int y = 0; y < height; y += work.bands.rows) {
+    const Rows rows{y, std::min(height, y + work.bands.rows)};
     if (picture.of_picture(rows).empty()) continue;
     layers.to(rows.end + work.reach.rays);
+    if (work.bands.gives_back) layers.give_back_to(rows.y);
     {
       const Frame f = layers.frame_for_rays(rows);
       const LightSources lights = layers.lights_for_rays(f);
@@ -142,12 +143,11 @@ MethodResult send_rays(const Frame& frame, const Front& front, Layered& layers, 
 
 /// How the chain goes through the frame.
 void plan_bands(const Frame& frame, const Frame& extended, ChainWork& work) {
-  const std::size_t channels = frame.channels.size();
-  work.band_rows = chain_rows(extended, channels, work.reach, work.backend.memory_for_planes());
-  work.is_banded = work.band_rows < extended.height;
-  work.backend.require_memory(frame,
-                              bytes_of_bands(extended, channels, work.reach, work.band_rows) +
-                                  frame.pixels() * (channels + 2) * sizeof(float));
+  const PlaneCounts planes{frame.channels.size(), frame.has_alpha, work.plan.wants_nearest};
+  work.bands = chain_bands(extended, planes, work.reach, work.backend.memory_for_planes());
+  work.is_banded = work.bands.rows < extended.height;
+  work.backend.require_memory(frame, bytes_of_bands(extended, planes, work.reach, work.bands) +
+                                         frame.pixels() * (planes.channels + 2) * sizeof(float));
 }
 
 }  // namespace

@@ -37,39 +37,55 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
   return reach;
 }
 
-std::size_t bytes_of_bands(const Frame& e, std::size_t channels, const ChainReach& reach,
-                           int rows) {
-  const auto plane = [&](std::int64_t count) {
+std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const ChainReach& reach,
+                           const ChainBands& bands) {
+  const auto plane = [&](std::int64_t rows) {
     return sizeof(float) * size(e.width) *
-           static_cast<std::size_t>(std::min<std::int64_t>(count, e.height));
+           static_cast<std::size_t>(std::clamp<std::int64_t>(rows, 0, e.height));
   };
+  const std::size_t channels = planes.channels, data = planes.has_data;
+  const bool has_behind = reach.fill > 0;
   const std::int64_t fill = reach.fill, patterns = reach.patterns;
-  const std::int64_t sent = rows + 2 * std::int64_t{reach.rays};
+  // Of so many rows of a band, and of those that the stages before have to be ahead.
+  const auto before = [&](std::int64_t rows) {
+    // CoC before and after the repair, where from, 1/depth, mixed.
+    const std::size_t front =
+        (5 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
+    const std::size_t behind = (2 + channels) * plane(rows + patterns);
+    const std::size_t pixels = patterns > 0 ? plane(rows + 2 * patterns) : 0;
+    return front + (has_behind ? behind + pixels : 0);
+  };
+  const std::int64_t sent = bands.rows + 2 * std::int64_t{reach.rays};
   const std::int64_t layered = sent + reach.soften + 2 * std::int64_t{reach.highlights};
-  const std::size_t layers = reach.fill > 0 ? 2 : 1;
-  // CoC before and after the repair, where from, 1/depth, mixed, data.
-  const std::size_t front = (6 + channels) * plane(rows + std::max(fill, patterns) + fill);
-  const std::size_t behind =
-      layers < 2 ? 0 : (2 + channels) * plane(rows + patterns) + plane(rows + 2 * patterns);
-  // CoC, depth, coverage, data, what highlights keep, alpha.
-  const std::size_t layer = (6 + channels) * plane(layered);
-  const std::size_t softened = channels * plane(sent);
+  // CoC, depth, coverage; what highlights keep, and alpha.
+  const std::size_t of_highlights = reach.highlights > 0 ? 1 + std::size_t{planes.has_alpha} : 0;
+  const std::size_t layer = (3 + data + of_highlights + channels) * plane(layered);
+  const std::size_t softened = reach.soften > 0 ? channels * plane(sent) : 0;
   // What rdb_pad writes, of four channels those that there are.
   const std::size_t padded =
       (launch_of("rdb_pad").bytes_a_surface / Launch::plane - 4 + channels) * plane(sent);
-  const std::size_t result = (2 + channels) * plane(rows);
-  return front + behind + layers * (layer + softened + padded) + result;
+  const std::size_t layers = has_behind ? 2 : 1, result = (2 + channels) * plane(bands.rows);
+  const std::size_t all = before(bands.rows), sending = layers * padded + result;
+  // Without a surface behind, rays come from the front's planes.
+  const bool goes = bands.gives_back && has_behind;
+  const std::size_t left = bands.rows >= e.height ? 0 : before(0);
+  return layers * (layer + softened) + (goes ? std::max(all, left + sending) : all + sending);
 }
 
-int chain_rows(const Frame& e, std::size_t channels, const ChainReach& reach,
-               std::size_t memory_bytes) {
-  if (bytes_of_bands(e, channels, reach, e.height) <= memory_bytes) return e.height;
-  int rows = band_step;
-  while (rows < e.height &&
-         bytes_of_bands(e, channels, reach, rows + band_step) <= memory_bytes / 2) {
-    rows += band_step;
+ChainBands chain_bands(const Frame& e, const PlaneCounts& planes, const ChainReach& reach,
+                       std::size_t memory_bytes) {
+  const auto fits = [&](const ChainBands& bands, std::size_t bytes) {
+    return bytes_of_bands(e, planes, reach, bands) <= bytes;
+  };
+  for (const bool gives_back : {false, true}) {
+    if (fits({e.height, gives_back}, memory_bytes)) return {e.height, gives_back};
   }
-  return std::min(rows, e.height);
+  ChainBands bands{band_step, true};
+  while (bands.rows < e.height && fits({bands.rows + band_step, true}, memory_bytes / 4 * 3)) {
+    bands.rows += band_step;
+  }
+  bands.rows = std::min(bands.rows, e.height);
+  return bands;
 }
 
 }  // namespace defray

@@ -18,14 +18,26 @@ struct ChainReach {
 /// `frame` has coc_quanta.
 ChainReach chain_reach(const Frame& frame, const ChainSettings& settings, int lens_points);
 
-/// What the planes of all stages take at once, bytes, where bands have so many rows. `extended` is
-/// the frame with its margin, of so many channels.
-std::size_t bytes_of_bands(const Frame& extended, std::size_t channels, const ChainReach& reach,
-                           int rows);
+/// What planes hold, and how many.
+struct PlaneCounts {
+  std::size_t channels = 3;  ///< Alpha included.
+  bool has_alpha = false, has_data = false;
+};
 
-/// Rows of a band: all where they fit, or else as many as take half of the memory, whole steps of
-/// band_step and one at least; the other half is left to kernels.
-int chain_rows(const Frame& extended, std::size_t channels, const ChainReach& reach,
-               std::size_t memory_bytes);
+/// How the chain goes through the frame.
+struct ChainBands {
+  int rows = 0;             ///< Of a band; all: there is one.
+  bool gives_back = false;  ///< Whether rows that stages do not need any more are given back.
+};
+
+/// What the planes of all stages take at once, bytes. `extended` is the frame with its margin.
+std::size_t bytes_of_bands(const Frame& extended, const PlaneCounts& planes, const ChainReach& reach,
+                           const ChainBands& bands);
+
+/// One band where it fits the memory, better one that gives nothing back: pages take time to come
+/// again. Or else as many rows as take three quarters of it, whole steps of band_step and one at
+/// least; the rest is left to kernels.
+ChainBands chain_bands(const Frame& extended, const PlaneCounts& planes, const ChainReach& reach,
+                       std::size_t memory_bytes);
 
 }  // namespace defray

@@ -21,13 +21,14 @@ struct ChainWork {
   Backend& backend;
   RayPlan plan = {};
   ChainReach reach = {};
-  int band_rows = 0;       ///< Of the whole frame: nothing is given back.
-  bool is_banded = false;  ///< Whether there are several bands.
+  ChainBands bands = {};
+  bool is_banded = false;  ///< Whether there are several.
   ChainReport report = {};
   TileClasses tiles = {};
 
   /// The stage that ends here; one that comes back adds to its time.
   void done(const char* stage) {
+    backend.finish();
     const double seconds = watch_.lap();
     const auto found = std::find_if(report.stages.begin(), report.stages.end(),
                                     [&](const StageTime& s) { return s.stage == stage; });

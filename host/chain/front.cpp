@@ -29,8 +29,8 @@ Front::Front(const Frame& picture, ChainWork& work)
 /// it is one in 28 or less: wires.
 void Front::look_at_all() {
   std::size_t between = 0, between_in_picture = 0, edge = 0;
-  for (int y = 0; y < frame.height; y += work_.band_rows) {
-    const Rows rows{y, std::min(frame.height, y + work_.band_rows)};
+  for (int y = 0; y < frame.height; y += work_.bands.rows) {
+    const Rows rows{y, std::min(frame.height, y + work_.bands.rows)};
     coc_to(rows.end + repair_reach());
     before_.wanted = rows;
     mixed = work_.backend.mixed(before_, std::move(mixed));

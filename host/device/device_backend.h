@@ -19,6 +19,7 @@ class DeviceBackend : public Backend {
     return session_.works_in_host_memory() ? session_.memory_bytes() : Backend::memory_for_planes();
   }
   void require_memory(const Frame& frame, std::size_t bytes) override;
+  void finish() override { session_.finish(); }
   std::size_t bytes_made() const override { return session_.traffic().made; }
 
 #define DEFRAY_CALL(Result, name, parameters) Result name parameters override;

@@ -31,6 +31,9 @@ class Backend {
   /// Throws Error(device) if it is known that there is less host memory than a frame needs.
   virtual void require_memory(const Frame&, std::size_t /*bytes*/) {}
 
+  /// Waits for what was asked for.
+  virtual void finish() {}
+
   /// Memory that a device has made so far.
   virtual std::size_t bytes_made() const { return 0; }
 

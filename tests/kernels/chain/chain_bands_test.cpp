@@ -165,6 +165,39 @@ TEST(ChainBands, NoSeamShowsWhereDevicesAllowSmallBuffersAlone) {
   expect_same(run_chain(f, settings, backend), rendered(f, settings, all_rows, false));
 }
 
+/// How `run_chain` goes through a frame with so much memory, and what it counts as planes' bytes.
+struct Bands : ChainBands {
+  Bands(const Frame& f, const ChainSettings& s, std::size_t memory) {
+    ChainWork work(s, device());
+    work.plan = ray_plan(s, false);
+    work.reach = chain_reach(f, s, 137);
+    const Front front(f, work);
+    const PlaneCounts planes{f.channels.size(), f.has_alpha, false};
+    static_cast<ChainBands&>(*this) = chain_bands(front.frame, planes, work.reach, memory);
+    bytes = bytes_of_bands(front.frame, planes, work.reach, *this);
+  }
+  std::size_t bytes = 0;
+};
+
+TEST(ChainBands, PlanesAreGivenBackBeforeAFrameIsCut) {
+  const Frame f = Shot{100, 170}.frame();
+  ChainSettings settings;
+  settings.cells_per_side = 7;
+  const Bands kept(f, settings, all_rows);
+  EXPECT_FALSE(kept.gives_back);
+  const Bands given_back(f, settings, kept.bytes - 1);
+  EXPECT_TRUE(given_back.gives_back);
+  EXPECT_EQ(given_back.rows, kept.rows);
+  EXPECT_LT(given_back.bytes, kept.bytes);
+  const Bands cut(f, settings, given_back.bytes - 1);
+  EXPECT_LT(cut.rows, kept.rows);
+  if (!session().works_in_host_memory()) return;
+  const MethodResult whole = rendered(f, settings, all_rows, false);
+  for (const Bands& b : {given_back, cut}) {
+    expect_same(rendered(f, settings, b.bytes, false), whole);
+  }
+}
+
 /// All that `patterns` gives behind a frame that is searched in strips.
 std::uint64_t behind_by_strips(const Frame& f, std::size_t memory) {
   const Memory given(memory);
@@ -173,8 +206,8 @@ std::uint64_t behind_by_strips(const Frame& f, std::size_t memory) {
   work.plan = ray_plan(settings, false);
   work.reach = chain_reach(f, settings, 137);
   Front front(f, work);
-  work.band_rows = chain_rows(front.frame, 3, work.reach, device().memory_for_planes());
-  work.is_banded = work.band_rows < front.frame.height;
+  work.bands = chain_bands(front.frame, {}, work.reach, device().memory_for_planes());
+  work.is_banded = work.bands.rows < front.frame.height;
   // Planes of a device with memory of its own take other memory than that.
   if (session().works_in_host_memory()) {
     EXPECT_EQ(work.is_banded, memory < all_rows);
