@@ -46,16 +46,15 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   const std::size_t channels = planes.channels, data = planes.has_data;
   const bool has_behind = reach.fill > 0;
   const std::int64_t fill = reach.fill, patterns = reach.patterns;
-  // Of so many rows of a band, and of those that the stages before have to be ahead.
-  const auto before = [&](std::int64_t rows) {
-    // CoC before and after the repair, where from, 1/depth, mixed.
-    const std::size_t front =
-        (5 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
-    const std::size_t behind = (2 + channels) * plane(rows + patterns);
-    const std::size_t pixels = patterns > 0 ? plane(rows + 2 * patterns) : 0;
-    return front + (has_behind ? behind + pixels : 0);
-  };
-  const std::int64_t sent = bands.rows + 2 * std::int64_t{reach.rays};
+  // A stage that is ahead of another is so by whole steps.
+  const std::int64_t rows = bands.rows < e.height ? bands.rows + 2 * band_step : bands.rows;
+  // CoC before and after the repair, where from, 1/depth, mixed.
+  const std::size_t front =
+      (5 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
+  const std::size_t behind =
+      (2 + channels) * plane(rows + patterns) + (patterns > 0 ? plane(rows + 2 * patterns) : 0);
+  const std::size_t front_and_behind = front + (has_behind ? behind : 0);
+  const std::int64_t sent = rows + 2 * std::int64_t{reach.rays};
   const std::int64_t layered = sent + reach.soften + 2 * std::int64_t{reach.highlights};
   // CoC, depth, coverage; what highlights keep, and alpha.
   const std::size_t of_highlights = reach.highlights > 0 ? 1 + std::size_t{planes.has_alpha} : 0;
@@ -65,11 +64,13 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   const std::size_t padded =
       (launch_of("rdb_pad").bytes_a_surface / Launch::plane - 4 + channels) * plane(sent);
   const std::size_t layers = has_behind ? 2 : 1, result = (2 + channels) * plane(bands.rows);
-  const std::size_t all = before(bands.rows), sending = layers * padded + result;
-  // Without a surface behind, rays come from the front's planes.
-  const bool goes = bands.gives_back && has_behind;
-  const std::size_t left = bands.rows >= e.height ? 0 : before(0);
-  return layers * (layer + softened) + (goes ? std::max(all, left + sending) : all + sending);
+  const std::size_t sending = layers * padded + result;
+  // Without a surface behind, rays come from the front's planes. What the rays of one band took,
+  // those of the next take again; meanwhile nobody else has it.
+  if (bands.gives_back && has_behind && bands.rows >= e.height) {
+    return layers * (layer + softened) + std::max(front_and_behind, sending);
+  }
+  return layers * (layer + softened) + front_and_behind + sending;
 }
 
 ChainBands chain_bands(const Frame& e, const PlaneCounts& planes, const ChainReach& reach,

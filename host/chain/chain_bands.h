@@ -31,8 +31,8 @@ struct ChainBands {
 };
 
 /// What the planes of all stages take at once, bytes. `extended` is the frame with its margin.
-std::size_t bytes_of_bands(const Frame& extended, const PlaneCounts& planes, const ChainReach& reach,
-                           const ChainBands& bands);
+std::size_t bytes_of_bands(const Frame& extended, const PlaneCounts& planes,
+                           const ChainReach& reach, const ChainBands& bands);
 
 /// One band where it fits the memory, better one that gives nothing back: pages take time to come
 /// again. Or else as many rows as take three quarters of it, whole steps of band_step and one at
