@@ -126,7 +126,7 @@ OptionGroup file_options(RenderCommand& job) {
         {.scope = of_depth}},
        full_size_row(job),
        {"--mkdir",
-        flag(job.make_folders),
+        flag(job.settings.make_folders),
         "Make the outputs' folders where there are none",
         {.field = "make_folders"}},
        {"--no-pattern", flag(job.no_pattern), "No name is a pattern: #, @ and %d are letters"},
