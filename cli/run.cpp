@@ -156,7 +156,9 @@ bool is_for_its_text(const CLI::App& command) {
 /// Help, or the version.
 int print_and_end(const CLI::App& app, const CLI::Success& what) {
   const int code = app.exit(what);
-  return is_output_lost() ? fail_with(ErrorKind::output, "cannot write to standard output") : code;
+  return is_output_lost() || was_output_closed()
+             ? fail_with(ErrorKind::output, "cannot write to standard output")
+             : code;
 }
 
 int run_command(int argc, char** argv) {

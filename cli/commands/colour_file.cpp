@@ -34,6 +34,26 @@ void require_same_display(const ColourFile& a, const ColourFile& b) {
        to_string(a.display), b.path, to_string(b.display));
 }
 
+namespace {
+
+/// Of the pictures' windows, `all` what of their data is looked at. Throws Error(input) where it
+/// reaches beyond them.
+Window cropped(const Window& all, const Window& crop, const std::vector<ColourFile*>& pictures) {
+  const Window& display = pictures.front()->display;
+  Window allowed = display;
+  for (const ColourFile* picture : pictures) allowed = hull(allowed, picture->data);
+  const Window wanted{crop.x + display.x, crop.y + display.y, crop.width, crop.height};
+  if (hull(allowed, wanted) != allowed) {
+    fail(ErrorKind::input, "{}: --crop {} reaches outside: allowed is what lies in {}",
+         pictures.front()->path, to_string(crop),
+         to_string(
+             Window{allowed.x - display.x, allowed.y - display.y, allowed.width, allowed.height}));
+  }
+  return intersection(all, wanted);
+}
+
+}  // namespace
+
 void bring_together(const std::vector<ColourFile*>& pictures, const Region& region) {
   const ColourFile& first = *pictures.front();
   Window all = first.data;
@@ -41,15 +61,10 @@ void bring_together(const std::vector<ColourFile*>& pictures, const Region& regi
     require_same_display(first, *picture);
     all = region.overlap_only ? intersection(all, picture->data) : hull(all, picture->data);
   }
-  if (region.crop) {
-    Window crop = *region.crop;
-    crop.x += first.display.x;
-    crop.y += first.display.y;
-    all = intersection(all, crop);
-  }
+  if (region.crop) all = cropped(all, *region.crop, pictures);
   if (all.width <= 0 || all.height <= 0) {
     fail(ErrorKind::input, "{}: nothing is left to look at: {}", first.path,
-         region.crop ? "--crop lies outside" : "the data windows do not overlap");
+         region.crop ? "--crop lies where no picture has data" : "the data windows do not overlap");
   }
   for (ColourFile* picture : pictures) {
     picture->planes = to_display_window(picture->planes, picture->data, all);

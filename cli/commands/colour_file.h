@@ -30,8 +30,8 @@ struct Region {
 /// "union", "overlap", "320x200+10+20" -> what they say. Throws Error(usage).
 void set_region(Region& region, const std::string& windows, const std::string& crop);
 
-/// Gives all pictures one data window. Throws Error(input) where their display windows differ, or
-/// nothing is left.
+/// Gives all pictures one data window. Throws Error(input) where their display windows differ, the
+/// crop reaches outside, or nothing is left.
 void bring_together(const std::vector<ColourFile*>& pictures, const Region& region);
 
 /// Throws Error(input) unless the display windows are the same.

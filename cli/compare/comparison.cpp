@@ -38,10 +38,11 @@ Mask read_band(const CompareOptions& o, const ColourFile& picture) {
 }
 
 /// 1 where the mask's first channel is above a half.
-Mask read_mask(const CompareOptions& o, const Window& data) {
+Mask read_mask(const CompareOptions& o, const ColourFile& picture) {
   const ImageFile file = ImageFile::read(o.mask, Content::data);
   const PartInfo& part = file.parts().front();
-  const Plane values = to_display_window({file.plane(0, 0)}, part.data, data).front();
+  require_same_display({o.mask, {}, part.data, part.display}, picture);
+  const Plane values = to_display_window({file.plane(0, 0)}, part.data, picture.data).front();
   Mask mask(values.size());
   std::transform(values.begin(), values.end(), mask.begin(), [](float v) { return v > 0.5f; });
   if (std::count(mask.begin(), mask.end(), 1) == 0) {
@@ -66,7 +67,7 @@ Excess changes_since(const CompareOptions& o, Pair before, Pair pair) {
   const Window data = pair.a.data;
   bring_together({&before.a, &before.b, &pair.a, &pair.b}, {});
   if (!o.mask.empty()) {
-    const Mask mask = read_mask(o, pair.a.data);
+    const Mask mask = read_mask(o, pair.a);
     before = masked(std::move(before), mask);
     pair = masked(std::move(pair), mask);
   }
@@ -98,7 +99,7 @@ Pair read_pair(const CompareOptions& o) {
 Found compare_pair(const CompareOptions& o, const Pair& pair, const Pair* before) {
   const ColourFile& a = pair.a;
   const int width = a.data.width;
-  const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a.data);
+  const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a);
   Found found;
   found.comparison = compare(a.planes, pair.b.planes, width, mask);
   if (o.false_edges) {

@@ -4,7 +4,6 @@
 #include "commands.h"
 #include "defray/defray.h"
 #include "exit_code.h"
-#include "image/safe_output.h"
 #include "image/sequence.h"
 #include "render/render_command.h"
 #include "render/sequence_run.h"
@@ -69,14 +68,18 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// Folders of the outputs, where they are to be made.
-void make_folders(const RenderCommand& job) {
-  if (!job.make_folders) return;
-  const FramePaths& p = job.paths;
-  for (const std::string& name : outputs_of(p)) {
-    const std::string folder = std::filesystem::path(name).parent_path().string();
-    if (!folder.empty()) create_folder(folder);
+/// A camera file a frame: that one is missing must not show hours later.
+void check_camera_files(const RenderCommand& job, const std::vector<std::optional<int>>& frames) {
+  if (job.skip_bad_frames || !frames.front() || !has_frame_pattern(job.camera)) return;
+  std::vector<std::string> missing;
+  for (const std::optional<int>& frame : frames) {
+    const std::string path = frame_path(job.camera, *frame);
+    if (!is_skipped(job, frame) && !std::filesystem::exists(path)) missing.push_back(path);
   }
+  if (missing.empty()) return;
+  fail(ErrorKind::input,
+       "{}: no such file: {} of {} frames have no camera; --skip-bad-frames leaves them out",
+       missing.front(), missing.size(), frames.size());
 }
 
 /// The focus of --focus-frame, for all frames.
@@ -110,7 +113,7 @@ int run(const OptionTable& options, RenderCommand& job) {
     options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
     finish(job);
     check_lens(job, frames);
-    make_folders(job);
+    check_camera_files(job, frames);
     take_focus_of_frame(job);
     SequenceRun sequence(job, frames);
     sequence.render();

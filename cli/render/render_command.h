@@ -27,7 +27,7 @@ struct RenderCommand {
   std::string camera, focus_setting;  ///< Of a camera file, or "from-metadata".
   AnimatedLens animated;
   std::optional<int> focus_frame;  ///< Of settings.focus_at; without one, each its own.
-  bool make_folders = false, no_pattern = false;
+  bool no_pattern = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< The options, as typed.
   /// A text with standard input and output in it as such, for people.
   std::function<std::string(const std::string&)> named = [](const std::string& text) {

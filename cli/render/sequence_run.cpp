@@ -1,5 +1,6 @@
 #include "render/sequence_run.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -30,13 +31,24 @@ std::vector<std::string> outputs_of(const FramePaths& paths) {
 
 namespace {
 
-/// Whether all that a frame is asked for is there.
-bool exists(const FramePaths& paths) {
-  for (const std::string& path : outputs_of(paths)) {
-    if (!path.empty() && !std::filesystem::exists(path)) return false;
-  }
-  return true;
+/// Not where it is empty, as a full disk or a copy that broke off leaves it.
+bool is_written(const std::string& path) {
+  std::error_code ignored;
+  const bool is_file = std::filesystem::is_regular_file(path, ignored);
+  return is_file ? std::filesystem::file_size(path, ignored) > 0
+                 : std::filesystem::exists(path, ignored);
 }
+
+}  // namespace
+
+bool is_skipped(const RenderCommand& job, std::optional<int> frame) {
+  const std::vector<std::string> outputs = outputs_of(paths_of(job.paths, frame));
+  return job.skip_existing &&
+         std::all_of(outputs.begin(), outputs.end(),
+                     [](const std::string& path) { return path.empty() || is_written(path); });
+}
+
+namespace {
 
 Device device_of(const RenderCommand& job) {
   check_output_format(job.paths.output);
@@ -88,7 +100,7 @@ void SequenceRun::Work::attempt(const Step& step) {
 
 SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
   Work work{{frame, paths_of(job_.paths, frame), "ok", "", {}}, nullptr, {}, {}};
-  if (job_.skip_existing && exists(work.outcome.paths)) {
+  if (is_skipped(job_, frame)) {
     work.outcome.status = "skipped";
     return work;
   }

@@ -20,6 +20,9 @@ FramePaths paths_of(FramePaths paths, std::optional<int> frame);
 /// All that is written, where no name: nothing.
 std::vector<std::string> outputs_of(const FramePaths& paths);
 
+/// Whether --skip-existing leaves this frame alone.
+bool is_skipped(const RenderCommand& job, std::optional<int> frame);
+
 class SequenceRun {
  public:
   /// Opens the device. A single frame without a number is a picture. Throws Error.

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "image/safe_output.h"
 
 namespace defray {
 
@@ -12,7 +13,9 @@ DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
   if (!depth_path.empty()) other = ImageFile::read(depth_path, Content::data);
   const ImageFile& file = other ? *other : colour_file;
   ColourChoice beside = colour;
-  if (other) beside.channels.clear();  // numbers of the colour's file
+  if (other && !is_same_file(depth_path, colour_file.path())) {
+    beside.channels.clear();  // numbers of the colour's file
+  }
   const ChannelName name = choose_depth(file.path(), file.parts(), request, beside);
   const std::string channel = describe(name, file.parts());
   const Window& data = file.parts()[static_cast<std::size_t>(name.part)].data;

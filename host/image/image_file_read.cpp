@@ -46,6 +46,13 @@ void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t by
   }
 }
 
+/// Of a movie, by its name: FFmpeg ends the process on some that are damaged, once they are opened.
+bool is_movie(const std::string& path) {
+  const auto reader = ImageInput::create(path);
+  if (!reader) OIIO::geterror();  // open() has its own
+  return reader && reader->format_name() == std::string("FFmpeg movie");
+}
+
 }  // namespace
 
 ImageFile ImageFile::read(const std::string& path, Content content) {
@@ -75,6 +82,9 @@ ImageFile ImageFile::read(const std::string& path, Content content) {
 ImageFile ImageFile::read_linear_file(const std::string& path) {
   ImageFile file;
   file.path_ = path;
+  if (is_movie(path)) {
+    fail(ErrorKind::input, "{}: is a movie; allowed are pictures, a file a frame", path);
+  }
   // Damaged headers make the library throw now and then; all of it is one kind of bad input.
   try {
     const auto input = ImageInput::open(path);
@@ -82,7 +92,7 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
       fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(OIIO::geterror()));
     }
     std::uint64_t bytes = 0;
-    for (int s = 0; input->seek_subimage(s, 0); ++s) {
+    for (int s = 0; s == 0 || input->seek_subimage(s, 0); ++s) {  // it is open at the first
       const ImageSpec spec = input->spec();
       check_size(path, spec, bytes);
       bytes += spec.image_bytes(true);
@@ -103,7 +113,6 @@ ImageFile ImageFile::read_linear_file(const std::string& path) {
   } catch (const std::exception& error) {
     fail(ErrorKind::input, "{}: not a readable image: {}", path, first_line(error.what()));
   }
-  if (file.parts_.empty()) fail(ErrorKind::input, "{}: holds no image", path);
   file.refresh_info();
   return file;
 }

@@ -61,7 +61,7 @@ LdrPicture read_ldr(const std::string& path, Content content) {
   picture.height = image.rows;
   const bool is_data = content == Content::data;
   picture.channels = {"R", "G", "B"};
-  if (is_data && image.channels() == 1) picture.channels = {"Y"};
+  if (image.channels() == 1) picture.channels = {"Y"};
   const bool has_alpha = image.channels() == 4;
   if (has_alpha) picture.channels.push_back("A");
   picture.planes.assign(picture.channels.size(), Plane(image.total()));
@@ -84,18 +84,20 @@ LdrPicture read_ldr(const std::string& path, Content content) {
 void write_ldr(const std::string& path, const LdrPicture& picture) {
   const bool has_alpha = picture.planes.size() == 4;
   const bool keeps_alpha = has_alpha && lower_extension(path) == ".png";
-  const int depth = picture.bits == 16 ? CV_16U : CV_8U;
-  cv::Mat image(picture.height, picture.width, CV_MAKETYPE(depth, keeps_alpha ? 4 : 3));
+  const std::size_t colours = picture.planes.size() == 1 ? 1 : 3;
+  const int channels = static_cast<int>(colours) + keeps_alpha;
+  cv::Mat image(picture.height, picture.width,
+                CV_MAKETYPE(picture.bits == 16 ? CV_16U : CV_8U, channels));
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                              static_cast<std::size_t>(x);
       const double alpha = keeps_alpha ? static_cast<double>(picture.planes[3][at]) : 1;
-      for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t c = 0; c < colours; ++c) {
         const double colour = static_cast<double>(picture.planes[c][at]);
         // PNG stores unassociated alpha; a transparent pixel has no colour to recover.
         const double straight = alpha > 0 ? colour / alpha : 0;
-        store_value(image, y, x, bgr_index(c), srgb_encode(straight));
+        store_value(image, y, x, colours == 1 ? 0 : bgr_index(c), srgb_encode(straight));
       }
       if (keeps_alpha) store_value(image, y, x, 3, alpha);
     }

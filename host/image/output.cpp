@@ -56,12 +56,12 @@ std::size_t count_lost(const Plane& values, const Plane& stored) {
   return count;
 }
 
-/// R G B (A) of a picture of one or two planes.
-std::vector<Plane> in_rgb(const std::vector<Plane>& colour) {
-  if (colour.size() > 2) return colour;
-  std::vector<Plane> rgb(3, colour.front());
-  if (colour.size() == 2) rgb.push_back(colour.back());
-  return rgb;
+/// Grey with an alpha as R G B A: OpenCV writes no such PNG; a JPEG has no alpha.
+std::vector<Plane> ldr_planes(const std::string& path, const std::vector<Plane>& colour) {
+  if (colour.size() != 2) return colour;
+  const Plane& grey = colour.front();
+  if (is_jpeg(path)) return {grey};
+  return {grey, grey, grey, colour.back()};
 }
 
 /// HDR holds R, G and B.
@@ -151,7 +151,7 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
   if (is_ldr_path(path)) {
     const bool is_deep = bits == Bits::sixteen ||
                          (bits == Bits::as_input && !is_jpeg(path) && part.integer_bits == 16);
-    return write_display_encoded(path, part, in_rgb(colour), is_deep ? 16 : 8, notes);
+    return write_display_encoded(path, part, ldr_planes(path, colour), is_deep ? 16 : 8, notes);
   }
   if (file.is_lossy()) {
     notes.push_back(

@@ -132,6 +132,17 @@ void check_can_write(const std::string& path, const std::string& hint) {
   unlink(probe.c_str());
 }
 
+void check_can_make(const std::string& path) {
+  std::error_code names_nothing;
+  fs::path there = folder_of(path);
+  while (!fs::exists(there, names_nothing) && there != folder_of(there)) there = folder_of(there);
+  if (!fs::is_directory(there, names_nothing)) {
+    fail(ErrorKind::output, "{}: cannot create this folder: {}", folder_of(path).string(),
+         std::strerror(ENOTDIR));
+  }
+  check_can_write((there / fs::path(path).filename()).string());
+}
+
 void write_safely(const std::string& to, const std::function<void(const std::string&)>& write) {
   // Through a link to the file it names: renaming over the link would leave that one stale.
   const std::string path = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;

@@ -13,6 +13,9 @@ void create_folder(const std::string& path);
 /// of this machine left behind in that folder. `hint`: how a missing folder is made.
 void check_can_write(const std::string& path, const std::string& hint = "");
 
+/// The same where missing folders will be made.
+void check_can_make(const std::string& path);
+
 /// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it
 /// to `path`. When anything fails, the temporary file is removed and an old `path` stays.
 void write_safely(const std::string& path, const std::function<void(const std::string&)>& write);

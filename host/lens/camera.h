@@ -41,6 +41,10 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
 /// Notes on values ten times off those of any real lens.
 std::vector<std::string> notes_on_extremes(const CameraValues& values);
 
+/// A note where a sensor's width spans the shorter side of an upright frame, and nothing says that
+/// it is to: Blender's Auto means the longer one. Else empty.
+std::string note_on_upright(const CameraValues& values, const Window& display);
+
 /// The lens these values describe; 36 mm sensor width by default. A sensor that spans the frame's
 /// height, or a longer side that this is, needs the display window's shape. Throws Error(usage)
 /// that names every value that is missing or contradicts another.

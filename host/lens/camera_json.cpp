@@ -31,14 +31,17 @@ std::optional<double> number(const std::string& path, const json& object, const 
 /// The focus setting asked for, or the only one there is. No copy: the JSON library copies one call
 /// deep a level, and a file may have more levels than the stack.
 const json& choose_setting(const std::string& path, const json& root, const std::string& setting) {
-  // A file without settings may state focus and aperture beside the focal length.
-  if (!root.contains("focus_settings")) return root;
-  const json& settings = root["focus_settings"];
+  static const json none = json::object();
+  const json& settings = root.contains("focus_settings") ? root["focus_settings"] : none;
   if (!settings.is_object()) fail(ErrorKind::input, "{}: 'focus_settings' is no object", path);
   std::vector<std::string> names;
   for (const auto& item : settings.items()) names.push_back(item.key());
   if (!setting.empty()) {
     if (settings.contains(setting)) return settings[setting];
+    if (names.empty()) {
+      fail(ErrorKind::input, "{}: no focus setting '{}': it has none; leave {} out", path, setting,
+           field("focus_setting"));
+    }
     fail(ErrorKind::input, "{}: no focus setting '{}'.{} It has: {}", path, setting,
          did_you_mean(setting, names), join(names, " "));
   }
@@ -46,6 +49,7 @@ const json& choose_setting(const std::string& path, const json& root, const std:
     fail(ErrorKind::input, "{}: has several focus settings: {}; choose with {}", path,
          join(names, " "), field("focus_setting"));
   }
+  // A file without settings may state focus and aperture beside the focal length.
   return names.empty() ? root : settings[names.front()];
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "lens/camera.h"
 
 namespace defray {
@@ -38,6 +39,16 @@ std::vector<std::string> notes_on_extremes(const CameraValues& v) {
     note_unusual(usual_f_number, *v.focal_length_mm / *v.aperture_diameter_mm, notes);
   }
   return notes;
+}
+
+std::string note_on_upright(const CameraValues& v, const Window& display) {
+  const bool is_told = v.fit || v.sensor_height_mm || v.fov_deg || v.pixels_per_metre;
+  if (is_told || v.aperture_diameter_mm == 0.0 || display.height <= display.width) return "";
+  const double width = v.sensor_width_mm.value_or(Lens().sensor_width_mm);
+  return fmt::format(
+      "the frame is upright, its width has the sensor's {:g} mm: with {} auto, as Blender's Auto, "
+      "it would have {:.6g} mm; horizontal says that it is so",
+      width, field("fit"), width * display.width / display.height);
 }
 
 }  // namespace defray

@@ -33,19 +33,31 @@ void check_paths(const FramePaths& paths, const std::vector<std::string>& also_r
   }
 }
 
-void check_outputs(const FramePaths& paths, const std::string& compression, Bits bits) {
-  const std::string hint = field("make_folders") + " makes it";
+void check_outputs(const FramePaths& paths, const RenderSettings& settings) {
+  const auto check_place = [&](const std::string& path) {
+    if (settings.make_folders) return check_can_make(path);
+    check_can_write(path, field("make_folders") + " makes it");
+  };
   check_output_format(paths.output);
-  check_bits(paths.output, bits);
-  check_can_write(paths.output, hint);
+  check_bits(paths.output, settings.bits);
+  check_place(paths.output);
   std::vector<std::string> all{paths.output};
   for (const auto& [name, path] : paths.data_outputs()) {
     all.push_back(path);
     if (path.empty()) continue;
     check_plane_format(path, name);
-    check_can_write(path, hint);
+    check_place(path);
   }
-  check_compression(all, compression);
+  check_compression(all, settings.compression);
+}
+
+void make_folders(const FramePaths& paths) {
+  std::vector<std::string> all{paths.output};
+  for (const auto& [name, path] : paths.data_outputs()) all.push_back(path);
+  for (const std::string& path : all) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty()) create_folder(folder.string());
+  }
 }
 
 }  // namespace defray

@@ -12,6 +12,9 @@ namespace defray {
 void check_paths(const FramePaths& paths, const std::vector<std::string>& also_read);
 
 /// Throws Error unless the outputs can be written.
-void check_outputs(const FramePaths& paths, const std::string& compression, Bits bits);
+void check_outputs(const FramePaths& paths, const RenderSettings& settings);
+
+/// Makes the outputs' folders where there are none. Throws Error(output).
+void make_folders(const FramePaths& paths);
 
 }  // namespace defray

@@ -34,6 +34,13 @@ bool is_wanted(const Plane* alpha, std::optional<Grow> grow) {
   return alpha && std::any_of(alpha->begin(), alpha->end(), [](float a) { return a < 1; });
 }
 
+/// Whether the disc around a pixel does, as far as windows grow by it.
+bool reaches(const Window& window, int x, int y, double radius) {
+  const int across = std::max({window.x - x, x - (window.x + window.width - 1), 0});
+  const int down = std::max({window.y - y, y - (window.y + window.height - 1), 0});
+  return std::hypot(across, down) < radius + 1;
+}
+
 }  // namespace
 
 Window grown_window(const Window& data, const Window& display, const Plane* alpha,
@@ -43,12 +50,14 @@ Window grown_window(const Window& data, const Window& display, const Plane* alph
   const Blur blur(lens, lens_width);
   // Light that has left the frame and its own size around it is seen by no one.
   const double farthest = std::max(display.width, display.height);
+  const bool is_outside = grow != Grow::full && !overlap(data, display);
   double left = 0, right = 0, up = 0, down = 0;
   std::size_t i = 0;
   for (int y = 0; y < data.height; ++y) {
     for (int x = 0; x < data.width; ++x, ++i) {
       if (alpha && (*alpha)[i] == 0) continue;
       const double radius = std::min(blur.at(static_cast<double>(depth[i])), farthest);
+      if (is_outside && !reaches(display, data.x + x, data.y + y, radius)) continue;
       left = std::max(left, radius - x);
       right = std::max(right, radius - (data.width - 1 - x));
       up = std::max(up, radius - y);
@@ -59,7 +68,7 @@ Window grown_window(const Window& data, const Window& display, const Plane* alph
   const Window reached{data.x - px(left), data.y - px(up), data.width + px(left) + px(right),
                        data.height + px(up) + px(down)};
   if (grow == Grow::full) return reached;
-  if (!overlap(data, display)) return data;
+  if (!overlap(reached, display)) return data;
   return hull(data, intersection(reached, display));
 }
 

@@ -119,7 +119,7 @@ void FileRender::read() {
   State& s = *state_;
   const std::optional<ChainSettings>& chain = s.settings.method.chain;
   check_paths(s.paths, {s.settings.camera.source, chain ? chain->aperture.image : ""});
-  check_outputs(s.paths, s.settings.compression, s.settings.bits);
+  check_outputs(s.paths, s.settings);
   const ErrorSettings error = error_settings(s.settings, s.paths);
   validate(s.settings.method, error);
   if (s.settings.budget_ms) validate_budget(s.settings.method, error, *s.settings.budget_ms);
@@ -182,6 +182,7 @@ FrameResult FileRender::write() {
   State& s = *state_;
   if (s.planes.empty()) fail(ErrorKind::usage, "{}: render() comes before write()", s.paths.input);
   Stopwatch watch;
+  if (s.settings.make_folders) make_folders(s.paths);
   if (!s.settings.compression.empty()) s.source->file.set_compression(s.settings.compression);
   write_picture(s.paths.output, s.source->file, s.choice, s.planes, s.settings.bits,
                 s.report.notes);

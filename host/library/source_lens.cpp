@@ -60,6 +60,8 @@ CameraValues camera_of(const ImageFile& file, const RenderSettings& settings) {
       file, settings.metres_per_unit, settings.focus_at ? before_focus(stated) : stated);
   CameraValues camera = found.overridden_by(stated);
   if (found.fit) camera.fit = found.fit;  // it goes with the field of view that was found
+  // Metadata have the width's own.
+  if (found.sensor_width_mm && !camera.fit) camera.fit = SensorFit::horizontal;
   return camera;
 }
 
@@ -118,6 +120,9 @@ void take_lens(const ImageFile& file, const PartInfo& part, DepthPlane& depth,
   smooth_depth(depth, std::move(ladder), part.data.width, settings.depth, report);
   notes.insert(notes.end(), camera.notes.begin(), camera.notes.end());
   for (std::string& note : notes_on_extremes(camera)) notes.push_back(std::move(note));
+  if (const std::string upright = note_on_upright(camera, report.display); !upright.empty()) {
+    notes.push_back(upright);
+  }
   note_depth(depth, settings.depth, report.depth, notes);
   note_focus(report.lens, report.depth, notes);
 }

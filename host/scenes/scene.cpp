@@ -134,6 +134,7 @@ std::string camera_json(const Scene& scene, const std::map<std::string, Comparis
                                        {"height", scene.height},
                                        {"focal_length_mm", scene.focal_length_mm},
                                        {"sensor_width_mm", scene.sensor_width_mm},
+                                       {"sensor_fit", "horizontal"},
                                        {"pixel_focal_px", pixel_focal_length(scene)},
                                        {"focus_settings", settings}};
   return root.dump(2) + "\n";

@@ -35,7 +35,7 @@ class DEFRAY_API PictureFile {
   PictureFile& operator=(PictureFile&&) noexcept;
   ~PictureFile();
 
-  /// R G B (A) and depth as stored, in memory of this object.
+  /// R G B (A), or a grey file's Y (A), and depth as stored, in memory of this object.
   const Picture& picture() const;
 
   /// Writes the file anew to `path`, `colour` in place of its own. The same format keeps channels,
@@ -82,6 +82,7 @@ struct RenderSettings {
   MethodSettings method = Options();  ///< As it is: the RDB with all its stages.
   std::optional<double> budget_ms;    ///< As Options::budget_ms.
   TiltshiftSettings tiltshift;
+  bool make_folders = false;  ///< Of the outputs, where there are none, when they are written.
 };
 
 /// Which files. Empty `depth`: depth is in `input`. Of what else is written, empty: not written.

@@ -23,7 +23,11 @@ TEST_F(CompareParts, APartOfThePictures) {
   EXPECT_EQ(compared("a.exr b.exr --crop 4x4+1+5")["worst_x"], 2);
   EXPECT_EQ(compared("a.exr b.exr --crop 4x4+1+5")["worst_y"], 5);
   EXPECT_EQ(code("a.exr b.exr --crop 10x10+3+4 --max-error 0"), 0);
-  refuse("a.exr b.exr --crop 9x9+48+0", 3, {"--crop lies outside"});
+  EXPECT_EQ(code("a.exr b.exr --crop 9x9+39+23"), 0);
+  for (const std::string crop : {"9x9+48+0", "9x9+40+0", "9x9+0+24"}) {
+    refuse("a.exr b.exr --crop " + crop, 3,
+           {"a.exr: --crop " + crop + " reaches outside: allowed is what lies in 48x32+0+0"});
+  }
   refuse("a.exr b.exr --crop 9x9", 2, {"--crop '9x9'", "3840x2160+100+50"});
   refuse("a.exr b.exr --windows both", 2, {"--windows 'both'", "union overlap"});
 }
@@ -54,6 +58,9 @@ TEST_F(CompareParts, OnlyWhereAMaskIs) {
   masked["ssim"] = all["ssim"];
   EXPECT_EQ(masked, all);
   refuse("a.exr b.exr --mask nothing.exr", 3, {"no pixel of the mask"});
+  ImageFile::from_planes({"Y"}, {Plane(20 * 10, 1.0f)}, 20, 10).write(folder_ / "small_mask.exr");
+  refuse("a.exr b.exr --mask small_mask.exr", 3,
+         {"small_mask.exr has display window 20x10+0+0, a.exr has 48x32+0+0: both must be the"});
 }
 
 TEST_F(CompareParts, DataWindowsThatDiffer) {
@@ -75,6 +82,14 @@ TEST_F(CompareParts, DataWindowsThatDiffer) {
   EXPECT_NEAR(all["rms"], 0.5 * std::sqrt(8.0 / 12), 1e-6);
   EXPECT_EQ(all["worst_x"], 2) << "of the display window";
   EXPECT_EQ(compared("l.exr r.exr --crop 6x4+8+0")["worst_x"], 10);
+  refuse("l.exr r.exr --crop 1x4+0+0", 3, {"nothing is left", "--crop lies where no picture has"});
+  refuse("l.exr r.exr --crop 4x4+17+0", 3, {"allowed is what lies in 20x4+0+0"});
+  // Beyond the display window where one has data; a mask's data window may be another.
+  write("beyond.exr", 14, 0.5f);
+  EXPECT_EQ(compared("l.exr beyond.exr --crop 4x4+18+0")["worst_x"], 18);
+  refuse("l.exr beyond.exr --crop 4x4+19+0", 3, {"allowed is what lies in 22x4+0+0"});
+  write("mask.exr", 2, 1);
+  EXPECT_NEAR(compared("l.exr r.exr --mask mask.exr")["rms"], 0.5 * std::sqrt(4.0 / 8), 1e-6);
   const auto width_of_sheet = [&](const std::string& options) {
     expect_ok(defray(folder_, "sheet l.exr r.exr -o s.png " + options));
     return read_ldr(folder_ / "s.png", Content::data).width;

@@ -34,6 +34,9 @@ TEST(Sheet, ShowsAPartLargeAndBright) {
   refused("--zoom 0", "--zoom is 0: allowed are 1 to 64");
   refused("--zoom 65", "--zoom is 65");
   refused("--exposure nan", "--exposure is nan");
+  expect_refusal(defray(folder, "sheet a.exr b.exr -o s.png --crop 20x20+40+20"), 3,
+                 {"a.exr: --crop 20x20+40+20 reaches outside: allowed is what lies in 48x32+0+0"},
+                 "sheet");
 }
 
 }  // namespace

@@ -29,6 +29,9 @@ TEST_F(Messages, OfACameraFile) {
       << R"( "b": {"focus_distance_m": 4, "f_stop": 2}}})";
   expect_refused("render in.exr -o o.exr --camera camera.json", 3,
                  {"camera.json: has several focus settings: a b; choose with --focus-setting"});
+  std::ofstream(folder_ / "none.json") << R"({"focal_length_mm": 50, "f_stop": 2})";
+  expect_refused("render in.exr -o o.exr --focus 3 --camera none.json --focus-setting a", 3,
+                 {"none.json: no focus setting 'a': it has none; leave --focus-setting out"});
 }
 
 TEST_F(Messages, OfChannelsThatCouldBeMeant) {

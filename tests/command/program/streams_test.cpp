@@ -48,8 +48,10 @@ TEST_F(Streams, ClosedOnesEndNothingAndGetNoFilesNumber) {
   EXPECT_EQ(run("compare in.exr in.exr --sheet sheet.png", ">&-").code, 0);
   for (const std::string prints : {"--help", "render --help", "--version"}) {
     EXPECT_EQ(run(prints, ">/dev/full").code, 4) << prints;
+    EXPECT_EQ(run(prints, ">&-").code, 4) << prints;
     EXPECT_EQ(run(prints, "").code, 0) << prints;
   }
+  EXPECT_EQ(run("", ">&-").code, 2) << "its help is for who gave no command";
   EXPECT_EQ(run("info in.exr", ">&-").err, run("info in.exr", ">/dev/full").err);
 }
 

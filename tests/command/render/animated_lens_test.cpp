@@ -159,6 +159,18 @@ TEST_F(Sequences, ACameraFileAFrame) {
                                "--skip-bad-frames");
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("camera.0002.json: cannot open"), std::string::npos) << result.err;
+  // Otherwise before the first frame is rendered, but for frames that are there.
+  std::filesystem::remove(folder_ / "camera.0003.json");
+  const std::string all_of = "s.####.exr -o p.####.exr --camera camera.####.json";
+  expect_refused(all_of, 3,
+                 {"camera.0002.json: no such file: 2 of 3 frames have no camera; "
+                  "--skip-bad-frames leaves them out"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "p.0001.exr"));
+  shell(folder_, "cp s.0002.exr p.0002.exr");
+  expect_refused(all_of + " --skip-existing", 3, {"camera.0003.json: no such file: 1 of 3"});
+  shell(folder_, "cp s.0003.exr p.0003.exr");
+  expect_ok(defray(folder_, "render " + all_of + " --skip-existing"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "p.0001.exr"));
 }
 
 TEST_F(Sequences, FocusOnAPlace) {

@@ -21,6 +21,34 @@ TEST_F(Camera, ASensorSpansTheSideThatItsFitSays) {
   EXPECT_NEAR(sensor("tall.exr --fov 57.29577951308232 --sensor-fit auto"), across / 1.5, 1e-9);
 }
 
+TEST_F(Camera, AnUprightFrameWhoseWidthGetsTheSensorIsNoted) {
+  const auto notes = [&](const std::string& arguments) {
+    const std::string lens = " -o o.exr --focus 3 --focal-length 50 ";
+    return report(arguments + lens)["notes"].dump();
+  };
+  const std::string note = "the frame is upright, its width has the sensor's ";
+  const auto in = [&](const std::string& arguments) { return notes(arguments).find(note); };
+  const std::string auto_is = " mm: with --sensor-fit auto, as Blender's Auto, it would have ";
+  const std::string usual = notes("tall.exr --fstop 2");
+  EXPECT_NE(usual.find(note + "36" + auto_is + "24 mm; horizontal says that it is so"),
+            std::string::npos)
+      << usual;
+  const std::string stated = notes("tall.exr --fstop 2 --sensor-width 30");
+  EXPECT_NE(stated.find(note + "30" + auto_is + "20 mm"), std::string::npos) << stated;
+  EXPECT_NE(in("wide.exr --fstop 2 --full-size 48x96+0+0"), std::string::npos);
+  for (const std::string told : {"--sensor-fit auto", "--sensor-fit horizontal", "--fov 40",
+                                 "--sensor-height 24", "--pixel-scale 9000"}) {
+    EXPECT_EQ(in("tall.exr --fstop 2 " + told), std::string::npos) << told;
+  }
+  EXPECT_EQ(in("tall.exr --aperture-diameter 0"), std::string::npos);
+  EXPECT_EQ(in("tall.exr --fstop 2 --full-size 48x48+0+0"), std::string::npos);
+  EXPECT_EQ(in("wide.exr --fstop 2"), std::string::npos);
+  write_picture_file(folder_, "square.exr", {"R", "G", "B", "Z"}, {32, 32});
+  EXPECT_EQ(in("square.exr --fstop 2"), std::string::npos);
+  expect_ok(defray(folder_, "scene plate1 -o . --width 20 --height 30 --truth-samples 1"));
+  EXPECT_EQ(in("pinhole.exr --camera camera.json --fstop 2"), std::string::npos) << "its own";
+}
+
 TEST_F(Camera, SensorsThatContradictEachOtherAreRefused) {
   const std::string in = "wide.exr -o o.exr --focus 3 --fstop 2 --focal-length 50 ";
   expect_refused(in + "--fov 40 --sensor-width 36", 2, {"--sensor-width and --fov say the same"});

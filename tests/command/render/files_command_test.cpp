@@ -117,6 +117,13 @@ TEST_F(Files, AGreyPictureIsNotItsOwnDepth) {
     expect_ok(info);
     EXPECT_NE(info.out.find("no depth: give it with --depth FILE"), std::string::npos) << info.out;
   }
+  for (const std::string again : {"grey.exr", "./grey.exr"}) {
+    expect_refused("grey.exr --depth " + again + " -o none.exr", 3, {"grey.exr: no depth"});
+  }
+  // In a file of its own, or where it is asked for, it may be.
+  expect_ok(render("grey.exr --depth grey.exr --depth-channel Y -o out.exr"));
+  shell(folder_, "cp grey.exr copy.exr");
+  expect_ok(render("grey.exr --depth copy.exr -o out.exr"));
   expect_ok(render("in.exr --depth grey.exr -o out.exr"));
   expect_ok(render("ya.exr --depth grey.exr -o out.exr"));
 }
@@ -148,6 +155,19 @@ TEST_F(Files, SkipExistingLooksAtEveryOutput) {
   }
 }
 
+TEST_F(Files, AnEmptyFileIsNoOutput) {
+  for (const std::string option : {"", " --coc-out coc.exr"}) {
+    std::ofstream(folder_ / "o.exr") << (option.empty() ? "" : "whole");
+    std::ofstream(folder_ / "coc.exr") << "";
+    const Result first = render("in.exr -o o.exr --skip-existing" + option);
+    expect_ok(first);
+    EXPECT_EQ(first.out.find("skipped"), std::string::npos) << option << first.out;
+    EXPECT_EQ(ImageFile::read(folder_ / "o.exr").parts()[0].data.width, 48);
+    const Result again = render("in.exr -o o.exr --skip-existing" + option);
+    EXPECT_NE(again.out.find("o.exr: exists, skipped"), std::string::npos) << again.out;
+  }
+}
+
 TEST_F(Files, FoldersAreMadeWhereAsked) {
   expect_refused("in.exr -o a/b/o.exr", 4, {"cannot write in folder a/b", "--mkdir makes it"});
   // Of commands without the option nobody says so.
@@ -157,8 +177,18 @@ TEST_F(Files, FoldersAreMadeWhereAsked) {
   expect_ok(render("in.exr -o a/b/o.exr --coc-out c/d.exr --mkdir"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "a/b/o.exr"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "c/d.exr"));
+  // Not before there is something to write.
+  expect_refused("misspelt.exr -o e/f/o.exr --mkdir", 3, {"misspelt.exr: no such file"});
+  expect_refused("in.exr -o e/f/o.exr --mkdir --device nothing", 5, {"nothing"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "e"));
   std::ofstream(folder_ / "file") << "x";
-  expect_refused("in.exr -o file/o.exr --mkdir", 4, {"file: cannot create this folder"});
+  for (const std::string below : {"file", "file/a/b"}) {
+    expect_refused("in.exr -o " + below + "/o.exr --mkdir", 4,
+                   {below + ": cannot create this folder: Not a directory"});
+  }
+  std::filesystem::create_directory(folder_ / "folder.exr");
+  expect_refused("in.exr -o folder.exr --mkdir", 4, {"folder.exr: is a folder, not a file name"});
+  expect_refused("in.exr -o /proc/none/o.exr --mkdir", 4, {"cannot write in folder /proc"});
 }
 
 TEST_F(Files, WhatKilledRunsLeftGoes) {

@@ -2,6 +2,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include "command/program.h"
+#include "image/ldr.h"
 
 namespace defray::test::formats_command_test {
 namespace {
@@ -52,6 +53,40 @@ TEST(RenderFormats, NotesSayWhatIsLost) {
   lossy.specmod().attribute("compression", "dwaa:45");
   lossy.write(folder / "dwa.exr");
   EXPECT_NE(note("dwa.exr", "d.exr").find("lossy"), std::string::npos);
+}
+
+TEST(RenderFormats, GreyStaysGrey) {
+  const Folder folder;
+  write_picture_file(folder, "z.exr", {"Z"});
+  Plane grey(48 * 32);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<float>(i % 97) / 96;
+  write_ldr(folder / "grey.png", {48, 32, {}, {grey}, 8});
+  write_ldr(folder / "deep.png", {48, 32, {}, {grey}, 16});
+  write_ldr(folder / "grey.jpg", {48, 32, {}, {grey}, 8});
+  write_ldr(folder / "rgb.png", {48, 32, {}, {grey, grey, grey}, 8});
+  const auto stored = [&](const std::string& in, const std::string& out) {
+    const std::string name = in + "." + out;
+    expect_ok(defray(folder, "render " + in + " --depth z.exr -o " + name + lens));
+    const OIIO::ImageBuf file(folder / name);
+    return fmt::format("{} {}", file.nchannels(), file.spec().format.c_str());
+  };
+  EXPECT_EQ(stored("grey.png", "png"), "1 uint8");
+  EXPECT_EQ(stored("deep.png", "png"), "1 uint16");
+  EXPECT_EQ(stored("grey.png", "jpg"), "1 uint8");
+  EXPECT_EQ(stored("grey.jpg", "png"), "1 uint8");
+  EXPECT_EQ(stored("deep.png", "tif"), "1 uint16");
+  EXPECT_EQ(stored("grey.png", "exr"), "1 half");
+  EXPECT_EQ(stored("grey.png", "hdr"), "3 float");
+  EXPECT_EQ(stored("rgb.png", "png"), "3 uint8");
+  // The same picture.
+  const LdrPicture one = read_ldr(folder / "grey.png.png");
+  const LdrPicture three = read_ldr(folder / "rgb.png.png");
+  EXPECT_EQ(one.channels, std::vector<std::string>{"Y"});
+  for (const Plane& plane : three.planes) EXPECT_EQ(plane, one.planes[0]);
+  // With an alpha: PNG has it beside R, G and B, JPEG leaves it out.
+  write_picture_file(folder, "ya.exr", {"Y", "A"});
+  EXPECT_EQ(stored("ya.exr", "png"), "4 uint8");
+  EXPECT_EQ(stored("ya.exr", "jpg"), "1 uint8");
 }
 
 TEST(RenderFormats, LinearAndDisplayEncodedInputsAgree) {

@@ -69,6 +69,22 @@ TEST_F(Metadata, EachFrameHasItsOwn) {
   }
 }
 
+TEST_F(Metadata, ASensorsWidthIsThatOfAnUprightFrame) {
+  write_picture_file(folder_, "wide.exr", {"R", "G", "B", "Z"}, {32, 48});
+  write("tall.exr", [](OIIO::ImageSpec& spec) {
+    spec.attribute("nuke/camera/focal", 50.0f);
+    spec.attribute("nuke/camera/haperture", 24.0f);
+  });
+  const std::string tall = "tall.exr -o o.exr --camera from-metadata --focus 3 --fstop 2 ";
+  const auto is_noted = [&](const std::string& options) {
+    return report(tall + options)["notes"].dump().find("is upright") != std::string::npos;
+  };
+  EXPECT_FALSE(is_noted(""));
+  EXPECT_TRUE(is_noted("--sensor-width 24"));
+  EXPECT_DOUBLE_EQ(report(tall)["sensor_width_mm"], 24);
+  EXPECT_DOUBLE_EQ(report(tall + "--sensor-fit auto")["sensor_width_mm"], 16);
+}
+
 TEST_F(Metadata, NamesOfRenderers) {
   write("nuke.exr", [](OIIO::ImageSpec& spec) {
     spec.attribute("nuke/camera/focal", "50.0");

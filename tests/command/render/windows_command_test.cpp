@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "command/program.h"
+#include "image/output.h"
 
 namespace defray::test::windows_command_test {
 namespace {
@@ -111,6 +112,33 @@ TEST_F(Windows, GrowAsFarAsAsked) {
   EXPECT_NE(said.out.find("note: the data window 12x12+0+0 grows by the blur to "),
             std::string::npos)
       << said.out;
+}
+
+TEST_F(Windows, BlurReachesIntoTheFrameFromOutside) {
+  write("outside.exr", 0.75f, -side - 2);
+  const std::string options = "--grow display --aperture-diameter 1500 --focus 3 --focal-length 50";
+  const std::string nothing = "nothing of it is seen there";
+  const Result reaching = defray(folder_, "render outside.exr -o out.exr " + options);
+  expect_ok(reaching);
+  EXPECT_EQ(reaching.out.find(nothing), std::string::npos) << reaching.out;
+  const ImageFile out = ImageFile::read(folder_ / "out.exr");
+  const Window data = out.parts()[0].data;
+  EXPECT_EQ(data.x, -side - 2) << "no pixel is left out";
+  ASSERT_GT(data.x + data.width, 0);
+  ASSERT_GT(data.y + data.height, 0);
+  EXPECT_GT(to_display_window({out.plane(0, 3)}, data, {0, 0, frame, frame})[0][0], 0.01f);
+  // Here nothing reaches in.
+  // The second's discs end before the frame's corner.
+  for (const std::string rest :
+       {"--grow none --fstop 1", "--aperture-diameter 400", "--grow display --fstop 4"}) {
+    const Result beside =
+        defray(folder_, "render outside.exr -o out.exr --focus 3 --focal-length 50 " + rest);
+    expect_ok(beside);
+    EXPECT_NE(beside.out.find("12x12-14-14 lies outside the display window 48x48+0+0: " + nothing),
+              std::string::npos)
+        << beside.out;
+    EXPECT_EQ(ImageFile::read(folder_ / "out.exr").parts()[0].data.width, side);
+  }
 }
 
 TEST_F(Windows, FurtherChannelsGrowToo) {

@@ -71,6 +71,14 @@ TEST(FailingFiles, OfAPictureThatWasCutOffThePixelsAreMissed) {
   expect_unreadable(folder / "cut.exr", {"cut.exr: cannot read its pixels: "});
 }
 
+TEST(FailingFiles, MoviesAreNoPictures) {
+  const Folder folder;
+  for (const std::string name : {"a.avi", "a.mpg", "a.mp4"}) {
+    write_bytes(folder / name, "RIFF");
+    expect_unreadable(folder / name, {name + ": is a movie; allowed are pictures, a file a frame"});
+  }
+}
+
 TEST(FailingFiles, JpegsAndPngsThatOpenCvCannotUse) {
   const Folder folder;
   write_ldr(folder / "a.jpg", {8, 8, {"R", "G", "B"}, std::vector<Plane>(3, Plane(64, 0.5f))});

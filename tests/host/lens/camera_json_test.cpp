@@ -27,6 +27,12 @@ TEST(Camera, ReadsTheSharedShape) {
   EXPECT_DOUBLE_EQ(*read_camera_json(path, "b", 1).fstop, 2);
   expect_error(ErrorKind::input, {"a b", "focus_setting"}, [&] { read_camera_json(path, "", 1); });
   expect_error(ErrorKind::input, {"'c'", "a b"}, [&] { read_camera_json(path, "c", 1); });
+  for (const std::string none : {"", R"(, "focus_settings": {})"}) {
+    const std::string text = R"({"focal_length_mm": 35, "f_stop": 2)" + none + "}";
+    expect_error(ErrorKind::input, {"c.json: no focus setting 'a': it has none; leave "},
+                 [&] { parse_camera_json(text, "c.json", "a", 1); });
+    EXPECT_DOUBLE_EQ(*parse_camera_json(text, "c.json", "", 1).fstop, 2);
+  }
 }
 
 TEST(Camera, BadFiles) {

@@ -48,5 +48,21 @@ TEST(GrowWindow, WithFocusAtInfinityTheNearerTheMore) {
   }
 }
 
+TEST(GrowWindow, FromOutsideTheFrameAsFarAsTheBlurReachesIntoIt) {
+  const Plane alpha(80, 0.5f), depth(80, 1.0f);  // 11.1 px
+  const auto grown = [&](const Window& from) {
+    return grown_window(from, display, &alpha, depth, lens_at(3), lens_width, Grow::display);
+  };
+  EXPECT_EQ(grown({-21, 30, 10, 8}), (Window{-21, 18, 22, 32}));
+  EXPECT_EQ(grown({484, 30, 10, 8}), (Window{472, 18, 22, 32}));
+  EXPECT_EQ(grown({40, 322, 10, 8}), (Window{28, 310, 34, 20}));
+  // Towards a corner discs reach less far than their windows.
+  EXPECT_EQ(grown({-17, -15, 10, 8}), (Window{-17, -15, 22, 20}));
+  for (const Window& beyond :
+       {Window{-22, 30, 10, 8}, {492, 30, 10, 8}, {40, -20, 10, 8}, {-18, -16, 10, 8}}) {
+    EXPECT_EQ(grown(beyond), beyond);
+  }
+}
+
 }  // namespace
 }  // namespace defray::test::grow_window_test
