@@ -113,6 +113,7 @@ TEST(KernelCache, ParallelProcessesOnAColdCacheAllSucceed) {
     command += "bad=0; for p in $pids; do wait $p || bad=1; done; exit $bad";
     const Result result = shell(folder, "(" + command + ")");
     EXPECT_EQ(result.code, 0) << "round " << round << ": " << result.err;
+    EXPECT_EQ(result.err, "") << "of compilers, too";
   }
 }
 
