@@ -264,10 +264,7 @@ std::size_t memory_now(const std::string& key) {
 }
 
 /// What a render takes at most beyond what there was.
-std::size_t peak_of(const Frame& f, std::size_t memory) {
-  ChainSettings settings;
-  settings.cells_per_side = 5;
-  settings.hidden = Hidden::fill;
+std::size_t peak_of(const Frame& f, const ChainSettings& settings, std::size_t memory) {
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak so far is forgotten
   const std::size_t before = memory_now("VmRSS");
   rendered(f, settings, memory, false);
@@ -278,10 +275,15 @@ TEST(ChainBands, TakeNoMoreMemoryThanTheyWereGiven) {
   SKIP_UNLESS_FULL();
   if (!session().works_in_host_memory() || memory_now("VmHWM") == 0) GTEST_SKIP();
   const Frame f = Shot{1200, 2400, 3, false, 3}.frame();
-  peak_of(f, fewest_rows);  // what is made once
+  ChainSettings settings;
+  settings.cells_per_side = 5;
+  settings.hidden = Hidden::fill;
+  peak_of(f, settings, fewest_rows);  // what is made once
   const std::size_t result = f.pixels() * 4 * sizeof(float), given = std::size_t{64} << 20;
-  EXPECT_LT(peak_of(f, given), result + given);
-  EXPECT_GT(peak_of(f, all_rows), result + 4 * given);
+  EXPECT_LT(peak_of(f, settings, given), result + given);
+  EXPECT_GT(peak_of(f, settings, all_rows), result + 4 * given);
+  const Bands kept(f, settings, all_rows), given_back(f, settings, kept.bytes - 1);
+  EXPECT_LT(peak_of(f, settings, kept.bytes - 1), (kept.bytes + given_back.bytes) / 2);
 }
 
 }  // namespace
