@@ -1,5 +1,7 @@
 // The chain in bands of rows: the same bits as the frame at once, whatever the memory, and no more
 // memory than it was given.
+#include <malloc.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -265,6 +267,7 @@ std::size_t memory_now(const std::string& key) {
 
 /// What a render takes at most beyond what there was.
 std::size_t peak_of(const Frame& f, const ChainSettings& settings, std::size_t memory) {
+  malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak so far is forgotten
   const std::size_t before = memory_now("VmRSS");
   rendered(f, settings, memory, false);
