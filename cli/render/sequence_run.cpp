@@ -34,9 +34,9 @@ namespace {
 /// Not where it is empty, as a full disk or a copy that broke off leaves it.
 bool is_written(const std::string& path) {
   std::error_code ignored;
-  const bool is_file = std::filesystem::is_regular_file(path, ignored);
-  return is_file ? std::filesystem::file_size(path, ignored) > 0
-                 : std::filesystem::exists(path, ignored);
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (is_regular_file(status)) return std::filesystem::file_size(path, ignored) > 0;
+  return exists(status) && !is_directory(status);
 }
 
 }  // namespace

@@ -107,6 +107,13 @@ ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>&
   if (request.view.empty() && !parts.front().views.empty()) {
     prefer(left, [&](const ColourChoice& c) { return c.view == parts.front().views.front(); });
   }
+  const auto has_the_name = [&](const ColourChoice& c) {
+    return c.layer == left.front().layer && c.view == left.front().view;
+  };
+  if (left.size() > 1 && std::all_of(left.begin(), left.end(), has_the_name)) {
+    fail(ErrorKind::input, "{}: holds {} pictures that no name tells apart; give it a file each",
+         path, left.size());
+  }
   if (left.size() > 1) {
     fail(ErrorKind::input, "{}: colour could be {}; choose with {} or {}", path,
          colour_listing(left), field("layer"), field("view"));

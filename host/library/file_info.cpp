@@ -13,11 +13,13 @@ namespace {
 DepthCandidate candidate_of(const ImageFile& file, const ChannelName& channel) {
   DepthCandidate d{channel, is_mist(channel)};
   const Plane values = file.plane(channel.part, channel.channel);
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(channel.part)];
+  std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
   d.pixels = values.size();
   d.smallest = std::numeric_limits<double>::infinity();
   d.largest = -d.smallest;
-  for (const float value : values) {
-    const auto z = static_cast<double>(value);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto z = static_cast<double>(values[i]);
     if (!std::isfinite(z) || std::fabs(z) >= far_away || std::fabs(z) == largest_half || z == 0) {
       ++d.background;
       continue;
@@ -25,6 +27,13 @@ DepthCandidate candidate_of(const ImageFile& file, const ChannelName& channel) {
     d.negative += z < 0;
     d.smallest = std::min(d.smallest, z);
     d.largest = std::max(d.largest, z);
+    const auto width = static_cast<std::size_t>(part.data.width);
+    const PixelPlace place{part.data.x - part.display.x + static_cast<int>(i % width),
+                           part.data.y - part.display.y + static_cast<int>(i / width)};
+    const std::int64_t x = place.x - part.display.width / 2, y = place.y - part.display.height / 2;
+    if (x * x + y * y >= nearest) continue;
+    nearest = x * x + y * y;
+    d.place = place;
   }
   if (d.background == d.pixels) d.smallest = d.largest = 0;
   return d;

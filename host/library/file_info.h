@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "defray/io.h"
 #include "image/channels.h"
 #include "lens/camera_metadata.h"
 
@@ -15,6 +16,9 @@ struct DepthCandidate {
   bool is_mist = false;
   double smallest = 0, largest = 0;  ///< Of the numbers that are not background.
   std::size_t background = 0, negative = 0, pixels = 0;
+  /// Of the pixels that are not background, the one nearest to the display window's middle, in
+  /// that window; none: all are.
+  std::optional<PixelPlace> place = {};
 };
 
 struct FileInfo {

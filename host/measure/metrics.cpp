@@ -118,7 +118,8 @@ Comparison compare(const std::vector<Plane>& a, const std::vector<Plane>& b, int
   Comparison result{errors_over(a, b, is_counted)};
   find_worst(a, b, width, is_counted, result);
   result.ssim = mean_ssim(a, b, width, mask);
-  result.energy_ratio = energy(a, is_counted) / energy(b, is_counted);
+  const double of_a = energy(a, is_counted), of_b = energy(b, is_counted);
+  result.energy_ratio = of_a == of_b ? 1 : of_a / of_b;  // of two black pictures, too
   return result;
 }
 

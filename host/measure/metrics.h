@@ -26,7 +26,7 @@ struct Comparison : Errors {
   /// Mean structural similarity, -1 to 1 (equal): Wang et al. 2004, 11x11 Gaussian window of sigma
   /// 1.5, of sRGB-encoded values clipped to 0...1, mean of R, G and B.
   double ssim = 0;
-  double energy_ratio = 0;  ///< Sum of a's values over the sum of b's; not finite: b sums to 0.
+  double energy_ratio = 0;  ///< Sum of a's values over the sum of b's; infinite: b alone sums to 0.
 };
 
 /// Throws Error(usage) when sizes differ or R G B lack.

@@ -152,6 +152,32 @@ TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {
   expect_refusal(defray(folder, "info none.exr"), 3, {"none.exr: no such file"}, "info");
 }
 
+TEST_F(Info, SuggestsAPlaceWhereThereIsSomething) {
+  write("plain.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
+  const auto expect_place = [&](const std::string& place, const std::string& change) {
+    expect_ok(shell(folder, "oiiotool plain.exr " + change + " -o changed.exr"));
+    const std::string command = data("changed.exr")["command"];
+    EXPECT_NE(command.find("--focus-at " + place + " "), std::string::npos) << command;
+    suggested("changed.exr");
+  };
+  expect_place("6,6", "--origin +6+5 --fullsize 8x8+0+0");  // 6,5 is background
+  expect_place("3,0", "--origin -4-7 --fullsize 8x8+0+0");
+  const std::string sky = "--fill:color=0.1,0.2,0.3,1e10 ";
+  expect_place("6,4", sky + "6x8+0+0");
+  expect_place("4,3", sky + "8x5+0+3 --fill:color=0.1,0.2,0.3,5 1x1+4+3");
+  write("flat.exr", {"R", "G", "B"}, {0.1f, 0.2f, 0.3f});
+  expect_ok(shell(folder, "oiiotool flat.exr --origin +6+5 --fullsize 8x8+0+0 -o changed.exr"));
+  EXPECT_NE(text("changed.exr").find("--focus-at 6,5 "), std::string::npos);
+}
+
+TEST_F(Info, SuggestsTheFitOfUprightFrames) {
+  write("plain.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
+  expect_ok(shell(folder, "oiiotool plain.exr --fullsize 8x9+0+0 -o upright.exr"));
+  const std::string command = data("upright.exr")["command"];
+  EXPECT_NE(command.find("--sensor-width 36 --sensor-fit auto"), std::string::npos) << command;
+  EXPECT_NEAR(suggested("upright.exr")["sensor_width_mm"], 32, 1e-6);
+}
+
 TEST_F(Info, ListsEachPart) {
   write("a.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 4});
   write("b.exr", {"glow.R", "glow.G", "glow.B"}, {0.1f, 0.2f, 0.3f});

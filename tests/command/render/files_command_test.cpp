@@ -166,6 +166,8 @@ TEST_F(Files, AnEmptyFileIsNoOutput) {
     const Result again = render("in.exr -o o.exr --skip-existing" + option);
     EXPECT_NE(again.out.find("o.exr: exists, skipped"), std::string::npos) << again.out;
   }
+  std::filesystem::create_directory(folder_ / "folder.exr");
+  expect_refused("in.exr -o folder.exr --skip-existing", 4, {"folder.exr: is a folder"});
 }
 
 TEST_F(Files, FoldersAreMadeWhereAsked) {

@@ -37,6 +37,13 @@ TEST(Channels, BlenderLayers) {
   EXPECT_EQ(depth(parts, {"", "", "ViewLayer.Denoising Depth.Z"}), "ViewLayer.Denoising Depth.Z");
 }
 
+TEST(Channels, PicturesThatNoNameTellsApart) {
+  const std::vector<PartInfo> pages(2, part({"R", "G", "B"}));
+  expect_error(ErrorKind::input,
+               {"f.exr: holds 2 pictures that no name tells apart; give it a file each"},
+               [&] { colour(pages); });
+}
+
 TEST(Channels, DepthOfTheColoursOwnViewLayer) {
   const std::vector<PartInfo> parts{
       part({"A.Combined.R", "A.Combined.G", "A.Combined.B", "A.Depth.Z", "B.Combined.R",

@@ -52,6 +52,7 @@ TEST(Metrics, EnergyRatioCountsEveryChannelUnclipped) {
   a[2][3] = 62;  // + 60 on 60
   EXPECT_NEAR(compare(a, b, 5).energy_ratio, 2, 1e-9);
   EXPECT_FALSE(std::isfinite(compare(a, grey(10, 0), 5).energy_ratio));
+  EXPECT_EQ(compare(grey(10, 0), grey(10, 0), 5).energy_ratio, 1) << "of black pictures";
 }
 
 TEST(Metrics, WorstPixelHasBothColours) {
