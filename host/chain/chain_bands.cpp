@@ -65,8 +65,8 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
       (launch_of("rdb_pad").bytes_a_surface / Launch::plane - 4 + channels) * plane(sent);
   const std::size_t layers = has_behind ? 2 : 1, result = (2 + channels) * plane(bands.rows);
   const std::size_t sending = layers * padded + result;
-  // Without a surface behind, rays come from the front's planes. What the rays of one band took,
-  // those of the next take again; meanwhile nobody else has it.
+  // Where nothing lies behind, the front's planes are the only layer and stay. Between bands the
+  // allocator keeps what rays took for those of the next, so that it counts beside the stages'.
   if (bands.gives_back && has_behind && bands.rows >= e.height) {
     return layers * (layer + softened) + std::max(front_and_behind, sending);
   }
