@@ -51,8 +51,8 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
     for (const std::string& name : outputs_of(p)) {
       if (is_pattern(job, name, false)) {
         fail(ErrorKind::usage,
-             "{}: has a frame pattern, the input {} has none; --no-pattern takes it as a name",
-             name, p.input);
+             "{}: has a frame pattern, the input {} has none{}; --no-pattern takes it as a name",
+             name, p.input, p.input.find('*') == std::string::npos ? "" : ": write #### for its *");
       }
     }
     return {std::nullopt};

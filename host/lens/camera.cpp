@@ -98,7 +98,8 @@ void refuse_missing(const CameraValues& v) {
   std::string why = v.source.empty() ? " (or " + field("camera") + ")"
                                      : fmt::format("; {} has no such value", v.source);
   if (!sought.empty()) why += ", sought as " + join(sought, "; ");
-  for (const std::string& note : v.notes) why += ". Note: " + note;
+  for (const std::string& note : v.notes)
+    why += (why.ends_with('?') ? " Note: " : ". Note: ") + note;
   fail(ErrorKind::usage, "the lens is not complete: give {}{}", join(missing, ", "), why);
 }
 

@@ -200,7 +200,7 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
                  {"the lens is not complete: give --focus, --fstop or --aperture-diameter",
                   "camera.json has no such value, sought as focus_distance_m; f_stop or "
                   "aperture_diameter_m",
-                  "'focusDistance'", "did you mean 'focus_distance_m'?", "'f_stop'?"},
+                  "'focusDistance'", "did you mean 'focus_distance_m'? Note: ", "'f_stop'?"},
                  incomplete);
   EXPECT_EQ(said(camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2, "scene": "x",
                             "frame": 3})"))
@@ -219,6 +219,10 @@ TEST_F(Mistakes, WeakSpellings) {
       {"unknown option '--aperture'. There are --fstop, --aperture-diameter, --aperture-image"});
   refused("render in.exr b.exr c.exr -o o.exr" + lens, 2,
           {"unknown argument 'b.exr'", "####", "in quotes"});
+  refused("render in.exr -o o.####.exr" + lens, 2,
+          {"o.####.exr: has a frame pattern, the input in.exr has none; --no-pattern"});
+  refused("render 'in.*.exr' -o o.####.exr" + lens, 2,
+          {"has a frame pattern, the input in.*.exr has none: write #### for its *; --no-pattern"});
   refused("compare in.exr", 2, {"b is missing: Picture of the same size", "compare --help"});
   refused("render in.exr", 2, {"--output is missing: EXR", "render --help"});
   refused("render in.exr -o o.exr --layer beauti" + lens, 3,
