@@ -41,7 +41,7 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
                            const ChainBands& bands) {
   const auto plane = [&](std::int64_t rows) {
     return sizeof(float) * size(e.width) *
-           static_cast<std::size_t>(std::clamp<std::int64_t>(rows, 0, e.height));
+           static_cast<std::size_t>(std::min<std::int64_t>(rows, e.height));
   };
   const std::size_t channels = planes.channels, data = planes.has_data;
   const bool has_behind = reach.fill > 0;
