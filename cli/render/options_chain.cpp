@@ -62,6 +62,9 @@ OptionGroup chain_options(ChainSettings& s) {
        {"--repair", word(s.repair, switch_words), "Repair depth that looks anti-aliased"},
        {"--highlights", word(s.highlights, WordTable<bool>{{"discs", true}, {"rays", false}}),
         "Small bright sources: discs of the aperture's shape, or rays like others"},
+       {"--sparse", word(s.sparse, switch_words),
+        "Where every circle is large find rays for a half or a quarter of the rows, interpolate "
+        "the others"},
        {"--border", word(s.border, border_words),
         "Outside the data window: clamp: its edge goes on; black; renormalise: only known rays "
         "count"}},

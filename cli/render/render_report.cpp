@@ -42,8 +42,10 @@ std::string lens_line(const FrameReport& r) {
 std::string chain_line(const ChainReport& d) {
   std::string line = fmt::format("{} lens points, {:.2f} % of their rays determined by the input",
                                  d.lens_points, 100 * d.confidence);
-  const std::pair<const char*, std::size_t> counts[] = {
-      {"px made up behind", d.behind}, {"px split", d.split}, {"highlights", d.highlights}};
+  const std::pair<const char*, std::size_t> counts[] = {{"px made up behind", d.behind},
+                                                        {"px split", d.split},
+                                                        {"highlights", d.highlights},
+                                                        {"px between rows", d.interpolated}};
   for (const auto& [name, count] : counts) {
     if (count > 0) line += fmt::format(", {} {}", count, name);
   }
@@ -90,11 +92,17 @@ nlohmann::ordered_json chain_json(const ChainReport& d) {
   const nlohmann::ordered_json tiles = {{"count", t.tiles},   {"in_focus", t.in_focus},
                                         {"smooth", t.smooth}, {"mixed", t.mixed},
                                         {"hidden", t.hidden}, {"lights", t.lights}};
-  return {{"lens_points", d.lens_points}, {"confidence", d.confidence},
-          {"repaired_px", d.repaired},    {"behind_px", d.behind},
-          {"split_px", d.split},          {"highlights", d.highlights},
-          {"border_px", d.border_px},     {"stages_s", stages},
-          {"stages_bytes", bytes},        {"tiles", tiles}};
+  return {{"lens_points", d.lens_points},
+          {"confidence", d.confidence},
+          {"repaired_px", d.repaired},
+          {"behind_px", d.behind},
+          {"split_px", d.split},
+          {"highlights", d.highlights},
+          {"between_px", d.interpolated},
+          {"border_px", d.border_px},
+          {"stages_s", stages},
+          {"stages_bytes", bytes},
+          {"tiles", tiles}};
 }
 
 /// The library's notes, with options for the settings in them.

@@ -128,6 +128,7 @@ MethodResult send_rays(const Frame& frame, const Front& front, Layered& layers, 
       RayResult result =
           work.backend.rays(f, work.plan, &lights, progress ? Progress(of_all) : Progress());
       work.done("rays");
+      work.report.interpolated += result.interpolated;
       picture.add(rows, std::move(result));
       work.done("crop");
     }

@@ -5,6 +5,7 @@
 #include "lens/landing_radii.h"
 #include "lens/lens_grid.h"
 #include "lens/lens_points.h"
+#include "rdb/sparse_tiles.h"
 
 namespace defray {
 
@@ -16,6 +17,7 @@ RayPlan ray_plan(const ChainSettings& settings, bool wants_nearest) {
   plan.has_spans = true;
   plan.wants_nearest = wants_nearest;
   plan.by = settings.rays;
+  if (settings.sparse) plan.sparse_from = sparse_from_quanta;
   return plan;
 }
 

@@ -27,16 +27,22 @@ std::size_t winner_bytes_of(const RayPlan& plan, const LightSources* lights) {
 /// bands of 64 rows, 130 MiB), and keep all units at work.
 constexpr std::size_t winners_at_once = 8 << 20;
 
-/// Rows of a band: winners of all its cells take a quarter of the memory at most.
+/// Rows of a band, whole tiles if it may be: winners of all its cells take a quarter of the memory
+/// at most.
 int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_bytes) {
   const int rows_at_once = launch_of("rdb_gather").rows_at_once;
   if (winner_bytes == 0) return rows_at_once;
   const std::size_t row = size(frame.width) * winner_bytes;
-  const std::size_t strip = row * DEFRAY_RAY_ROWS, memory = session.memory_bytes() / 4;
-  if (memory < strip) return 1;
+  const std::size_t memory = session.memory_bytes() / 4;
   const std::size_t at_once = winners_at_once * session.info().compute_units;
-  const std::size_t strips = std::max<std::size_t>(std::min(at_once, memory) / strip, 1);
-  return std::min(static_cast<int>(strips) * DEFRAY_RAY_ROWS, rows_at_once);
+  for (const int step : {DEFRAY_RAY_TILE, DEFRAY_RAY_ROWS}) {
+    const std::size_t steps = row * size(step);
+    if (memory < steps) continue;
+    const auto count =
+        static_cast<int>(std::max<std::size_t>(std::min(at_once, memory) / steps, 1));
+    return std::min(count * step, rows_at_once);
+  }
+  return 1;
 }
 
 /// What RdbScatter computes, bit for bit, without jitter.
@@ -77,7 +83,7 @@ RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan,
       rows_(rows_of_band(session, frame, winner_bytes_)),
       buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_bytes_,
                winners),
-      window_(session, frame, plan, bins_),
+      window_(session, frame, plan, bins_, lights),
       sharp_(sharp_bins(bins_, lens_)),
       filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
@@ -113,9 +119,9 @@ void RdbGather::gather_pass(int first_cell) {
   const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
   session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
                   window_.largest, window_.sending, window_.coverage, window_.channels, segments_,
-                  first_, window_.reach, sharp_on_device_, buffers_.lens, buffers_.rim_x,
-                  buffers_.rim_y, buffers_.light_first, buffers_.winner, buffers_.means, filled_,
-                  buffers_.seen);
+                  first_, window_.reach, sharp_on_device_, window_.sparsity, buffers_.lens,
+                  buffers_.rim_x, buffers_.rim_y, buffers_.light_first, buffers_.winner,
+                  buffers_.means, filled_, buffers_.seen);
 }
 
 void RdbGather::gather(int y, int rows, RayResult& out) {
@@ -146,12 +152,25 @@ void RdbGather::run(RayResult& out, const Progress& progress) {
     const int from = std::max(rows.y, first), to = std::min(rows.y + rows.rows, end);
     if (from >= to) continue;
     window_.prepare(rows);
-    const int step = std::min(rows_, DEFRAY_RAY_ROWS);  // no strip lies across two tiles
+    // No strip lies across two tiles, and where there is room no tile across two bands.
+    const int step = rows_ < DEFRAY_RAY_TILE ? std::min(rows_, DEFRAY_RAY_ROWS) : DEFRAY_RAY_TILE;
     for (int y = from / step * step; y < to; y += rows_) {
       const int last = std::min(y + rows_, to);
       gather(y, last - y, out);
       if (progress) progress(static_cast<double>(last - first) / (end - first));
     }
+    window_.interpolate({from, to}, out);
+  }
+}
+
+/// As rdb_gather leaves rows out.
+void interpolate_scattered(Session& session, const Frame& frame, const RayPlan& plan,
+                           const LightSources* lights, RayResult& out) {
+  if (plan.sparse_from[0] == 0) return;
+  RayTileWindow window(session, frame, plan, bins_of(frame), lights);
+  for (const BandRows& rows : window.windows()) {
+    window.prepare(rows);
+    window.interpolate({rows.y, rows.y + rows.rows}, out);
   }
 }
 
@@ -171,6 +190,7 @@ RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const Lig
     if (frame.wanted_rows().end == frame.height) winners_ = {};
   } else {
     RdbScatter(session_, frame, plan, lights).run(out, progress);
+    interpolate_scattered(session_, frame, plan, lights, out);
   }
   return out;
 }

@@ -17,9 +17,10 @@ const LaunchRow rdb_pad_launch({.kernel = "rdb_pad",
 const LaunchRow rdb_reach_launch({.kernel = "rdb_reach", .group = {16, 1}});
 const LaunchRow rdb_tiles_launch({.kernel = "rdb_tiles", .group = {16, 1}});
 
-int reach_of(const Frame& frame, const RadiusBins& bins) {
+int reach_of(const Frame& frame, const RadiusBins& bins, const RayPlan& plan) {
   const std::int32_t largest = std::max(std::abs(bins.least), std::abs(bins.largest));
-  return std::min(rdb_reach(largest), std::max(frame.width, frame.height));
+  const int rays = std::min(rdb_reach(largest), std::max(frame.width, frame.height));
+  return plan.sparse_from[0] > 0 ? std::max(rays, sparse_reach_px) : rays;
 }
 
 template <typename T>
@@ -31,8 +32,12 @@ void read_all(Session& session, const cl::Buffer& buffer, std::size_t count, std
 }  // namespace
 
 RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan& plan,
-                             const RadiusBins& bins)
-    : session_(session), frame_(frame), reach_px_(reach_of(frame, bins)) {
+                             const RadiusBins& bins, const LightSources* lights)
+    : session_(session),
+      frame_(frame),
+      plan_(plan),
+      lights_(lights),
+      reach_px_(reach_of(frame, bins, plan)) {
   params.width = word(frame.width);
   params.layers = word(frame.layers);
   params.channels = static_cast<std::uint32_t>(frame.channels.size());
@@ -78,13 +83,28 @@ void RayTileWindow::prepare(const BandRows& rows) {
   const std::size_t bytes = std::size_t{params.tiles_x} * params.tiles_y * sizeof(TileBins);
   tiles_ = session_.buffer(bytes);
   reach = session_.buffer(bytes);
+  least_ = session_.buffer(bytes / sizeof(TileBins) * sizeof(cl_int));
   const cl::Buffer along_x = session_.buffer(bytes);
   const std::vector<std::size_t> all{params.tiles_x, params.tiles_y};
   DefrayRaysParams along_y = params;
   along_y.along_y = 1;
-  session_.launch("rdb_tiles", all, params, keys, largest, coverage, tiles_);
+  session_.launch("rdb_tiles", all, params, keys, largest, coverage, tiles_, least_);
   session_.launch("rdb_reach", all, params, near_on_device_, tiles_, along_x);
   session_.launch("rdb_reach", all, along_y, near_on_device_, along_x, reach);
+  find_sparse_tiles();
+}
+
+TileWindow RayTileWindow::tiles() const {
+  return {static_cast<int>(params.window_y), static_cast<int>(params.tiles_x),
+          static_cast<int>(params.tiles_y)};
+}
+
+void RayTileWindow::find_sparse_tiles() {
+  std::vector<std::int32_t> least(std::size_t{params.tiles_x} * params.tiles_y, 0);
+  if (plan_.sparse_from[0] > 0) read_all(session_, least_, least.size(), least);
+  session_.finish();  // kernels may look at the window before
+  sparse_tiles_ = sparse_tiles(least, tiles(), frame_, plan_, lights_);
+  sparsity = session_.view(sparse_tiles_);
 }
 
 RayTiles RayTileWindow::read() {
@@ -102,6 +122,7 @@ RayTiles RayTileWindow::read() {
   const std::size_t tiles = std::size_t{params.tiles_x} * params.tiles_y;
   read_all(session_, tiles_, tiles, out.held);
   read_all(session_, reach, tiles, out.reach);
+  read_all(session_, least_, tiles, out.least);
   return out;
 }
 

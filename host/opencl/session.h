@@ -81,6 +81,9 @@ class Session {
   /// long as the buffer.
   cl::Buffer write_view(void* data, std::size_t bytes);
 
+  /// The same for kernels to change.
+  cl::Buffer change_view(void* data, std::size_t bytes) { return view(data, bytes); }
+
   /// Values for kernels to read, on the device from now on; they may not be changed meanwhile.
   template <typename T>
   cl::Buffer in(const Values<T>& values) {

@@ -19,7 +19,7 @@ struct TileBins {
   bool operator==(const TileBins&) const = default;
 };
 
-/// Planes with a strip's columns and rows of nothing around them, [layer][row][stride].
+/// Planes with a run's columns and a tile's rows of nothing around them, [layer][row][stride].
 struct PaddedPlanes {
   std::vector<std::int32_t> keys;     ///< Least radii of spans; DEFRAY_NO_KEY: no surface.
   std::vector<std::int32_t> largest;  ///< Their largest; empty: there are no spans.
@@ -32,6 +32,7 @@ struct PaddedPlanes {
 struct RayTiles {
   PaddedPlanes padded;
   std::vector<TileBins> held, reach;
+  std::vector<std::int32_t> least;  ///< |radius|, quanta; 0 where the front has a hole.
 };
 
 /// The bins of a frame's radii.

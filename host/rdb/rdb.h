@@ -1,5 +1,6 @@
 #pragma once
 // The ray distribution buffer (Shinya 1994): what its rays go through, and what they give.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,8 +19,11 @@ struct RayPlan {
   /// Cat's eye: the rim's centre for each column and row, 2^-16 of the aperture radius, as
   /// lens/cats_eye.h has it. Empty: none.
   std::vector<std::int32_t> rim_x = {}, rim_y = {};
-  bool has_spans = false;          ///< Fragments are pieces of a surface (kernels/rdb/span.clh).
-  bool wants_nearest = false;      ///< RayResult::nearest is filled.
+  bool has_spans = false;      ///< Fragments are pieces of a surface (kernels/rdb/span.clh).
+  bool wants_nearest = false;  ///< RayResult::nearest is filled.
+  /// From these CoC radii on, quanta, half and a quarter of a tile's rows have rays
+  /// (rdb/sparse_tiles.h). 0: all have.
+  std::array<std::int32_t, 2> sparse_from = {};
   RaysBy by = RdbSettings().rays;  ///< The same bits.
 };
 
@@ -33,6 +37,7 @@ struct RayResult {
   /// The pixel whose data each pixel gets: of the nearest surface with data among all its cells'
   /// winners (equal depths: the first in the frame). DEFRAY_EMPTY where there is none.
   std::vector<std::uint32_t> nearest = {};
+  std::size_t interpolated = 0;  ///< Pixels of the picture between rows that have rays.
 };
 
 /// Nearest hits with each pixel itself where there is none.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "lens/cats_eye.h"
+#include "rdb/sparse_tiles.h"
 #include "reference/reference.h"
 #include "reference/twin_backend.h"
 
@@ -104,6 +105,10 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
     }
   }
   if (has_light) highlights_add(*lights, f, plan, winner, out.means);
+  if (plan.sparse_from[0] > 0) {
+    const TileWindow all{0, ray_tiles_along(f.width), ray_tiles_along(f.height)};
+    rdb_between(f, sparse_tiles(ray_tiles(f, plan).least, all, f, plan, lights), out);
+  }
   for (const std::int64_t n : nearest) {
     out.nearest.push_back(n < 0 ? DEFRAY_EMPTY : f.data_pixel(static_cast<std::size_t>(n)));
   }

@@ -1,6 +1,7 @@
 // Twins of kernels/rdb/rdb_tiles.cl.
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 
 #include "reference/pcg3d.h"
 #include "reference/reference.h"
@@ -44,7 +45,7 @@ void pad(const Frame& f, const RayPlan& plan, int x, int y, std::size_t surface,
 
 PaddedPlanes padded(const Frame& f, const RayPlan& plan) {
   const std::size_t stride = size(padded_stride(f.width));
-  const std::size_t rows = size(f.height + 2 * DEFRAY_RAY_ROWS);
+  const std::size_t rows = size(f.height + 2 * DEFRAY_RAY_TILE);
   const std::size_t count = stride * rows * size(f.layers);
   const std::size_t shares = f.coverage.empty() ? 0 : count;
   PaddedPlanes out{std::vector<std::int32_t>(count, DEFRAY_NO_KEY),
@@ -53,7 +54,7 @@ PaddedPlanes padded(const Frame& f, const RayPlan& plan) {
                    std::vector<std::vector<float>>(f.channels.size(), std::vector<float>(count))};
   for (int layer = 0; layer < f.layers; ++layer) {
     for (int y = 0; y < f.height; ++y) {
-      const std::size_t row = size(layer) * rows + size(y + DEFRAY_RAY_ROWS);
+      const std::size_t row = size(layer) * rows + size(y + DEFRAY_RAY_TILE);
       for (int x = 0; x < f.width; ++x) {
         pad(f, plan, x, y, f.index(x, y, layer), row * stride + size(x + DEFRAY_RAY_RUN), out);
       }
@@ -83,6 +84,28 @@ TileBins held_by(const Frame& f, const RayPlan& plan, const RadiusBins& bins, in
   return held;
 }
 
+/// The least |radius| of a tile's pixels, 0 where the front has none.
+std::int32_t least_of(const Frame& f, const RayPlan& plan, int tile_x, int tile_y) {
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  constexpr int side = DEFRAY_RAY_TILE;
+  for (int y = tile_y * side; y < std::min(f.height, (tile_y + 1) * side); ++y) {
+    for (int x = tile_x * side; x < std::min(f.width, (tile_x + 1) * side); ++x) {
+      for (int layer = 0; layer < f.layers; ++layer) {
+        const std::size_t i = f.index(x, y, layer);
+        if (!is_there(f, i)) {
+          if (layer == 0) return 0;
+          continue;
+        }
+        const Span span = span_of(f, plan, i);
+        const bool has_zero = span.least <= 0 && span.largest >= 0;
+        const std::int32_t nearest = std::min(std::abs(span.least), std::abs(span.largest));
+        least = std::min(least, has_zero ? 0 : nearest);
+      }
+    }
+  }
+  return least;
+}
+
 /// Pixels between two tiles at least, along the axis on which they are farther apart.
 int gap_px(int tile_a, int tile_b, int across) {
   const int x = std::abs(tile_a % across - tile_b % across);
@@ -99,6 +122,7 @@ RayTiles ray_tiles(const Frame& f, const RayPlan& plan) {
   out.padded = padded(f, plan);
   for (int i = 0; i < across * down; ++i) {
     out.held.push_back(held_by(f, plan, bins, i % across, i / across));
+    out.least.push_back(least_of(f, plan, i % across, i / across));
   }
   for (int here = 0; here < across * down; ++here) {
     TileBins reach;

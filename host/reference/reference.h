@@ -35,6 +35,9 @@ std::vector<std::int64_t> rdb_scatter(const Frame& frame, const RayPlan& plan, s
 /// radii, each tile against each.
 RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 
+/// Twin of kernel `rdb_between`, over the picture; `sparsity` of all tiles of the frame.
+void rdb_between(const Frame& frame, const std::vector<std::uint32_t>& sparsity, RayResult& out);
+
 /// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
 /// winners, [cell][pixel], -1 where no ray arrives.
 void highlights_add(const LightSources& lights, const Frame& frame, const RayPlan& plan,

@@ -80,6 +80,40 @@ Exact exact_means(const Case& c, const Input& in) {
   return {reference::exact_rays(in.fragments, plan), cells + 5};
 }
 
+/// CoC radii of the least and of more than that, from column to column, and no hole in front.
+Frame sparse_fragments(const Case& c, const Input& in) {
+  constexpr int columns = 48;
+  Frame f = in.fragments;
+  std::vector<std::int32_t> coc(f.coc_quanta.begin(), f.coc_quanta.end());
+  std::vector<std::uint32_t> coverage(f.coverage.begin(), f.coverage.end());
+  for (std::size_t i = 0; i < coc.size(); ++i) {
+    const std::size_t x = i % size(f.width);
+    const auto more = static_cast<std::int32_t>((x / columns + c.seed) % 3) * (2 << 8);
+    coc[i] += coc[i] < 0 ? -more : more;
+    const bool is_front = i / size(f.width) % size(f.layers) == 0;
+    if (is_front && !coverage.empty() && (coverage[i] & ~DEFRAY_SYNTHESISED) == 0) {
+      coverage[i] = DEFRAY_WHOLE;
+    }
+  }
+  f.coc_quanta = std::move(coc);
+  f.coverage = std::move(coverage);
+  return f;
+}
+
+Outcome run_between(Backend& backend, const Case& c, const Input& in) {
+  RayPlan plan = gather_plan(c);
+  plan.sparse_from = {1 << 8, 3 << 8};
+  RayResult result = backend.rays(sparse_fragments(c, in), plan);
+  Outcome out = integers(result.seen);
+  out.planes = std::move(result.means);
+  return out;
+}
+
+double between_work(const Case& c) { return rdb_work(c) + ray_tiles_work(c); }
+
+/// Two products and their sum after the division.
+double between_roundings(const Case& c) { return one_division(c) + 3; }
+
 // Tiles of rdb_gather.
 
 RayTiles tiles_of(Backend& backend, const Case& c, const Input& in) {
@@ -113,7 +147,10 @@ Outcome words_of(const std::vector<TileBins>& tiles) {
 }
 
 Outcome run_ray_tiles(Backend& backend, const Case& c, const Input& in) {
-  return words_of(tiles_of(backend, c, in).held);
+  const RayTiles tiles = tiles_of(backend, c, in);
+  Outcome out = words_of(tiles.held);
+  out.integers.insert(out.integers.end(), tiles.least.begin(), tiles.least.end());
+  return out;
 }
 
 Outcome run_ray_reach(Backend& backend, const Case& c, const Input& in) {
@@ -127,6 +164,7 @@ constexpr const char* winners_rule = "equal winners: integer arithmetic";
 std::vector<KernelCheck> rdb_checks() {
   constexpr auto scatter = scatter_plan, gather = gather_plan;
   return {
+      {"rdb_between", bits_rule, run_between, between_work, between_roundings, nullptr, rdb_memory},
       {"rdb_clear", integer_rule, run_rdb_clear, clear_work},
       {"rdb_gather", bits_rule, run_rays<gather>, rdb_work, one_division, exact_means<gather>,
        rdb_memory},

@@ -16,6 +16,7 @@
 // first           [cells of the pass][bins + 1]  the first segment that reaches into a bin; last of
 //                                    a cell: one past its own
 // occupied        [tiles][2][words]  from rdb_reach
+// sparsity        [tiles]            0: rays of all rows, 1: of half, 2: of a quarter (sparse.clh)
 // sharp           [words]            bins whose rays end where they begin, whatever the lens point
 // lens, rim_x, rim_y                 as in rdb_merge
 // light_first     [light tiles + 1]  as `first` in highlights_add
@@ -48,17 +49,17 @@ INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* r
         if (!sources_of(p, s, segment, &from)) continue;
         ints hit[ROWS], some = 0;
         EACH_ROW {
-          const ints key = LOAD(r->keys + from + j * stride);
-          hit[j] = open[j] & are_in(r, from + j * stride, key, segment);
+          const ints key = LOAD(r->keys + from + s->row[j] * stride);
+          hit[j] = open[j] & are_in(r, from + s->row[j] * stride, key, segment);
           some |= hit[j];
         }
         if (!any_of(some)) continue;
         ints left = 0;
         EACH_ROW {
-          const size_t source = from + j * stride;
+          const size_t source = from + s->row[j] * stride;
           add(s, r, has_fourth, j, hit[j], bits_at(r->channel0, source),
               bits_at(r->channel1, source), bits_at(r->channel2, source),
-              has_fourth ? bits_at(r->channel3, source) : (ints)(0), s->own + j * stride);
+              has_fourth ? bits_at(r->channel3, source) : (ints)(0), s->own + s->row[j] * stride);
           open[j] &= ~hit[j];
           left |= open[j];
         }
@@ -72,7 +73,7 @@ INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* r
 // No ray leaves its pixel.
 void keep(const DefrayRaysParams p, const Rays* r, Strip* s) {
   EACH_ROW {
-    const ints key = LOAD(r->keys + s->own + (size_t)j * p.stride);
+    const ints key = LOAD(r->keys + s->own + (size_t)s->row[j] * p.stride);
     s->seen[j] += IS(key != DEFRAY_NO_KEY) & (ints)(int)p.cell_count;
   }
 }
@@ -83,7 +84,8 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const uint* restrict coverage, CHANNEL_PARAMETERS(channel),
                          __global const int4* restrict segments, __global const int* restrict first,
                          __global const ulong* restrict occupied,
-                         __global const ulong* restrict sharp, __global const int2* restrict lens,
+                         __global const ulong* restrict sharp,
+                         __global const uint* restrict sparsity, __global const int2* restrict lens,
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
                          __global const uint* restrict light_first, __global uint* winner,
                          WRITTEN_CHANNELS(sum), __global uint* filled, __global uint* seen) {
@@ -96,14 +98,11 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                   channel0, channel1,
                   channel2, channel3,
                   segments, first};
+  const uint tile = tile_at(p, x, y);
   Strip s;
-  s.x = x;
-  s.y = y;
-  s.own = padded_at(p, x, y - (int)p.window_y);
+  if (!place(p, x, y, sparsity[tile], &s)) return;
   begin(p, sum0, sum1, sum2, sum3, filled, seen, &s);
 
-  const uint tile =
-      ((uint)y - p.window_y) / DEFRAY_RAY_TILE * p.tiles_x + (uint)x / DEFRAY_RAY_TILE;
   __global const ulong* plain = occupied + (size_t)tile * (2 * DEFRAY_RAY_WORDS);
   __global const ulong* special = plain + DEFRAY_RAY_WORDS;
   ulong is_special = 0ul, is_blurred = 0ul;

@@ -1,7 +1,7 @@
 // rdb_pad, rdb_tiles, rdb_reach: a window of the frame made ready for rdb_gather.
 //
 // rdb_pad copies planes [window_rows][layers][width] to padded ones, [layers][rows][stride], with a
-// strip's columns and rows of nothing around them:
+// run's columns and a tile's rows of nothing around them:
 //   key       the least CoC radius that a fragment spans (span.clh), 1/256 px; without spans its
 //             own; DEFRAY_NO_KEY where there is no fragment
 //   largest   the largest; if has_spans
@@ -11,12 +11,13 @@
 // Global size: (stride, padded rows x layers).
 //
 // rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of
-// whole surfaces that were seen, one a pixel, and those of all others. rdb_reach adds those of
-// other tiles that may reach it, along x and then, on its own result, along y: `near` says which
-// bins reach from how many tiles away, and a square dilates one axis at a time. Integers only: the
-// same on every device.
+// whole surfaces that were seen, one a pixel, and those of all others; and the least |radius| of
+// all, 0 where a pixel's front has no fragment. rdb_reach adds those of other tiles that may reach
+// it, along x and then, on its own result, along y: `near` says which bins reach from how many
+// tiles away, and a square dilates one axis at a time. Integers only: the same on every device.
 //
 // tiles  [tiles_y][tiles_x][2][words]
+// least  [tiles_y][tiles_x]            1/256 px
 // near   [reach_tiles + 1][words]
 // Global size of both: (tiles_x, tiles_y).
 #include "base/colour.clh"
@@ -31,10 +32,10 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
                       __global uint* restrict padded_sending,
                       __global uint* restrict padded_coverage, WRITTEN_CHANNELS(padded)) {
   const uint column = get_global_id(0), line = get_global_id(1);
-  const uint rows = p.window_rows + 2u * DEFRAY_RAY_ROWS;
+  const uint rows = p.window_rows + 2u * DEFRAY_RAY_TILE;
   if (column >= p.stride || line >= rows * p.layers) return;
   const uint layer = line / rows;
-  const int x = (int)column - DEFRAY_RAY_RUN, y = (int)(line % rows) - DEFRAY_RAY_ROWS;
+  const int x = (int)column - DEFRAY_RAY_RUN, y = (int)(line % rows) - DEFRAY_RAY_TILE;
   const size_t to = (size_t)line * p.stride + column;
   const bool is_inside = x >= 0 && x < (int)p.width && y >= 0 && y < (int)p.window_rows;
   const size_t from = is_inside ? ((size_t)y * p.layers + layer) * p.width + (uint)x : 0;
@@ -58,9 +59,15 @@ int bin_of(const DefrayRaysParams p, const int radius) {
   return clamp((radius >> p.bin_shift) - p.first_bin, 0, DEFRAY_RAY_BINS - 1);
 }
 
+// The least |radius| from `first` to `last`, no less than it.
+int least_between(const int first, const int last) {
+  return first <= 0 && last >= 0 ? 0 : first > 0 ? first : -last;
+}
+
 __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict key,
                         __global const int* restrict largest,
-                        __global const uint* restrict coverage, __global ulong* restrict tiles) {
+                        __global const uint* restrict coverage, __global ulong* restrict tiles,
+                        __global int* restrict least) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   if (tile_x >= p.tiles_x || tile_y >= p.tiles_y) return;
   const int x0 = (int)tile_x * DEFRAY_RAY_TILE, y0 = (int)tile_y * DEFRAY_RAY_TILE;
@@ -68,20 +75,27 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
   const int y1 = min(y0 + DEFRAY_RAY_TILE, (int)p.window_rows);
   ulong found[2 * DEFRAY_RAY_WORDS];
   for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) found[w] = 0ul;
+  int least_found = INT_MAX;
   for (uint layer = 0; layer < p.layers; ++layer) {
     for (int y = y0; y < y1; ++y) {
       const size_t row = padded_layer(p) * layer + padded_at(p, 0, y);
       for (int x = x0; x < x1; ++x) {
         const int quanta = key[row + x];
-        if (quanta == DEFRAY_NO_KEY) continue;
+        if (quanta == DEFRAY_NO_KEY) {
+          if (layer == 0u) least_found = 0;
+          continue;
+        }
+        const int last = p.has_spans ? largest[row + x] : quanta;
+        least_found = min(least_found, least_between(quanta, last));
         const bool is_plain = layer == 0u && (!p.has_coverage || coverage[row + x] == DEFRAY_WHOLE);
-        const int last = bin_of(p, p.has_spans ? largest[row + x] : quanta);
-        for (int bin = bin_of(p, quanta); bin <= last; ++bin) {
+        const int last_bin = bin_of(p, last);
+        for (int bin = bin_of(p, quanta); bin <= last_bin; ++bin) {
           found[(is_plain ? 0 : DEFRAY_RAY_WORDS) + bin / 64] |= 1ul << (bin % 64);
         }
       }
     }
   }
+  least[tile_y * p.tiles_x + tile_x] = least_found;
   const size_t to = (size_t)(tile_y * p.tiles_x + tile_x) * (2 * DEFRAY_RAY_WORDS);
   for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) tiles[to + w] = found[w];
 }

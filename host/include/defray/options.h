@@ -63,6 +63,7 @@ struct ChainSettings {
   bool repair = true;
   bool highlights = true;
   bool soften = true;
+  bool sparse = true;  ///< Interpolates between rows of pixels where all circles are large.
   RaysBy rays = RdbSettings().rays;
   Border border = Border::clamp;
   Aperture aperture;

@@ -43,12 +43,13 @@ struct TileShares {
 
 /// Of the stages around the ray distribution buffer.
 struct ChainReport {
-  std::size_t repaired = 0;    ///< Pixels of anti-aliased depth.
-  std::size_t behind = 0;      ///< Pixels with a made-up surface behind them.
-  std::size_t split = 0;       ///< Mixed pixels taken apart.
-  std::size_t highlights = 0;  ///< Fragments whose light became a disc.
-  int border_px = 0;           ///< By how much the frame was extended.
-  bool border_is_cut = false;  ///< Rays come from farther outside still.
+  std::size_t repaired = 0;      ///< Pixels of anti-aliased depth.
+  std::size_t behind = 0;        ///< Pixels with a made-up surface behind them.
+  std::size_t split = 0;         ///< Mixed pixels taken apart.
+  std::size_t highlights = 0;    ///< Fragments whose light became a disc.
+  std::size_t interpolated = 0;  ///< Pixels of large circles between rows whose rays were found.
+  int border_px = 0;             ///< By how much the frame was extended.
+  bool border_is_cut = false;    ///< Rays come from farther outside still.
   int lens_points = 0;
   double confidence = 0;  ///< Mean share of rays that the input determines.
   std::vector<StageTime> stages;

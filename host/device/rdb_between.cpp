@@ -1,0 +1,53 @@
+// Kernel `rdb_between`.
+#include <algorithm>
+
+#include "device/rdb_tiles.h"
+#include "opencl/launch_table.h"
+
+namespace defray {
+namespace {
+
+const LaunchRow rdb_between_launch({.kernel = "rdb_between", .group = {64, 1}});
+
+/// A part of the result for kernels to change: itself, or a copy on the device.
+template <typename T>
+cl::Buffer lent(Session& session, T* values, std::size_t count) {
+  if (session.works_in_host_memory()) return session.change_view(values, count * sizeof(T));
+  const cl::Buffer buffer = session.buffer(count * sizeof(T));
+  session.write(buffer, values, count * sizeof(T));
+  return buffer;
+}
+
+template <typename T>
+void take_back(Session& session, const cl::Buffer& buffer, T* values, std::size_t count) {
+  session.look_at<T>(buffer, count, [&](std::span<const T> made) {
+    if (made.data() != values) std::copy(made.begin(), made.end(), values);
+  });
+}
+
+}  // namespace
+
+void RayTileWindow::interpolate(Rows rows, RayResult& out) {
+  const Rows wanted = frame_.wanted_rows();
+  const std::size_t pixels = interpolated_pixels(sparse_tiles_, tiles(), frame_, rows);
+  if (pixels == 0) return;
+  out.interpolated += pixels;
+  DefrayRaysParams p = params;
+  p.band_x = word(frame_.margin);
+  p.band_end = word(frame_.width - frame_.margin);
+  p.band_y = word(rows.y);
+  p.band_rows = word(rows.count());
+  const std::size_t first = size(rows.y - wanted.y) * p.width, count = size(rows.count()) * p.width;
+  std::vector<cl::Buffer> means;
+  for (Plane& mean : out.means) means.push_back(lent(session_, &mean[first], count));
+  const cl::Buffer seen = lent(session_, &out.seen[first], count);
+  const auto channels = four_channels(means.size(), [&](std::size_t c) { return means[c]; });
+  session_.launch("rdb_between", {p.band_end - p.band_x, size(rows.count())}, p, sparsity, channels,
+                  seen);
+  for (std::size_t c = 0; c < means.size(); ++c) {
+    take_back(session_, means[c], &out.means[c][first], count);
+  }
+  take_back(session_, seen, &out.seen[first], count);
+}
+
+}  // namespace defray

@@ -1,0 +1,40 @@
+#pragma once
+// Tiles whose rays are found for some of their rows alone.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "frame/frame.h"
+#include "kernels/params.h"
+#include "rdb/light_sources.h"
+#include "rdb/rdb.h"
+
+namespace defray {
+
+/// RayPlan::sparse_from of the chain.
+inline constexpr std::array<std::int32_t, 2> sparse_from_quanta{10 << DEFRAY_COC_FRACTION_BITS,
+                                                                24 << DEFRAY_COC_FRACTION_BITS};
+
+/// Tiles around a tile, on each side, that say how sparse it may be; a plan's radii do not reach
+/// beyond them.
+inline constexpr int sparse_reach_tiles = 2;
+inline constexpr int sparse_reach_px = sparse_reach_tiles * DEFRAY_RAY_TILE;
+
+/// The tiles of a window of a frame.
+struct TileWindow {
+  int y = 0, across = 0, down = 0;
+};
+
+/// For each tile 0: all its rows have rays, 1: half, 2: a quarter; kernel `rdb_between`
+/// interpolates the others. Rows are left out where no fragment with a CoC radius below the plan's
+/// can reach, the tile's front has no hole, all its rows are the picture's, and nobody needs
+/// winners. `least` is RayTiles::least.
+std::vector<std::uint32_t> sparse_tiles(const std::vector<std::int32_t>& least,
+                                        const TileWindow& window, const Frame& frame,
+                                        const RayPlan& plan, const LightSources* lights);
+
+/// Pixels of the wanted rows, but for the margin, between rows that have rays.
+std::size_t interpolated_pixels(const std::vector<std::uint32_t>& sparsity,
+                                const TileWindow& window, const Frame& frame, Rows wanted);
+
+}  // namespace defray
