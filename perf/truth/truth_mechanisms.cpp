@@ -31,6 +31,7 @@ std::vector<Variant> variants() {
           with("--split off", [](auto& d) { d.split = false; }),
           with("--highlights rays", [](auto& d) { d.highlights = false; }),
           with("colours not softened", [](auto& d) { d.soften = false; }),
+          with("--sparse off", [](auto& d) { d.sparse = false; }),
           with("--border renormalise", [](auto& d) { d.border = Border::renormalise; }),
           with("--border black", [](auto& d) { d.border = Border::black; }),
           with("--repair off", [](auto& d) { d.repair = false; }),

@@ -14,12 +14,11 @@ TEST(Defaults, OfRenderAreThoseThatHelpStates) {
   const Folder folder;
   write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
   const std::vector<std::pair<std::string, std::string>> same = {
-      {lens,
-       lens +
-           "--method rdb --quality normal --rdb 13 --hidden patterns --split on "
-           "--half-size off --highlights discs --border clamp --blades 0 --squeeze 1 --cats-eye 0 "
-           "--depth-kind z --unit m --nonfinite zero --lens-model cg --memory 512 "
-           "--math strict --sensor-width 36"},
+      {lens, lens + "--method rdb --quality normal --rdb 13 --hidden patterns --split on "
+                    "--half-size off --highlights discs --sparse on --border clamp --blades 0 "
+                    "--squeeze 1 --cats-eye 0 "
+                    "--depth-kind z --unit m --nonfinite zero --lens-model cg --memory 512 "
+                    "--math strict --sensor-width 36"},
       {lens + "--quality preview", lens + "--rdb 6 --hidden fill --half-size on"},
       {lens + "--quality draft", lens + "--rdb 9 --hidden fill"},
       {lens + "--literal", lens + "--literal --rdb 9"},

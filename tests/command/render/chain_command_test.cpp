@@ -66,6 +66,11 @@ TEST_F(ChainCommand, EveryOptionChangesThePicture) {
     EXPECT_TRUE(is_new) << options << " gives the picture of " << place->second;
   }
   EXPECT_NE(rendered("", "lamps"), rendered("--highlights rays", "lamps"));
+  const std::string wide = "--focus 0.1 --aperture-diameter 100 ";  // of large circles alone
+  const std::uint64_t sparse = rendered(wide);
+  EXPECT_NE(last_.find("px between rows"), std::string::npos) << last_;
+  EXPECT_NE(rendered(wide + "--sparse off"), sparse);
+  EXPECT_EQ(last_.find("px between rows"), std::string::npos) << last_;
 }
 
 TEST_F(ChainCommand, AntialiasedDepthIsRepairedAndReported) {
@@ -136,7 +141,7 @@ TEST_F(ChainCommand, WrongUseIsSaid) {
   for (const std::string option :
        {"--quality high", "--hidden off", "--split off", "--highlights rays", "--border black",
         "--repair off", "--confidence-out c.exr", "--tiles-out t.exr", "--stats", "--half-size on",
-        "--blades 5", "--blade-curvature 1", "--blade-rotation 3", "--squeeze 2",
+        "--sparse off", "--blades 5", "--blade-curvature 1", "--blade-rotation 3", "--squeeze 2",
         "--aperture-image a.png", "--cats-eye 1"}) {
     const std::string name = option.substr(0, option.find(' '));
     expect_refused(bg + "--literal " + option, {name, "means nothing to --literal"});

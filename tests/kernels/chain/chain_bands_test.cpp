@@ -89,6 +89,7 @@ void expect_same(const MethodResult& a, const MethodResult& b) {
   EXPECT_EQ(a.report->behind, b.report->behind);
   EXPECT_EQ(a.report->split, b.report->split);
   EXPECT_EQ(a.report->highlights, b.report->highlights);
+  EXPECT_EQ(a.report->interpolated, b.report->interpolated);
   EXPECT_EQ(a.report->border_px, b.report->border_px);
   EXPECT_EQ(a.report->confidence, b.report->confidence);
 }

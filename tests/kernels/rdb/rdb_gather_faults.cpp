@@ -66,7 +66,7 @@ const FaultRows faults{
      "the least radii alone",
      {"IS(LOAD(r->largest + from) >= (ints)(segment.z))", "IS(key >= (ints)(segment.z))"}},
     {"rdb_gather", "sources from the frame's left", {"sx <= -LANES ||", "sx < 0 ||"}},
-    {"rdb_gather", "sources from above the frame", {"sy <= -ROWS ||", "sy < 0 ||"}},
+    {"rdb_gather", "sources from above the frame", {"sy <= -DEFRAY_RAY_TILE ||", "sy < 0 ||"}},
     {"rdb_gather",
      "differences in the first channel alone",
      {"s->differs[j] |= d & hit;", "s->differs[j] |= (c0 ^ bits_at(r->channel0, own)) & hit;"}},
