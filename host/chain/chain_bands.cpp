@@ -9,7 +9,6 @@
 #include "lens/lens_grid.h"
 #include "opencl/launch_table.h"
 #include "rdb/rdb_plan.h"
-#include "rdb/sparse_tiles.h"
 
 namespace defray {
 namespace {
@@ -35,7 +34,6 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
     reach.soften = static_cast<int>(side) + launch_of("soften").reach_px + 1;
   }
   reach.rays = rdb_reach(largest) + 2;
-  if (s.sparse) reach.rays = std::max(reach.rays, sparse_reach_px);
   return reach;
 }
 

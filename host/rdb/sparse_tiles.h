@@ -11,7 +11,9 @@
 
 namespace defray {
 
-/// RayPlan::sparse_from of the chain.
+/// RayPlan::sparse_from of the chain. Chosen at 640x400 among 6 and 14, 8 and 20, 10 and 24, 12 and
+/// 30, 16 and 36 px: of plate1, plate2, spheres, fence, blocks and cutout, 12 settings, plate2
+/// loses 0.03 dB at most (46.5), 0.20 with the first pair, none more than 0.001 with the last.
 inline constexpr std::array<std::int32_t, 2> sparse_from_quanta{10 << DEFRAY_COC_FRACTION_BITS,
                                                                 24 << DEFRAY_COC_FRACTION_BITS};
 
@@ -19,6 +21,8 @@ inline constexpr std::array<std::int32_t, 2> sparse_from_quanta{10 << DEFRAY_COC
 /// beyond them.
 inline constexpr int sparse_reach_tiles = 2;
 inline constexpr int sparse_reach_px = sparse_reach_tiles * DEFRAY_RAY_TILE;
+// Rows of a frame that come before and behind those that rays are asked for are there by steps.
+static_assert(sparse_reach_px <= band_step);
 
 /// The tiles of a window of a frame.
 struct TileWindow {

@@ -102,6 +102,21 @@ TEST(Sparse, IsTheSameForScatterBandsPassesScalarsAndTwins) {
   expect_equal(DeviceBackend(scalars).rays(f, plan_of(true)), expected, "scalars");
 }
 
+/// In windows of whole tiles: what lies in the last row of the next tile counts, beyond where rays
+/// come from.
+TEST(Sparse, IsTheSameInWindowsBesideSmallRadii) {
+  Frame f = frame_of({64, 96});
+  std::vector<std::int32_t> coc(f.pixels(), 12 * px);
+  for (const int y : {47, 48}) std::fill_n(coc.begin() + y * f.width, f.width, 0);
+  f.coc_quanta = std::move(coc);
+  RayPlan plan = plan_of(true);
+  plan.sparse_from = {10 * px, 24 * px};
+  const RayResult expected = device().rays(f, plan);
+  EXPECT_GT(expected.interpolated, 0u);
+  const InBands bands(session(), 1 << 10);
+  expect_equal(device().rays(f, plan), expected, "windows of 16 rows");
+}
+
 /// Winners are kept for a row or two at once where there is little memory.
 TEST(Sparse, IsTheSameBesideLampsInBandsThatCutTiles) {
   Frame f = frame_of(frame_size, 4);
