@@ -66,7 +66,7 @@ TEST_F(ChainCommand, EveryOptionChangesThePicture) {
     EXPECT_TRUE(is_new) << options << " gives the picture of " << place->second;
   }
   EXPECT_NE(rendered("", "lamps"), rendered("--highlights rays", "lamps"));
-  const std::string wide = "--focus 0.1 --aperture-diameter 100 ";  // of large circles alone
+  const std::string wide = bg + "--focus 0.5 --aperture-diameter 200 ";  // no circle is small
   const std::uint64_t sparse = rendered(wide);
   EXPECT_NE(last_.find("px between rows"), std::string::npos) << last_;
   EXPECT_NE(rendered(wide + "--sparse off"), sparse);
