@@ -83,7 +83,8 @@ class Picture {
       for (std::size_t x = 0; x < width; ++x) {
         const std::size_t i = size(row) * width + x;
         const std::size_t open = open_cells(work_.plan, x + margin, size(own.y + row));
-        confidence[i] = open == 0 ? 0.0f : static_cast<float>(seen[i]) / static_cast<float>(open);
+        const std::size_t known = std::min<std::size_t>(seen[i], open);  // between rows
+        confidence[i] = open == 0 ? 0.0f : static_cast<float>(known) / static_cast<float>(open);
       }
     });
     for (std::size_t i = 0; i < seen.size(); ++i) confidence_ += confidence[i];

@@ -1,4 +1,5 @@
 // Tiles whose rays are found for some of their rows: which, and what lies between.
+#include <algorithm>
 #include <limits>
 
 #include "chain/chain.h"
@@ -136,6 +137,20 @@ TEST(Sparse, IsTheSameBesideLampsInBandsThatCutTiles) {
   }
   s.rays = RaysBy::scatter;
   EXPECT_EQ(hash_of(run_chain(f, s, device(), false, {}).colour), hash_of(expected.colour));
+}
+
+/// Rays are counted where they were found, and the rim leaves other points open a row farther.
+TEST(Sparse, SeesNoMoreThanTheRimLeavesOpen) {
+  Frame f = frame_of(frame_size, 4);
+  f.coc_quanta = Quanta(std::vector<std::int32_t>(f.pixels(), -30 * px));
+  f.inverse = Plane(f.pixels(), 0.5f);
+  ChainSettings s;
+  s.hidden = Hidden::off;
+  s.highlights = false;
+  s.aperture.cats_eye = 1;
+  const MethodResult made = run_chain(f, s, device(), false, {});
+  EXPECT_GT(made.report->interpolated, f.pixels() / 2);
+  EXPECT_EQ(*std::ranges::max_element(made.confidence), 1.0f);
 }
 
 TEST(Sparse, LeavesWhatIsOfOneColourOrInfiniteAsItIs) {
