@@ -100,10 +100,11 @@ TileWindow RayTileWindow::tiles() const {
 }
 
 void RayTileWindow::find_sparse_tiles() {
-  std::vector<std::int32_t> least(std::size_t{params.tiles_x} * params.tiles_y, 0);
-  if (plan_.sparse_from[0] > 0) read_all(session_, least_, least.size(), least);
-  session_.finish();  // kernels may look at the window before
-  sparse_tiles_ = sparse_tiles(least, tiles(), frame_, plan_, lights_);
+  // It waits for all kernels before: none looks at the window's before any more.
+  const std::size_t count = std::size_t{params.tiles_x} * params.tiles_y;
+  session_.look_at<std::int32_t>(least_, count, [&](std::span<const std::int32_t> least) {
+    sparse_tiles_ = sparse_tiles({least.begin(), least.end()}, tiles(), frame_, plan_, lights_);
+  });
   sparsity = session_.view(sparse_tiles_);
 }
 

@@ -48,6 +48,7 @@ FrameOutcome outcome() {
   chain.behind = 12;
   chain.split = 13;
   chain.highlights = 14;
+  chain.interpolated = 16;
   chain.border_px = 15;
   chain.border_is_cut = true;
   chain.lens_points = 137;
@@ -86,7 +87,7 @@ TEST(RenderReport, TextHasEveryFigure) {
       "  lens 50 mm, aperture 25 mm (f/2), sensor 36 mm, focus 3 units of 0.01 m\n"
       "  CoC radius -4.5 to 12.25 px\n"
       "  137 lens points, 75.00 % of their rays determined by the input, 12 px made up behind, "
-      "13 px split, 14 highlights\n"
+      "13 px split, 14 highlights, 16 px between rows\n"
       "  --quality draft --rdb 11: 1126 ms expected, 1250 taken, of 1200\n"
       "  expected 40.2 dB (36.0 to 46.0); of the error 50 % sampling, 25 % hidden, 12 % edges, "
       "12 % detail\n"
@@ -167,6 +168,7 @@ TEST(RenderReport, JsonHasEveryFigure) {
         {"behind_px", 12},
         {"split_px", 13},
         {"highlights", 14},
+        {"between_px", 16},
         {"border_px", 15},
         {"stages_s", {{"lens", 0.25}, {"rays", 0.5}}},
         {"stages_bytes", {{"lens", 0}, {"rays", 3 << 19}}},
