@@ -41,8 +41,8 @@ void RayTileWindow::interpolate(Rows rows, RayResult& out) {
   std::vector<cl::Buffer> means;
   for (Plane& mean : out.means) means.push_back(lent(session_, &mean[first], count));
   const cl::Buffer seen = lent(session_, &out.seen[first], count);
-  const auto channels = four_channels(means.size(), [&](std::size_t c) { return means[c]; });
-  session_.launch("rdb_between", {p.band_end - p.band_x, size(rows.count())}, p, sparsity, channels,
+  const auto four = four_channels(means.size(), [&](std::size_t c) { return means[c]; });
+  session_.launch("rdb_between", {p.band_end - p.band_x, size(rows.count())}, p, sparsity, four,
                   seen);
   for (std::size_t c = 0; c < means.size(); ++c) {
     take_back(session_, means[c], &out.means[c][first], count);
