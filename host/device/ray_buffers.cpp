@@ -66,13 +66,10 @@ void RayBuffers::begin(const DefrayRdbParams& p, RayResult& out) {
 
 void RayBuffers::read(const DefrayRdbParams& p, RayResult& out) {
   const std::size_t first = first_of(p), count = std::size_t{p.width} * p.band_rows;
-  const auto read_to = [&]<typename T>(const cl::Buffer& buffer, T* place) {
-    session_.look_at<T>(buffer, count, [&](std::span<const T> band) {
-      if (band.data() != place) std::copy(band.begin(), band.end(), place);
-    });
-  };
-  for (std::size_t c = 0; c < out.means.size(); ++c) read_to(means[c], &out.means[c][first]);
-  read_to(seen, &out.seen[first]);
+  for (std::size_t c = 0; c < out.means.size(); ++c) {
+    session_.bring(means[c], count, &out.means[c][first]);
+  }
+  session_.bring(seen, count, &out.seen[first]);
   if (!plan_.wants_nearest) return;
   const std::size_t window = std::size_t{p.window_y} * p.layers * p.width;
   const auto place = out.nearest.begin() + static_cast<std::ptrdiff_t>(first);

@@ -1,6 +1,4 @@
 // Kernel `rdb_between`.
-#include <algorithm>
-
 #include "device/rdb_tiles.h"
 #include "opencl/launch_table.h"
 
@@ -16,13 +14,6 @@ cl::Buffer lent(Session& session, T* values, std::size_t count) {
   const cl::Buffer buffer = session.buffer(count * sizeof(T));
   session.write(buffer, values, count * sizeof(T));
   return buffer;
-}
-
-template <typename T>
-void take_back(Session& session, const cl::Buffer& buffer, T* values, std::size_t count) {
-  session.look_at<T>(buffer, count, [&](std::span<const T> made) {
-    if (made.data() != values) std::copy(made.begin(), made.end(), values);
-  });
 }
 
 }  // namespace
@@ -45,9 +36,9 @@ void RayTileWindow::interpolate(Rows rows, RayResult& out) {
   session_.launch("rdb_between", {p.band_end - p.band_x, size(rows.count())}, p, sparsity, four,
                   seen);
   for (std::size_t c = 0; c < means.size(); ++c) {
-    take_back(session_, means[c], &out.means[c][first], count);
+    session_.bring(means[c], count, &out.means[c][first]);
   }
-  take_back(session_, seen, &out.seen[first], count);
+  session_.bring(seen, count, &out.seen[first]);
 }
 
 }  // namespace defray

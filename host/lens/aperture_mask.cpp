@@ -12,9 +12,9 @@
 namespace defray {
 namespace {
 
-constexpr int side = ApertureMask::side;
+constexpr int mask_side = ApertureMask::side;
 constexpr int points = 8;  // a side of a texel
-constexpr double texel = 2.0 / side;
+constexpr double texel = 2.0 / mask_side;
 
 /// The iris pressed from its sides (squeeze > 1) or from above and below.
 class Shape {
@@ -55,11 +55,12 @@ ApertureMask rasterise(const Aperture& aperture) {
   if (!aperture.image.empty()) return rasterise_picture(aperture);
   const Shape shape(aperture);
   ApertureMask mask;
-  mask.coverage.resize(side * side);
-  parallel_for(side, [&](int row) {
-    for (int column = 0; column < side; ++column) {
+  mask.coverage.resize(mask_side * mask_side);
+  parallel_for(mask_side, [&](int row) {
+    for (int column = 0; column < mask_side; ++column) {
       const double open = shape.open_share((column + 0.5) * texel - 1, (row + 0.5) * texel - 1);
-      mask.coverage[size(row * side + column)] = static_cast<std::uint8_t>(std::lround(255 * open));
+      mask.coverage[size(row * mask_side + column)] =
+          static_cast<std::uint8_t>(std::lround(255 * open));
     }
   });
   return mask;

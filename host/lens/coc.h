@@ -9,7 +9,8 @@
 
 namespace defray {
 
-/// Pixels in a quantum of the CoC radius.
+/// Quanta of the CoC radius in a pixel, and pixels in a quantum.
+inline constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
 inline constexpr float px_per_quantum = 1.0f / (1 << DEFRAY_COC_FRACTION_BITS);
 
 /// A CoC, limited so that differences stay in range: what is beyond has left every frame.

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "base/error.h"
+#include "lens/coc.h"
 
 namespace defray {
 namespace {
-
-constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
 
 /// Within these, no product of the lens's values leaves a double's range, and the focus distance
 /// keeps all its digits in two floats.

@@ -54,13 +54,13 @@ MethodResult run_tiltshift(const Frame& f, const MethodSettings&, Backend& backe
   return out;
 }
 
-constexpr std::array rows{Row{Method::rdb, "rdb", true, run_rdb},
-                          Row{Method::linear, "linear", true, run_linear},
-                          Row{Method::gather, "gather", true, run_gather},
-                          Row{Method::tiltshift, "tiltshift", false, run_tiltshift}};
+constexpr std::array method_rows{Row{Method::rdb, "rdb", true, run_rdb},
+                                 Row{Method::linear, "linear", true, run_linear},
+                                 Row{Method::gather, "gather", true, run_gather},
+                                 Row{Method::tiltshift, "tiltshift", false, run_tiltshift}};
 
 const Row& row_of(Method method) {
-  for (const Row& row : rows) {
+  for (const Row& row : method_rows) {
     if (row.method == method) return row;
   }
   fail(ErrorKind::internal, "a method without a row");
@@ -70,7 +70,7 @@ const Row& row_of(Method method) {
 
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
-  for (const Row& row : rows) methods.push_back(row.method);
+  for (const Row& row : method_rows) methods.push_back(row.method);
   return methods;
 }
 

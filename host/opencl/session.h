@@ -1,11 +1,13 @@
 #pragma once
 // One device, made ready: context, queue and the kernels, built once.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -127,6 +129,14 @@ class Session {
     const auto* values = static_cast<const T*>(map(buffer, count * sizeof(T)));
     look(std::span<const T>(values, count));
     unmap(buffer, values);
+  }
+
+  /// What kernels have written to a buffer goes to `place`, unless the buffer is a view of it.
+  template <typename T>
+  void bring(const cl::Buffer& buffer, std::size_t count, T* place) {
+    look_at<T>(buffer, count, [&](std::span<const T> made) {
+      if (made.data() != place) std::copy(made.begin(), made.end(), place);
+    });
   }
 
   /// Every byte of a buffer.

@@ -13,19 +13,19 @@ constexpr float slight_px = 0.3f, blurred_px = 1, soft_px = 2.5f, wide_px = 6;
 constexpr float white = 1, far_beyond_white = 4;
 
 /// What is a mean over a block's pixels, in the order in which BlockRow adds it up.
-constexpr std::array means{&PixelBlock::mean_coc,
-                           &PixelBlock::unseen,
-                           &PixelBlock::unseen_square,
-                           &PixelBlock::edge,
-                           &PixelBlock::rim,
-                           &PixelBlock::bright_rim,
-                           &PixelBlock::unseen_rim,
-                           &PixelBlock::sharp_grain,
-                           &PixelBlock::slight_grain,
-                           &PixelBlock::soft_grain,
-                           &PixelBlock::slight_gradient,
-                           &PixelBlock::edge_gradient,
-                           &PixelBlock::lost_grain};
+constexpr std::array block_means{&PixelBlock::mean_coc,
+                                 &PixelBlock::unseen,
+                                 &PixelBlock::unseen_square,
+                                 &PixelBlock::edge,
+                                 &PixelBlock::rim,
+                                 &PixelBlock::bright_rim,
+                                 &PixelBlock::unseen_rim,
+                                 &PixelBlock::sharp_grain,
+                                 &PixelBlock::slight_grain,
+                                 &PixelBlock::soft_grain,
+                                 &PixelBlock::slight_gradient,
+                                 &PixelBlock::edge_gradient,
+                                 &PixelBlock::lost_grain};
 
 /// A row of blocks: sums over the rows of its pixels, column by column.
 class BlockRow {
@@ -61,7 +61,7 @@ class BlockRow {
       const float rim = brightest_[x] > white ? gradient : 0.0f;
       const float calm_grain = brightest_[x] > white ? 0.0f : grain_[x];
       const bool is_slight = radius >= slight_px && radius < blurred_px;
-      const float values[means.size()] = {
+      const float values[block_means.size()] = {
           coc[x],
           unseen,
           unseen * unseen,
@@ -75,14 +75,14 @@ class BlockRow {
           radius >= slight_px && radius < soft_px ? gradient - rim : 0.0f,
           pinhole_gradient_[x] * edge,
           grain_[x] * (radius < 1 ? radius : 1.0f)};
-      for (std::size_t i = 0; i < means.size(); ++i) sums_[i][x] += values[i];
+      for (std::size_t i = 0; i < block_means.size(); ++i) sums_[i][x] += values[i];
     }
   }
 
   void set_block(std::size_t first, std::size_t end, int rows, PixelBlock& b) const {
     const float share = 1 / static_cast<float>((end - first) * size(rows));
-    for (std::size_t i = 0; i < means.size(); ++i) {
-      for (std::size_t x = first; x < end; ++x) b.*means[i] += sums_[i][x] * share;
+    for (std::size_t i = 0; i < block_means.size(); ++i) {
+      for (std::size_t x = first; x < end; ++x) b.*block_means[i] += sums_[i][x] * share;
     }
     b.least_coc = b.largest_coc = strip_.coc.row(0)[first];
     for (int j = 0; j < rows; ++j) {
@@ -115,7 +115,7 @@ class BlockRow {
   std::size_t width_;
   Strip strip_;
   const Plane& confidence_;
-  std::array<Plane, means.size()> sums_;
+  std::array<Plane, block_means.size()> sums_;
   Plane gradient_, pinhole_gradient_, grain_, edge_, brightest_;
 };
 

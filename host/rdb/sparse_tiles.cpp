@@ -9,7 +9,7 @@ constexpr int tile_px = DEFRAY_RAY_TILE;
 
 /// Tiles on each side from which rays of smaller radii may come; they land a pixel farther at most.
 int tiles_in_reach(std::int32_t radius) {
-  return std::min((radius >> DEFRAY_COC_FRACTION_BITS) / tile_px + 1, sparse_reach_tiles);
+  return (radius >> DEFRAY_COC_FRACTION_BITS) / tile_px + 1;
 }
 
 /// The least of each tile and of so many around, along x and then along y.

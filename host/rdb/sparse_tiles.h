@@ -17,10 +17,11 @@ namespace defray {
 inline constexpr std::array<std::int32_t, 2> sparse_from_quanta{10 << DEFRAY_COC_FRACTION_BITS,
                                                                 24 << DEFRAY_COC_FRACTION_BITS};
 
-/// Tiles around a tile, on each side, that say how sparse it may be; a plan's radii do not reach
-/// beyond them.
+/// Tiles around a tile, on each side, that say how sparse it may be: no radius below a plan's comes
+/// from beyond them.
 inline constexpr int sparse_reach_tiles = 2;
 inline constexpr int sparse_reach_px = sparse_reach_tiles * DEFRAY_RAY_TILE;
+static_assert(sparse_from_quanta.back() < sparse_reach_px << DEFRAY_COC_FRACTION_BITS);
 // Rows of a frame that come before and behind those that rays are asked for are there by steps.
 static_assert(sparse_reach_px <= band_step);
 

@@ -7,7 +7,8 @@
 // (tests/kernels):
 //   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal
 //                      and tiltshift
-//   from a definition  patterns (whole windows), gather_reach (each tile against each)
+//   from a definition  patterns (whole windows), gather_reach (each tile against each),
+//                      rdb_between (its rows in a list)
 //   the kernel's way   mixed, repair    mixed_test: steps and slopes drawn with known answers
 //                      fill             fill_test, stage_oracles_test: planes, slants and stripes
 //                                       that must go on
@@ -17,9 +18,10 @@
 //                      highlights*      highlight_disc_test: exact areas of polygons; lamp_test
 //                      gather_aware     gather_test: variances, what must stay clean
 // Neither sees what device and twins share: chain/ (border, layers, light taken, shifts found and
-// blended) and lens/ (apertures, samples). There tests have oracles of their own:
+// blended), rdb/sparse_tiles and lens/ (apertures, samples). There tests have oracles of their own:
 // picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
-// patterns_picture_test, *_search_test, chain_parts_test, layers_test.
+// patterns_picture_test, *_search_test, chain_parts_test, layers_test,
+// sparse_test.
 #include <cstdint>
 #include <vector>
 

@@ -65,7 +65,7 @@ Read field(T Case::*member, double least, double most) {
   };
 }
 
-const std::map<std::string, Read> fields = {
+const std::map<std::string, Read> case_fields = {
     {"coc", field(&Case::coc_px, 0, 4194303)},
     {"channels", field(&Case::channels, 1, 4)},
     {"cells", field(&Case::cells, 1, 64)},
@@ -85,17 +85,17 @@ void read_word(Case& c, const std::string& word) {
   } else if (word == "jitter") {
     c.jitter = true;
   } else if (const auto equals = word.find('=');
-             equals != std::string::npos && fields.count(word.substr(0, equals))) {
-    fields.at(word.substr(0, equals))(c, word, word.substr(equals + 1));
+             equals != std::string::npos && case_fields.count(word.substr(0, equals))) {
+    case_fields.at(word.substr(0, equals))(c, word, word.substr(equals + 1));
   } else if (!word.empty() && word[0] >= '0' && word[0] <= '9') {
     read_pair(word, word, 65536, c.width, c.height);
   } else {
     std::vector<std::string> known{"jitter"};
     for (const auto& [name, pattern] : patterns) known.push_back(name);
     for (const auto& [name, kind] : colours) known.push_back(name);
-    for (const auto& [name, read] : fields) known.push_back(name);
+    for (const auto& [name, read] : case_fields) known.push_back(name);
     const std::string name = word.substr(0, equals);
-    if (fields.count(word))
+    if (case_fields.count(word))
       fail(ErrorKind::usage, "{0}: '{1}' needs a value: {1}=...", defray::field("case"), word);
     if (name == "jitter")
       fail(ErrorKind::usage, "{}: jitter takes no value, '{}' has one", defray::field("case"),

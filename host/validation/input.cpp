@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "base/random.h"
+#include "lens/coc.h"
 
 namespace defray::validation {
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
 
 /// Depth, and CoC as a share of the largest.
 struct Point {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "lens/coc.h"
 #include "methods/gather.h"
 #include "methods/linear.h"
 #include "opencl/bands.h"
@@ -27,7 +28,6 @@ Outcome run_coc(Backend& backend, const Case& c, const Input& in) {
 /// The radius before it is rounded to quanta: 4 ulp = 8 u
 /// (tests/kernels/lens/coc_accuracy_test.cpp).
 Exact exact_coc(const Case& c, const Input& in) {
-  constexpr double quanta_per_px = 1 << DEFRAY_COC_FRACTION_BITS;
   constexpr double limit = DEFRAY_COC_LIMIT_QUANTA;
   std::vector<double> exact;
   for (const float z : in.depth) {
