@@ -35,7 +35,7 @@ struct PixelBlock {
 
 /// Rows of blocks, all or some of a frame's.
 struct PixelBlocks {
-  int across = 0, down = 0;
+  int across, down;
   std::vector<PixelBlock> blocks;
 
   const PixelBlock& at(int x, int y) const { return blocks[size(y) * size(across) + size(x)]; }

@@ -108,7 +108,7 @@ class Run:
             self.mutants = named[:1]
         else:
             chance = random.Random(arguments.seed)
-            chosen = chance.sample(places, min(arguments.count, len(places)))
+            chosen = chance.sample(places, min(max(arguments.count, arguments.most), len(places)))
             self.mutants = [chance.choice(place) for place in chosen]
         name = re.sub(r"\W+", "_", f"{arguments.seed} {arguments.folder}")
         self.log = f"{BUILD}/mutants/{name}.jsonl"
@@ -121,6 +121,7 @@ class Run:
         elif not arguments.only:
             open(self.log, "w").close()
         self.is_logged = not arguments.only
+        self.count, self.least = min(arguments.count, len(self.mutants)), arguments.least
         self.lock = threading.Lock()
         self.results = []
         self.workers = [trial.Worker(self.build, f"{BUILD}/mutants/worker-{i}") for i in range(arguments.jobs)]
@@ -147,7 +148,7 @@ class Run:
         entry = {"mutant": name, "before": before, "after": after, "outcome": outcome, "seconds": round(seconds, 1)}
         with self.lock:
             self.results.append((mutant, entry))
-            print(f"[{len(self.results)}/{len(self.mutants)}] {name}: {outcome} ({seconds:.0f} s)", flush=True)
+            print(f"[{len(self.results)}/{self.count}] {name}: {outcome} ({seconds:.0f} s)", flush=True)
             if outcome.startswith("survived"):
                 print(f"    - {before}\n    + {after}\n    again: tests/mutate.sh --only '{name}'", flush=True)
             if is_new and self.is_logged:
@@ -173,8 +174,19 @@ class Run:
             self.note(mutant, outcome, known["seconds"] if known else time.time() - begin, not known)
 
     def run(self):
+        """Whether all were tried: --count, then one by one up to --most while the score is below --least."""
+        finished = self.try_all(self.mutants[:self.count])
+        while finished and self.score() < self.least and self.count < len(self.mutants):
+            self.count += 1
+            finished = self.try_all(self.mutants[self.count - 1:self.count])
+        if not finished:
+            print(f"Interrupted: {len(self.results)} of {self.count} are noted; the same command goes on.")
+        self.summary()
+        return finished
+
+    def try_all(self, mutants):
         waiting = queue.Queue()
-        for mutant in self.mutants:
+        for mutant in mutants:
             waiting.put(mutant)
         threads = [threading.Thread(target=self.work, args=(w, waiting)) for w in self.workers]
         for thread in threads:
@@ -188,9 +200,7 @@ class Run:
                 worker.stop()
             for thread in threads:
                 thread.join()
-            print(f"Interrupted: {len(self.results)} of {len(self.mutants)} are noted; the same command goes on.")
-        self.summary()
-        return len(self.results) == len(self.mutants)
+        return len(self.results) == self.count
 
     def summary(self):
         rows = defaultdict(Counter)
@@ -225,6 +235,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="how many at once (all cores)")
     parser.add_argument("--budget", type=float, default=trial.BUDGET, help="share of a mutant's tests to try, by time (1/3)")
     parser.add_argument("--least", type=float, default=100, help="exit with 1 below this score, per cent (100)")
+    parser.add_argument("--most", type=int, default=0, help="try further ones, up to this many, while the score is below --least (none)")
     arguments = parser.parse_args()
     run = Run(arguments)
     finished = run.run()
