@@ -119,9 +119,9 @@ void RdbGather::gather_pass(int first_cell) {
   const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
   session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
                   window_.largest, window_.sending, window_.coverage, window_.channels, segments_,
-                  first_, window_.reach, sharp_on_device_, window_.sparsity, buffers_.lens,
-                  buffers_.rim_x, buffers_.rim_y, buffers_.light_first, buffers_.winner,
-                  buffers_.means, filled_, buffers_.seen);
+                  first_, window_.reach, sharp_on_device_, window_.special_rows, window_.sparsity,
+                  buffers_.lens, buffers_.rim_x, buffers_.rim_y, buffers_.light_first,
+                  buffers_.winner, buffers_.means, filled_, buffers_.seen);
 }
 
 void RdbGather::gather(int y, int rows, RayResult& out) {

@@ -84,11 +84,12 @@ void RayTileWindow::prepare(const BandRows& rows) {
   tiles_ = session_.buffer(bytes);
   reach = session_.buffer(bytes);
   least_ = session_.buffer(bytes / sizeof(TileBins) * sizeof(cl_int));
+  special_rows = session_.buffer(bytes / sizeof(TileBins) * sizeof(cl_uint));
   const cl::Buffer along_x = session_.buffer(bytes);
   const std::vector<std::size_t> all{params.tiles_x, params.tiles_y};
   DefrayRaysParams along_y = params;
   along_y.along_y = 1;
-  session_.launch("rdb_tiles", all, params, keys, largest, coverage, tiles_, least_);
+  session_.launch("rdb_tiles", all, params, keys, largest, coverage, tiles_, least_, special_rows);
   session_.launch("rdb_reach", all, params, near_on_device_, tiles_, along_x);
   session_.launch("rdb_reach", all, along_y, near_on_device_, along_x, reach);
   find_sparse_tiles();
@@ -124,6 +125,7 @@ RayTiles RayTileWindow::read() {
   read_all(session_, tiles_, tiles, out.held);
   read_all(session_, reach, tiles, out.reach);
   read_all(session_, least_, tiles, out.least);
+  read_all(session_, special_rows, tiles, out.special_rows);
   return out;
 }
 

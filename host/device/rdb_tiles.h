@@ -30,7 +30,7 @@ class RayTileWindow {
 
   DefrayRaysParams params{};
   RayWindow planes;  ///< Not padded.
-  cl::Buffer keys, largest, sending, coverage, reach, sparsity;
+  cl::Buffer keys, largest, sending, coverage, reach, special_rows, sparsity;
   std::array<cl::Buffer, 4> channels;
 
  private:

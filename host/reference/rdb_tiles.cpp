@@ -106,6 +106,28 @@ std::int32_t least_of(const Frame& f, const RayPlan& plan, int tile_x, int tile_
   return least;
 }
 
+/// Whether a pixel holds others than one whole surface that was seen.
+bool is_special(const Frame& f, int x, int y) {
+  for (int layer = 0; layer < f.layers; ++layer) {
+    const std::size_t i = f.index(x, y, layer);
+    const bool is_plain = layer == 0 && (f.coverage.empty() || f.coverage[i] == DEFRAY_WHOLE);
+    if (is_there(f, i) && !is_plain) return true;
+  }
+  return false;
+}
+
+/// Rows of a tile that hold such pixels, a bit each.
+std::uint32_t special_rows_of(const Frame& f, int tile_x, int tile_y) {
+  constexpr int side = DEFRAY_RAY_TILE;
+  std::uint32_t rows = 0;
+  for (int y = tile_y * side; y < std::min(f.height, (tile_y + 1) * side); ++y) {
+    for (int x = tile_x * side; x < std::min(f.width, (tile_x + 1) * side); ++x) {
+      if (is_special(f, x, y)) rows |= 1u << (y % side);
+    }
+  }
+  return rows;
+}
+
 /// Pixels between two tiles at least, along the axis on which they are farther apart.
 int gap_px(int tile_a, int tile_b, int across) {
   const int x = std::abs(tile_a % across - tile_b % across);
@@ -123,6 +145,7 @@ RayTiles ray_tiles(const Frame& f, const RayPlan& plan) {
   for (int i = 0; i < across * down; ++i) {
     out.held.push_back(held_by(f, plan, bins, i % across, i / across));
     out.least.push_back(least_of(f, plan, i % across, i / across));
+    out.special_rows.push_back(special_rows_of(f, i % across, i / across));
   }
   for (int here = 0; here < across * down; ++here) {
     TileBins reach;

@@ -150,6 +150,7 @@ Outcome run_ray_tiles(Backend& backend, const Case& c, const Input& in) {
   const RayTiles tiles = tiles_of(backend, c, in);
   Outcome out = words_of(tiles.held);
   out.integers.insert(out.integers.end(), tiles.least.begin(), tiles.least.end());
+  out.integers.insert(out.integers.end(), tiles.special_rows.begin(), tiles.special_rows.end());
   return out;
 }
 

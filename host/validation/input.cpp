@@ -104,6 +104,12 @@ std::uint32_t any_coverage(Random& random) {
   return share | (random.next() < 0.5 ? DEFRAY_SYNTHESISED : 0);
 }
 
+/// Where a frame has pixels that are more than one whole surface: of every third seed's in few
+/// places, else everywhere.
+bool may_be_special(const Case& c, int x, int y) {
+  return c.seed % 3 != 2 || Random(x / 9, y, c.seed).next() < 0.05;
+}
+
 /// Behind each pixel one of its neighbours along the row, further away, or nothing.
 Frame make_fragments(const Case& c, const Input& in) {
   Frame f;
@@ -120,10 +126,11 @@ Frame make_fragments(const Case& c, const Input& in) {
         Random random(x, y + layer * c.height, c.seed);
         const int from = layer == 0 ? x : static_cast<int>(random.next() * c.width);
         const std::size_t at = size(y) * size(c.width) + size(from);
-        const bool is_there = layer == 0 || random.next() < 0.5;
+        const bool is_special = may_be_special(c, x, y);
+        const bool is_there = layer == 0 || (is_special && random.next() < 0.5);
         coc.push_back(in.coc_quanta[at]);
         depth.push_back(is_there ? in.depth[at] : no_fragment());
-        if (f.layers > 1) coverage.push_back(any_coverage(random));
+        if (f.layers > 1) coverage.push_back(is_special ? any_coverage(random) : DEFRAY_WHOLE);
         for (std::size_t k = 0; k < channels.size(); ++k) {
           channels[k].push_back(in.channels[k][at]);
         }

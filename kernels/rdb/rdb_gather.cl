@@ -16,6 +16,7 @@
 // first           [cells of the pass][bins + 1]  the first segment that reaches into a bin; last of
 //                                    a cell: one past its own
 // occupied        [tiles][2][words]  from rdb_reach
+// special_rows    [tiles]            from rdb_tiles
 // sparsity        [tiles]            0: rays of all rows, 1: of half, 2: of a quarter (sparse.clh)
 // sharp           [words]            bins whose rays end where they begin, whatever the lens point
 // lens, rim_x, rim_y                 as in rdb_merge
@@ -33,7 +34,6 @@
 // for four channels: a quarter less to load and add.
 INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* runs,
                           const bool has_fourth, Strip* s) {
-  const size_t stride = p.stride;
   for (uint k = 0; k < p.cell_count; ++k) {
     __global const int* first = r->first + k * (DEFRAY_RAY_BINS + 1);
     const int end_of_cell = first[DEFRAY_RAY_BINS];
@@ -47,23 +47,10 @@ INLINED void gather_plain(const DefrayRaysParams p, const Rays* r, const Runs* r
         const int4 segment = r->segments[at];
         size_t from;
         if (!sources_of(p, s, segment, &from)) continue;
-        ints hit[ROWS], some = 0;
-        EACH_ROW {
-          const ints key = LOAD(r->keys + from + s->row[j] * stride);
-          hit[j] = open[j] & are_in(r, from + s->row[j] * stride, key, segment);
-          some |= hit[j];
-        }
-        if (!any_of(some)) continue;
-        ints left = 0;
-        EACH_ROW {
-          const size_t source = from + s->row[j] * stride;
-          add(s, r, has_fourth, j, hit[j], bits_at(r->channel0, source),
-              bits_at(r->channel1, source), bits_at(r->channel2, source),
-              has_fourth ? bits_at(r->channel3, source) : (ints)(0), s->own + s->row[j] * stride);
-          open[j] &= ~hit[j];
-          left |= open[j];
-        }
-        is_open = any_of(left);
+        ints hit[ROWS];
+        if (!find_hits(p, r, s, from, segment, open, hit)) continue;
+        add_hits(p, r, has_fourth, from, hit, s);
+        is_open = close_hit(open, hit);
       }
     }
     find_whether_all_differ(s);
@@ -85,6 +72,7 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const int4* restrict segments, __global const int* restrict first,
                          __global const ulong* restrict occupied,
                          __global const ulong* restrict sharp,
+                         __global const uint* restrict special_rows,
                          __global const uint* restrict sparsity, __global const int2* restrict lens,
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
                          __global const uint* restrict light_first, __global uint* winner,
@@ -93,11 +81,12 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
   const int y = (int)(p.band_y + get_global_id(1) * ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
 
-  const Rays r = {keys,     p.has_spans ? largest : keys,
-                  sending,  coverage,
-                  channel0, channel1,
-                  channel2, channel3,
-                  segments, first};
+  const Rays r = {keys,        p.has_spans ? largest : keys,
+                  sending,     coverage,
+                  channel0,    channel1,
+                  channel2,    channel3,
+                  segments,    first,
+                  special_rows};
   const uint tile = tile_at(p, x, y);
   Strip s;
   if (!place(p, x, y, sparsity[tile], &s)) return;

@@ -11,13 +11,15 @@
 // Global size: (stride, padded rows x layers).
 //
 // rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of
-// whole surfaces that were seen, one a pixel, and those of all others; and the least |radius| of
-// all, 0 where a pixel's front has no fragment. rdb_reach adds those of other tiles that may reach
-// it, along x and then, on its own result, along y: `near` says which bins reach from how many
-// tiles away, and a square dilates one axis at a time. Integers only: the same on every device.
+// whole surfaces that were seen, one a pixel, and those of all others; the least |radius| of all, 0
+// where a pixel's front has no fragment; and which rows hold others than plain surfaces. rdb_reach
+// adds those of other tiles that may reach it, along x and then, on its own result, along y: `near`
+// says which bins reach from how many tiles away, and a square dilates one axis at a time. Integers
+// only: the same on every device.
 //
 // tiles  [tiles_y][tiles_x][2][words]
 // least  [tiles_y][tiles_x]            1/256 px
+// special_rows [tiles_y][tiles_x]      a bit a row
 // near   [reach_tiles + 1][words]
 // Global size of both: (tiles_x, tiles_y).
 #include "base/colour.clh"
@@ -67,7 +69,7 @@ int least_between(const int first, const int last) {
 __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict key,
                         __global const int* restrict largest,
                         __global const uint* restrict coverage, __global ulong* restrict tiles,
-                        __global int* restrict least) {
+                        __global int* restrict least, __global uint* restrict special_rows) {
   const uint tile_x = get_global_id(0), tile_y = get_global_id(1);
   if (tile_x >= p.tiles_x || tile_y >= p.tiles_y) return;
   const int x0 = (int)tile_x * DEFRAY_RAY_TILE, y0 = (int)tile_y * DEFRAY_RAY_TILE;
@@ -76,6 +78,7 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
   ulong found[2 * DEFRAY_RAY_WORDS];
   for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) found[w] = 0ul;
   int least_found = INT_MAX;
+  uint rows = 0u;
   for (uint layer = 0; layer < p.layers; ++layer) {
     for (int y = y0; y < y1; ++y) {
       const size_t row = padded_layer(p) * layer + padded_at(p, 0, y);
@@ -88,6 +91,7 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
         const int last = p.has_spans ? largest[row + x] : quanta;
         least_found = min(least_found, least_between(quanta, last));
         const bool is_plain = layer == 0u && (!p.has_coverage || coverage[row + x] == DEFRAY_WHOLE);
+        if (!is_plain) rows |= 1u << (y - y0);
         const int last_bin = bin_of(p, last);
         for (int bin = bin_of(p, quanta); bin <= last_bin; ++bin) {
           found[(is_plain ? 0 : DEFRAY_RAY_WORDS) + bin / 64] |= 1ul << (bin % 64);
@@ -96,6 +100,7 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
     }
   }
   least[tile_y * p.tiles_x + tile_x] = least_found;
+  special_rows[tile_y * p.tiles_x + tile_x] = rows;
   const size_t to = (size_t)(tile_y * p.tiles_x + tile_x) * (2 * DEFRAY_RAY_WORDS);
   for (int w = 0; w < 2 * DEFRAY_RAY_WORDS; ++w) tiles[to + w] = found[w];
 }
