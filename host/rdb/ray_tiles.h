@@ -33,8 +33,8 @@ struct RayTiles {
   PaddedPlanes padded;
   std::vector<TileBins> held, reach;
   std::vector<std::int32_t> least;  ///< |radius|, quanta; 0 where the front has a hole.
-  std::vector<std::uint32_t>
-      special_rows;  ///< Of a tile, a bit each: with others than plain surfaces.
+  /// A tile's rows, a bit each: those that hold others than plain surfaces.
+  std::vector<std::uint32_t> special_rows;
 };
 
 /// The bins of a frame's radii.
