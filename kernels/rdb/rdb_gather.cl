@@ -8,8 +8,8 @@
 // lens's order, as rdb_merge adds them: the same sums.
 //
 // A tile's bins say which radii there are within reach; only segments that meet them are looked at.
-// Where others than plain surfaces are among them, each segment's sources are asked whether they
-// are: few are, and the rest go the short way (find_hits, add_hits).
+// Where others than plain surfaces are within reach, each segment's sources are asked whether they
+// may be such; plain ones go the short way (find_hits, add_hits).
 // The cells come in passes: some devices end a kernel's loops after so many turns, or a kernel
 // after so many seconds.
 //
