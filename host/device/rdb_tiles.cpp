@@ -12,7 +12,7 @@ namespace {
 
 // It writes keys, largest radii, what sends rays, coverage, and colours.
 const LaunchRow rdb_pad_launch({.kernel = "rdb_pad",
-                                .group = {64, 1},
+                                .group = {1, 1},
                                 .bytes_a_surface = 4 * Launch::plane + Launch::colour});
 const LaunchRow rdb_reach_launch({.kernel = "rdb_reach", .group = {16, 1}});
 const LaunchRow rdb_tiles_launch({.kernel = "rdb_tiles", .group = {16, 1}});
@@ -77,7 +77,8 @@ void RayTileWindow::prepare(const BandRows& rows) {
   sending = plane(params.has_coverage);
   coverage = plane(params.has_coverage);
   channels = four_channels(params.channels, [&](std::size_t) { return plane(true); });
-  session_.launch("rdb_pad", {params.stride, lines()}, params, planes.coc, planes.depth,
+  const std::size_t lanes = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
+  session_.launch("rdb_pad", {params.stride / lanes, lines()}, params, planes.coc, planes.depth,
                   planes.coverage, planes.channels, keys, largest, sending, coverage, channels);
 
   const std::size_t bytes = std::size_t{params.tiles_x} * params.tiles_y * sizeof(TileBins);

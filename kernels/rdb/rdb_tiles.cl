@@ -8,7 +8,7 @@
 //   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
 //   coverage  as it is; if has_coverage
 //   channels  as they are
-// Global size: (stride, padded rows x layers).
+// Global size: (runs of a padded row, or its columns (lanes.clh), padded rows x layers).
 //
 // rdb_tiles finds the bins of CoC radii that a tile's fragments span, in two sets of bits: those of
 // whole surfaces that were seen, one a pixel, and those of all others; the least |radius| of all, 0
@@ -25,7 +25,24 @@
 #include "base/colour.clh"
 #include "base/pcg3d.clh"
 #include "rdb/rays.clh"
-#include "rdb/span.clh"
+#include "rdb/span_run.clh"
+
+// Of a run's coverage: what `sends` in rdb_scatter asks for.
+INLINED ints sending_of(const DefrayRaysParams p, const int x, const int y, const ints share,
+                        const ints is_there) {
+  int turns[LANES];
+  for (int i = 0; i < LANES; ++i) {
+    const uint2 at = (uint2)((uint)(x + i + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
+    turns[i] = as_int(pcg3d((uint3)(at, 0u)).z & 0xffffu);
+  }
+  return (LOAD(turns) | as_ints(as_uints(share - (ints)(1)) << 16)) & is_there;
+}
+
+// Copies a run's values to its place in a padded plane.
+INLINED void pad(const Fragments f, __global const float* restrict plane, const int3 at,
+                 __global float* padded, const size_t to) {
+  STORE(as_floats(run_at(f, (__global const int*)plane, at)), padded + to);
+}
 
 __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc_quanta,
                       __global const uint* restrict depth_bits,
@@ -33,28 +50,34 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
                       __global int* restrict padded_key, __global int* restrict padded_largest,
                       __global uint* restrict padded_sending,
                       __global uint* restrict padded_coverage, WRITTEN_CHANNELS(padded)) {
-  const uint column = get_global_id(0), line = get_global_id(1);
+  const uint column = get_global_id(0) * LANES, line = get_global_id(1);
   const uint rows = p.window_rows + 2u * DEFRAY_RAY_TILE;
   if (column >= p.stride || line >= rows * p.layers) return;
-  const uint layer = line / rows;
-  const int x = (int)column - DEFRAY_RAY_RUN, y = (int)(line % rows) - DEFRAY_RAY_TILE;
+  const int3 at = (int3)((int)column - DEFRAY_RAY_RUN, (int)(line % rows) - DEFRAY_RAY_TILE,
+                         (int)(line / rows));
   const size_t to = (size_t)line * p.stride + column;
-  const bool is_inside = x >= 0 && x < (int)p.width && y >= 0 && y < (int)p.window_rows;
-  const size_t from = is_inside ? ((size_t)y * p.layers + layer) * p.width + (uint)x : 0;
-  const uint share = p.has_coverage ? coverage[from] & ~DEFRAY_SYNTHESISED : DEFRAY_WHOLE;
-  const bool is_there = is_inside && depth_bits[from] != DEFRAY_EMPTY && share > 0u;
-  const int radius = coc_quanta[from];
-  const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
-  const int2 span =
-      is_there && p.has_spans ? span_of(all, (int3)(x, y, (int)layer)) : (int2)(radius);
-  padded_key[to] = is_there ? span.x : DEFRAY_NO_KEY;
-  if (p.has_spans) padded_largest[to] = is_there ? span.y : DEFRAY_NO_KEY;
-  set_colour(CHANNELS(padded), to, is_inside ? colour_at(CHANNELS(channel), from) : (float4)(0.0f));
-  if (!p.has_coverage) return;
-  const uint2 at = (uint2)((uint)(x + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
-  const uint turn = pcg3d((uint3)(at, 0u)).z & 0xffffu;
-  padded_sending[to] = is_there ? turn | (share - 1u) << 16 : 0u;
-  padded_coverage[to] = is_inside ? coverage[from] : 0u;
+  const Fragments f = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
+  Run own;
+  find_run(f, at, &own);
+  if (p.has_coverage) {
+    const ints covered = run_at(f, (__global const int*)coverage, at);
+    const ints share = covered & (ints)((int)~DEFRAY_SYNTHESISED);
+    const ints sends = own.is_there & IS(share != (ints)(0));
+    STORE(covered, (__global int*)padded_coverage + to);
+    STORE(sending_of(p, at.x, at.y, share, sends), (__global int*)padded_sending + to);
+    own.is_there = sends;
+  }
+  ints least = own.radius, largest = own.radius;
+  if (p.has_spans && any_of(own.is_there)) find_spans(f, at, &own, &least, &largest);
+  const ints none = DEFRAY_NO_KEY;
+  STORE((least & own.is_there) | (none & ~own.is_there), padded_key + to);
+  if (p.has_spans) {
+    STORE((largest & own.is_there) | (none & ~own.is_there), padded_largest + to);
+  }
+  pad(f, channel0, at, padded0, to);
+  pad(f, channel1, at, padded1, to);
+  pad(f, channel2, at, padded2, to);
+  pad(f, channel3, at, padded3, to);
 }
 
 int bin_of(const DefrayRaysParams p, const int radius) {
