@@ -12,7 +12,7 @@ namespace {
 
 // It writes keys, largest radii, what sends rays, coverage, and colours.
 const LaunchRow rdb_pad_launch({.kernel = "rdb_pad",
-                                .group = {1, 1},
+                                .group = {8, 1},
                                 .bytes_a_surface = 4 * Launch::plane + Launch::colour});
 const LaunchRow rdb_reach_launch({.kernel = "rdb_reach", .group = {16, 1}});
 const LaunchRow rdb_tiles_launch({.kernel = "rdb_tiles", .group = {16, 1}});
