@@ -39,7 +39,7 @@ INLINED ints sending_of(const DefrayRaysParams p, const int x, const int y, cons
 }
 
 // Copies a run's values to its place in a padded plane.
-INLINED void pad(const Fragments f, __global const float* restrict plane, const int3 at,
+INLINED void pad(const Fragments f, __global const float* plane, const int3 at,
                  __global float* padded, const size_t to) {
   STORE(as_floats(run_at(f, (__global const int*)plane, at)), padded + to);
 }
