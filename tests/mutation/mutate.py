@@ -174,9 +174,9 @@ class Run:
             self.note(mutant, outcome, known["seconds"] if known else time.time() - begin, not known)
 
     def run(self):
-        """Whether all were tried: --count, then one by one up to --most while the score is below --least."""
+        """Whether all were tried: --count, then one by one up to --most while there is no score, or one below --least."""
         finished = self.try_all(self.mutants[:self.count])
-        while finished and self.score() < self.least and self.count < len(self.mutants):
+        while finished and self.score(if_none=0) < self.least and self.count < len(self.mutants):
             self.count += 1
             finished = self.try_all(self.mutants[self.count - 1:self.count])
         if not finished:
@@ -217,12 +217,12 @@ class Run:
             score = f"{100 * dead / tried:5.1f} %" if tried else "    –"
             print(f"{folder:18} {r['killed']:6}  {r['timed out']:9}  {r['survived']:8}  {r['equivalent']:10}  {r['does not compile']:16}  {score}")
 
-    def score(self):
+    def score(self, if_none=100):
         """Per cent killed of those that could be."""
         outcomes = [entry["outcome"] for _, entry in self.results]
         dead = sum(o.startswith(("killed", "timed out")) for o in outcomes)
         tried = dead + sum(o.startswith("survived") for o in outcomes)
-        return 100 * dead / tried if tried else 100
+        return 100 * dead / tried if tried else if_none
 
 
 def main():
