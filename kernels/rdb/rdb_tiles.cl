@@ -57,7 +57,7 @@ __kernel void rdb_pad(const DefrayRaysParams p, __global const int* restrict coc
                          (int)(line / rows));
   const size_t to = (size_t)line * p.stride + column;
   const Fragments f = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
-  Run own;
+  Radii own;
   find_run(f, at, &own);
   if (p.has_coverage) {
     const ints covered = run_at(f, (__global const int*)coverage, at);
