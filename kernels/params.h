@@ -48,6 +48,10 @@
 #define DEFRAY_SMALL_STEP_QUANTA 16
 /// Depth is anti-aliased across steps of the CoC above this (2 px), or it does not matter.
 #define DEFRAY_RAMP_QUANTA 512
+/// Of a pixel whose depth lies between two surfaces' `repair` says which pixel has that of the
+/// nearer one in CoC, up to 2 px away along each axis, as 1 + (2 + dx) + 5 (2 + dy); and, with this
+/// flag, that its colour is a mean of theirs, too.
+#define DEFRAY_RAMP_MIXES 32u
 /// CoC radii count as no larger than this where differences are taken: 2^20 px.
 #define DEFRAY_TAME_QUANTA (1 << 28)
 /// Side of the square tiles in which `fill` may have something to do, in pixels: whole runs.

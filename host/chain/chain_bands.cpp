@@ -48,9 +48,9 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   const std::int64_t fill = reach.fill, patterns = reach.patterns;
   // A stage that is ahead of another is so by whole steps.
   const std::int64_t rows = bands.rows < e.height ? bands.rows + 2 * band_step : bands.rows;
-  // CoC before and after the repair, where from, 1/depth, mixed.
+  // CoC, what of it is to be repaired, 1/depth, mixed.
   const std::size_t front =
-      (5 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
+      (4 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
   const std::size_t behind =
       (2 + channels) * plane(rows + patterns) + (patterns > 0 ? plane(rows + 2 * patterns) : 0);
   const std::size_t front_and_behind = front + (has_behind ? behind : 0);

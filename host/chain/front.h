@@ -1,5 +1,6 @@
 #pragma once
 // What the picture shows, with its margin: the stages border, repair and mixed.
+#include "chain/antialiased.h"
 #include "chain/chain_work.h"
 
 namespace defray {
@@ -9,7 +10,7 @@ class Front {
   /// `picture` must stay alive.
   Front(const Frame& picture, ChainWork& work);
 
-  /// Whether depth was anti-aliased, and whether there are edges: of all rows.
+  /// Where depth was anti-aliased, and whether there are edges: of all rows.
   void look_at_all();
 
   /// Works out all rows before `end`.
@@ -28,16 +29,19 @@ class Front {
 
  private:
   void coc_to(int end);
-  void sources_to(int end);
+  void ramps_to(int end);
   void surfaces_to(int end);
+  std::size_t count_mixed();
+  void look_for_ramps();
   void move_surfaces(Rows rows);
 
   const Frame& picture_;
   ChainWork& work_;
-  Frame before_;  ///< CoC before anything was repaired.
-  Words source_;  ///< Whose surface each pixel has.
-  bool is_antialiased_ = false, has_edges_ = false, is_decided_ = false;
-  int coc_done_ = 0, sources_done_ = 0, surfaces_done_ = 0, mixed_done_ = 0, kept_ = 0;
+  Words ramps_;  ///< Of the picture: what `repair` says.
+  Antialiased antialiased_;
+  bool is_repaired_ = false, has_edges_ = false;
+  int coc_done_ = 0, ramps_done_ = 0, surfaces_done_ = 0, mixed_done_ = 0;
+  int kept_ = 0, ramps_kept_ = 0;
 };
 
 }  // namespace defray

@@ -28,10 +28,10 @@ cv::Size text_size(const std::string& text, double scale = text_scale) {
   return cv::getTextSize(text, font, scale, 1, nullptr);
 }
 
-/// The scale, `largest` or less, at which a text fits.
-double fitting_scale(const std::string& text, double largest, int width) {
-  const int wide = text_size(text, largest).width;
-  return wide > width ? largest * width / wide : largest;
+/// The scale, `most` or less, at which a text fits.
+double fitting_scale(const std::string& text, double most, int width) {
+  const int wide = text_size(text, most).width;
+  return wide > width ? most * width / wide : most;
 }
 
 void put_text(cv::Mat& image, const std::string& text, cv::Point left_bottom,

@@ -14,7 +14,7 @@ struct Name {
 
 #define DEFRAY_NAME(name) \
   Name { name, #name }
-constexpr Name names[] = {
+constexpr Name error_names[] = {
     DEFRAY_NAME(CL_DEVICE_NOT_FOUND),       DEFRAY_NAME(CL_DEVICE_NOT_AVAILABLE),
     DEFRAY_NAME(CL_COMPILER_NOT_AVAILABLE), DEFRAY_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE),
     DEFRAY_NAME(CL_OUT_OF_RESOURCES),       DEFRAY_NAME(CL_OUT_OF_HOST_MEMORY),
@@ -29,9 +29,9 @@ constexpr Name names[] = {
 }  // namespace
 
 std::string opencl_error_name(int code) {
-  const auto* const found = std::find_if(std::begin(names), std::end(names),
+  const auto* const found = std::find_if(std::begin(error_names), std::end(error_names),
                                          [&](const Name& n) { return n.code == code; });
-  return found == std::end(names) ? fmt::format("OpenCL error {}", code) : found->name;
+  return found == std::end(error_names) ? fmt::format("OpenCL error {}", code) : found->name;
 }
 
 }  // namespace defray
