@@ -16,8 +16,8 @@ namespace {
 /// in 3 to 15 lies between two surfaces (`cutout`, before nothing, one in 40).
 constexpr std::size_t mixed_a_ramp = 20;
 
-/// The share of colours that are means, in percent: 78 to 99 where depth was anti-aliased (65 to 71:
-/// grass), 18 to 58 where it was not (more where rims happen to have their neighbours' mean).
+/// The share of colours that are means, in percent: 78 to 99 where depth was anti-aliased (65 to
+/// 71: grass), 18 to 58 where it was not (more where rims happen to have their neighbours' mean).
 constexpr std::size_t least_means_percent = 60;
 
 /// Pixels count together in squares of three by three cells, to which so many come that are as
@@ -84,7 +84,7 @@ void Antialiased::decide(std::size_t mixed) {
       if (own.is_antialiased) pixels_ += own.ramps;
     }
   }
-  if (pixels_ * mixed_a_ramp >= mixed) return;
+  if (pixels_ > 0 && pixels_ * mixed_a_ramp >= mixed) return;
   for (Cell& own : cells_) own.is_antialiased = false;
   pixels_ = 0;
 }

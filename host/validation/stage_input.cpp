@@ -44,17 +44,26 @@ Frame blurred(const Case& c, Frame frame) {
   const auto seed = static_cast<int>(c.seed % 8);
   const int along_x = seed % 4 != 1, along_y = seed % 4 == 0 ? 0 : seed % 4 == 3 ? -1 : 1;
   const int count = 2 + seed / 4;
-  std::vector<std::int32_t> out;
-  for (int y = 0; y < frame.height; ++y) {
-    for (int x = 0; x < frame.width; ++x) {
-      std::int64_t sum = 0;
-      for (int k = 0; k < count; ++k) {
-        sum += frame.coc_quanta[frame.index_within(x + k * along_x, y + k * along_y)];
+  const auto mean_of = [&]<typename T, typename Sum>(Values<T>& plane, Sum, const auto& is_mean) {
+    std::vector<T> out;
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        Sum sum = 0;
+        for (int k = 0; k < count; ++k) {
+          sum += plane[frame.index_within(x + k * along_x, y + k * along_y)];
+        }
+        out.push_back(is_mean(x, y) ? static_cast<T>(sum / static_cast<Sum>(count))
+                                    : plane[frame.index(x, y)]);
       }
-      out.push_back(static_cast<std::int32_t>(sum / count));
     }
+    plane = std::move(out);
+  };
+  const auto everywhere = [](int, int) { return true; };
+  mean_of(frame.coc_quanta, std::int64_t{}, everywhere);
+  mean_of(frame.depth, float{}, everywhere);
+  for (Values<float>& channel : frame.channels) {
+    mean_of(channel, float{}, [](int x, int y) { return (x / 8 + y / 8) % 3 != 0; });
   }
-  frame.coc_quanta = std::move(out);
   return frame;
 }
 

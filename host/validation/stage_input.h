@@ -12,7 +12,8 @@ namespace defray::validation {
 /// 1/depth with the background at 0.
 Frame stage_frame(const Case& c, const Input& in);
 
-/// The frame's CoC with anti-aliased steps: means of two or three pixels along a direction.
+/// The frame with anti-aliased steps: CoC and depth are means of two or three pixels along a
+/// direction, and in two of three blocks of 8 px colours, too.
 Frame blurred(const Case& c, Frame frame);
 
 /// The case's fragments with CoC radii that lie together.

@@ -1,119 +1,11 @@
-// Kernels repair and mixed: anti-aliased depth, and where one surface ends before another.
+// Kernel mixed: where one surface ends before another.
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
-#include "chain/chain.h"
 #include "faults/fault.h"
-#include "scenes/subject.h"
 #include "stages_support.h"
 
 namespace defray::test::mixed_test {
 namespace {
-
-constexpr int side = 21;
-
-/// CoC of two surfaces, 0 and 1024 quanta, parted by a line across (dx, dy) through the middle,
-/// `offset_px` away; over `width_px` around it depth is anti-aliased.
-std::vector<std::int32_t> step_along(int dx, int dy, double width_px, double offset_px, int sign) {
-  std::vector<std::int32_t> coc;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const double along = ((x - side / 2) * dx + (y - side / 2) * dy) / std::hypot(dx, dy);
-      const double from_line = along - offset_px;
-      const double share = width_px > 0 ? std::clamp(0.5 + from_line / width_px, 0.0, 1.0)
-                                        : (from_line > 0 ? 1.0 : 0.0);
-      coc.push_back(sign * static_cast<std::int32_t>(1024 * share));
-    }
-  }
-  return coc;
-}
-
-/// An eighth of the step: as good as on the surface.
-bool is_close(int a, int b) { return std::abs(a - b) <= 1024 / 8; }
-
-/// Number of pixels that were on neither surface, and now are on one.
-int expect_ramp_repaired(const std::vector<std::int32_t>& coc) {
-  const Words source = device().repair({side, side, coc});
-  int ramps = 0;
-  for (int y = 4; y < side - 4; ++y) {
-    for (int x = 4; x < side - 4; ++x) {
-      const auto i = static_cast<std::size_t>(y * side + x);
-      const int before = std::abs(coc[i]), after = std::abs(coc[source[i]]);
-      EXPECT_TRUE(is_close(after, 0) || is_close(after, 1024)) << x << " " << y << ": " << after;
-      if (!is_close(before, 512)) {  // the nearer one
-        EXPECT_EQ(after > 512, before > 512) << x << " " << y;
-      }
-      if (before == 0 || before == 1024) {
-        EXPECT_EQ(source[i], i);
-      }
-      ramps += !is_close(before, 0) && !is_close(before, 1024);
-    }
-  }
-  return ramps;
-}
-
-TEST(Repair, AntiAliasedDepthIsPutOnOneOfTheTwoSurfaces) {
-  for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}, {-1, 0}, {-1, -1}}) {
-    for (const double width_px : {1.0, 1.5, 2.0}) {
-      for (const double offset_px : {0.0, 0.25, -0.25, 0.5}) {
-        for (const int sign : {1, -1}) {
-          SCOPED_TRACE(fmt::format("({}, {}), {} px at {}", dx, dy, width_px, offset_px));
-          const int ramps = expect_ramp_repaired(step_along(dx, dy, width_px, offset_px, sign));
-          const bool is_on_pixel_border = width_px == 1 && offset_px == 0.5 && dx * dy == 0;
-          EXPECT_EQ(ramps > 0, !is_on_pixel_border);
-        }
-      }
-    }
-  }
-}
-
-TEST(Repair, SharpEdgesSlopesAndSmallStepsStay) {
-  const auto expect_untouched = [](const std::vector<std::int32_t>& coc) {
-    std::vector<std::uint32_t> own(coc.size());
-    std::iota(own.begin(), own.end(), 0u);
-    EXPECT_EQ(device().repair({side, side, coc}), Words(own));
-  };
-  for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
-    expect_untouched(step_along(dx, dy, 0, 0.25, 1));
-    auto small = step_along(dx, dy, 1, 0, 1);
-    for (std::int32_t& c : small) c /= 2;  // 512 quanta: not above a ramp's
-    expect_untouched(small);
-    std::vector<std::int32_t> slope;
-    for (int i = 0; i < side * side; ++i)
-      slope.push_back(700 * (dx * (i % side) + dy * (i / side)));
-    // At the frame's edge a slope's end cannot be told from a flat surface's.
-    const Words source = device().repair({side, side, slope});
-    for (int y = 4; y < side - 4; ++y) {
-      for (int x = 4; x < side - 4; ++x) {
-        EXPECT_EQ(source[static_cast<std::size_t>(y * side + x)],
-                  static_cast<std::uint32_t>(y * side + x));
-      }
-    }
-  }
-}
-
-/// Pixels that the chain repairs of a built-in scene's picture.
-std::size_t repaired(const std::string& scene, int width, int height, bool is_antialiased) {
-  Subject s = make_subject(device(), make_scene(scene, width, height),
-                           make_scene(scene, 8, 8).settings[0].name);
-  if (is_antialiased) s.pinhole.depth = render_pinhole(s.scene, {16, true}).depth;
-  s.coc = device().coc(s.lens, width, s.pinhole.depth);
-  ChainSettings settings;
-  settings.hidden = Hidden::off;
-  RdbSettings rdb;
-  rdb.cells_per_side = 2;
-  return run_chain(s.frame(), settings, device()).report->repaired;
-}
-
-TEST(Repair, IsDoneWhereDepthWasAntialiasedAndNotForRimsOfRoundThings) {
-  if (is_slow_device()) GTEST_SKIP() << "whole pictures";
-  for (const auto& [scene, width] :
-       {std::pair{"plate1", 640}, {"plate2", 320}, {"spheres", 320}, {"drift", 320}}) {
-    EXPECT_EQ(repaired(scene, width, width * 3 / 4, false), 0u) << scene;
-    EXPECT_GT(repaired(scene, width, width * 3 / 4, true), 100u) << scene;
-  }
-}
 
 TEST(Mixed, BothSidesOfAStepAreMixedAndOneOfThreeQuartersOfAPixelIsNone) {
   Canvas f(12, 6);
@@ -161,31 +53,6 @@ TEST(Mixed, AnEdgeOnASlopeIsSeen) {
 }
 
 const FaultRows faults{
-    {"repair", "the other end of the ramp", {"side < 0 ? low : high", "side < 0 ? high : low"}},
-    {"repair", "ties to the far end", {"<= abs(to_high) ? -1", "< abs(to_high) ? -1"}},
-    {"repair", "falling ramps forgotten", {"abs(rise) > DEFRAY_RAMP", "rise > DEFRAY_RAMP"}},
-    {"repair",
-     "slopes taken for ramps",
-     {"if (!is_steep || !is_between || !is_flat)", "if (!is_steep || !is_between)"}},
-    {"repair",
-     "as good as on a surface, and moved to it",
-     {"abs(from_low) > abs(rise) / 8", "abs(from_low) > abs(rise) / 16"}},
-    {"repair",
-     "ramps of three jumps are level",
-     {"largest <= (int16)(DEFRAY_RAMP_QUANTA / 2)",
-      "largest <= (int16)(3 * DEFRAY_RAMP_QUANTA / 2)"}},
-    {"repair",
-     "CoC without its limit",
-     {"return tame(coc_quanta[pixel]);", "return coc_quanta[pixel];"}},
-    {"repair", "only ramps of one pixel", {"i < 16 && !done", "i < 4 && !done"}},
-    {"repair", "last ramp found counts", {"i < 16 && !done", "i < 16"}},
-    {"repair", "diagonal along x alone", {"(int2)(1, -1)}", "(int2)(1, 0)}"}},
-    {"repair", "anti-diagonal the wrong way", {"(int2)(1, -1)}", "(int2)(1, 1)}"}},
-    {"repair", "flatness beyond one end only", {"&& abs(after - high) < abs(rise) / 8", ""}},
-    {"repair",
-     "without a frame's edge pixels beyond it",
-     {"clamp(at.y, 0, (int)height - 1)",
-      "clamp(at.y, 0, (int)height - 2 > 0 ? (int)height - 2 : 0)"}},
     {"mixed",
      "sign: only towards the far side",
      {"largest = max(largest, apart(coc, own));\n    }\n  }\n  int16 is_mixed",

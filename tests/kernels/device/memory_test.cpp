@@ -35,11 +35,11 @@ struct Stage {
 };
 
 TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
-  const Frame frame = tall_frame();
+  const Frame frame = tall_frame(), deep = tall_frame_with_depth();
   const Words mixed = device().mixed(frame);
   const Frame behind = device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS);
   const std::vector<Stage> stages = {
-      {"repair", 0, 1, [&] { device().repair(frame); }},
+      {"repair", 0, 1, [&] { device().repair(deep); }},
       {"mixed", 0, 1, [&] { device().mixed(frame); }},
       {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS); }},
       {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
