@@ -12,20 +12,6 @@
 #include "base/colour.clh"
 #include "base/run.clh"
 
-// A ramp along a line of pixels: flat, then steadily up or down through the middle one, then flat,
-// all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come closer to one end.
-// Returns -1 or 1, the end of it that is nearer in CoC, or 0 where there is none.
-int ramp(const int before, const int low, const int middle, const int high, const int after) {
-  const int rise = high - low;
-  const int from_low = middle - low, to_high = high - middle;
-  const bool is_steep = abs(rise) > DEFRAY_RAMP_QUANTA;
-  const bool is_between = (rise > 0) == (from_low > 0) && (rise > 0) == (to_high > 0) &&
-                          abs(from_low) > abs(rise) / 8 && abs(to_high) > abs(rise) / 8;
-  const bool is_flat = abs(low - before) < abs(rise) / 8 && abs(after - high) < abs(rise) / 8;
-  if (!is_steep || !is_between || !is_flat) return 0;
-  return abs(from_low) <= abs(to_high) ? -1 : 1;
-}
-
 float square_of(const float4 v) {
   const float4 squares = v * v;
   return squares.x + squares.y + squares.z + squares.w;
@@ -61,30 +47,48 @@ int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quant
   return largest <= (int16)(DEFRAY_RAMP_QUANTA / 2);
 }
 
-// What is said of one pixel.
-uint ramp_at(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-             __global const float* restrict depth_units, CHANNEL_PARAMETERS(channel),
-             const int2 at) {
+// A way through a pixel, of sixteen: its ends are looked for one and two pixels away, as a ramp may
+// be one or two pixels wide.
+typedef struct {
+  int2 back, ahead, step;
+} Line;
+
+Line line_of(const int i) {
   const int2 directions[4] = {(int2)(1, 0), (int2)(0, 1), (int2)(1, 1), (int2)(1, -1)};
+  const int2 d = directions[i % 4];
+  const Line line = {-(1 + i / 4 % 2) * d, (1 + i / 8) * d, d};
+  return line;
+}
+
+// Which pixels of a run are on a ramp along a way: flat, then steadily up or down through the
+// pixel, then flat, all to 1/8 of it: so far a pixel's depth may be off. Rims of round things come
+// closer to one end.
+int16 has_ramp(const DefrayFrameParams p, __global const int* restrict coc_quanta, const int2 start,
+               const Line line) {
+  const int16 low = coc_of_run(p.width, p.height, coc_quanta, start + line.back);
+  const int16 high = coc_of_run(p.width, p.height, coc_quanta, start + line.ahead);
+  const int16 rise = apart(high, low), eighth = rise / 8;
+  const int16 is_steep = rise > (int16)(DEFRAY_RAMP_QUANTA);
+  if (!any_lane(is_steep)) return 0;
+  const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
+  const int16 before = coc_of_run(p.width, p.height, coc_quanta, start + line.back - line.step);
+  const int16 after = coc_of_run(p.width, p.height, coc_quanta, start + line.ahead + line.step);
+  const int16 is_between = own > min(low, high) + eighth & own < max(low, high) - eighth;
+  return is_steep & is_between & apart(low, before) < eighth & apart(after, high) < eighth;
+}
+
+// What is said of a pixel that is on a ramp along a way: its end that is nearer in CoC.
+uint ramp_at(const DefrayFrameParams p, __global const int* restrict coc_quanta,
+             __global const float* restrict depth_units, CHANNEL_PARAMETERS(channel), const int2 at,
+             const Line line) {
   const uint own = pixel_at(p.width, p.height, at);
-  uint found = 0u;
-  // A ramp may be one or two pixels wide: its ends are looked for one and two pixels away.
-  for (int i = 0; i < 16 && found == 0u; ++i) {
-    const int2 d = directions[i % 4];
-    const int back = 1 + i / 4 % 2, ahead = 1 + i / 8;
-    const uint low = pixel_at(p.width, p.height, at - back * d);
-    const uint high = pixel_at(p.width, p.height, at + ahead * d);
-    const int side =
-        ramp(coc_of(coc_quanta, pixel_at(p.width, p.height, at - (back + 1) * d)),
-             coc_of(coc_quanta, low), coc_of(coc_quanta, own), coc_of(coc_quanta, high),
-             coc_of(coc_quanta, pixel_at(p.width, p.height, at + (ahead + 1) * d)));
-    const int2 end = side < 0 ? -back * d : ahead * d;
-    if (side != 0) {
-      found = (uint)(1 + (2 + end.x) + 5 * (2 + end.y));
-      if (mixes(depth_units, CHANNELS(channel), low, own, high)) found |= DEFRAY_RAMP_MIXES;
-    }
-  }
-  return found;
+  const uint low = pixel_at(p.width, p.height, at + line.back);
+  const uint high = pixel_at(p.width, p.height, at + line.ahead);
+  const int to_low = abs(coc_of(coc_quanta, own) - coc_of(coc_quanta, low));
+  const int to_high = abs(coc_of(coc_quanta, own) - coc_of(coc_quanta, high));
+  const int2 end = to_low <= to_high ? line.back : line.ahead;
+  const uint flag = mixes(depth_units, CHANNELS(channel), low, own, high) ? DEFRAY_RAMP_MIXES : 0u;
+  return (uint)(1 + (2 + end.x) + 5 * (2 + end.y)) | flag;
 }
 
 __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc_quanta,
@@ -93,15 +97,20 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
   store_ints(p.width, (__global int*)ramps, start, (int16)(0));
-  const int16 level = is_level(p, coc_quanta, start);
   // Not all_lanes: where Oclgrind looks for uninitialised reads, halves of vectors end it.
-  if (all(level)) return;
-  int is_done[RUN];
-  vstore16(level, 0, is_done);
+  if (all(is_level(p, coc_quanta, start))) return;
+  int16 first_line = 16;
+  for (int i = 15; i >= 0; --i) {
+    const int16 is_ramp = has_ramp(p, coc_quanta, start, line_of(i));
+    first_line = (is_ramp & (int16)(i)) | (~is_ramp & first_line);
+  }
+  int lines[RUN];
+  vstore16(first_line, 0, lines);
   const uint first = pixel_at(p.width, p.height, start);
   for (int i = 0; i < run_length(p.width, start); ++i) {
-    if (is_done[i]) continue;
+    if (lines[i] == 16) continue;
+    const int2 at = start + (int2)(i, 0);
     ramps[first + (uint)i] =
-        ramp_at(p, coc_quanta, depth_units, CHANNELS(channel), start + (int2)(i, 0));
+        ramp_at(p, coc_quanta, depth_units, CHANNELS(channel), at, line_of(lines[i]));
   }
 }
