@@ -25,7 +25,7 @@ one is); focal length, sensor and aperture in millimetres; the picture is as wid
 
 Examples:
   defray splat scan.ply -o out.exr --fstop 2.8 --focal-length 50
-  defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 1.4 --fov 40 --focal-length 50
+  defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 1.4 --fov 40
   defray splat --model figure -o turn.####.exr --turntable 36 --size 512x512 --fstop 2 --focal-length 50)";
 
 SplatModel model_of(const SplatCommand& job, bool has_bar) {
@@ -83,7 +83,9 @@ int run(const SplatCommand& job) {
   Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
   const bool has_bar = !job.quiet && !job.json;
   const SplatModel model = model_of(job, has_bar);
-  for (const std::string& note : model.notes()) print_error("defray: note: " + note);
+  const std::string source = job.input.empty() ? "model " + job.model : job.input;
+  for (const std::string& note : model.notes())
+    print_error("defray: note: " + source + ": " + note);
   std::vector<Plane> last;
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const SplatShot& shot = shots[i];

@@ -5,6 +5,8 @@
 namespace defray::cli {
 namespace {
 
+constexpr std::int64_t most_turn_frames = 100000;
+
 const WordTable<bool> on_off_words{{"on", true}, {"off", false}};
 const WordTable<SplatPsf> psf_words{{"gaussian", SplatPsf::gaussian}, {"disc", SplatPsf::disc}};
 const WordTable<SplatMerge> merge_words{{"nearest", SplatMerge::nearest},
@@ -27,7 +29,14 @@ OptionGroup main_rows(SplatCommand& job) {
             {.needs = {[](const Given& given) { return !given("input"); },
                        "stands instead of a file"}}},
            {"--model-points",
-            with_default(value(job.model_points), "the model's own"),
+            parsed<std::int64_t>(
+                [&job](std::int64_t points) {
+                  if (points < 1) {
+                    fail(ErrorKind::usage, "--model-points is {}: allowed are 1 on", points);
+                  }
+                  job.model_points = static_cast<std::size_t>(points);
+                },
+                "the model's own"),
             "About how many points it has",
             {.needs = {[](const Given& given) { return given("--model"); }, "goes with --model"}}},
            {"--cache",
@@ -57,7 +66,13 @@ OptionGroup view_rows(SplatCommand& job) {
         "Where the camera stands, scene units"},
        {"--look-at", with_default(place(job.look_at), "the cloud's middle"), "What it looks at"},
        {"--up", with_default(place(job.up), "0,1,0"), "What is up in the picture"},
-       {"--turntable", with_default(value(job.turntable), ""),
+       {"--turntable", parsed<std::int64_t>([&job](std::int64_t frames) {
+          if (frames < 1 || frames > most_turn_frames) {
+            fail(ErrorKind::usage, "--turntable is {}: allowed are 1 to {}", frames,
+                 most_turn_frames);
+          }
+          job.turntable = static_cast<int>(frames);
+        }),
         "So many frames of a turn around what is looked at"},
        {"--frames", with_default(value(job.frames), "the turn's, or every --camera that matches"),
         "1-8, 1-10x2, 1,5,9-12"},

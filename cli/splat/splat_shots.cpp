@@ -35,9 +35,6 @@ std::vector<int> turn_frames(const SplatCommand& job) {
 /// None: a picture without a number.
 std::vector<std::optional<int>> frames_of(const SplatCommand& job) {
   std::vector<int> frames;
-  if (job.turntable < 0) {
-    fail(ErrorKind::usage, "--turntable is {}: allowed are 1 on", job.turntable);
-  }
   if (job.turntable > 0) {
     frames = turn_frames(job);
   } else if (!job.frames.empty()) {
@@ -75,9 +72,13 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
   return shot;
 }
 
-/// The lens; without a focus it is on what is looked at, `focus` away.
+/// The lens; without a focus it is on what is looked at, `focus` away. A field of view alone is
+/// that of a camera whose sensor is as wide as the default one.
 Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
   CameraValues values = shot.camera;
+  if (!values.focal_length_mm && values.fov_deg && *values.fov_deg > 0 && *values.fov_deg < 180) {
+    values.focal_length_mm = Lens().sensor_width_mm / 2 / std::tan(*values.fov_deg * M_PI / 360);
+  }
   if (!values.focus_distance_units) values.focus_distance_units = focus;
   const Window display{0, 0, job.settings.width, job.settings.height};
   return make_lens(values, job.metres_per_unit, LensModel::cg, shot.max_coc_px, display);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/vec3.h"
 #include "lens/lens.h"
 #include "library/backend_of.h"
@@ -28,6 +29,21 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
 
 SplatModel::SplatModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
+namespace {
+
+/// Names the file in what is wrong with its points, and in notes.
+SplatModel of_file(const std::string& path, const Progress& progress) {
+  const PointCloud cloud = read_point_cloud(path);
+  try {
+    return SplatModel(cloud, progress);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    fail(ErrorKind::input, "{}: {}", path, error.what());
+  }
+}
+
+}  // namespace
+
 SplatModel SplatModel::read(const std::string& path, bool has_cache, const Progress& progress) {
   std::string why;
   if (has_cache) {
@@ -35,7 +51,7 @@ SplatModel SplatModel::read(const std::string& path, bool has_cache, const Progr
       return SplatModel(std::make_unique<State>(State{std::move(*cached)}));
     }
   }
-  SplatModel model(read_point_cloud(path), progress);
+  SplatModel model = of_file(path, progress);
   if (has_cache) write_cache(path, *model.state_);
   if (!why.empty()) model.state_->notes.push_back(why);
   return model;

@@ -36,7 +36,7 @@ void check_memory_for(std::uint64_t points, const std::string& path, const std::
 
 CloudColumns::CloudColumns(const std::vector<std::string>& given_names,
                            const std::vector<double>& whole_numbers, const std::string& path)
-    : whole_numbers_(whole_numbers) {
+    : whole_numbers_(whole_numbers), path_(path) {
   std::vector<std::string> names;
   for (const std::string& name : given_names) names.push_back(lower_case(name));
   const Group place = group(names, {"x", "y", "z"});
@@ -72,9 +72,19 @@ void CloudColumns::reserve(std::size_t points) {
   if (colour_) cloud_.colours.reserve(points);
 }
 
-float CloudColumns::colour(std::span<const double> row, std::size_t column) const {
+double CloudColumns::share(std::span<const double> row, std::size_t column) const {
   const double most = whole_numbers_[column];
-  return static_cast<float>(most > 0 ? srgb_decode(row[column] / most) : row[column]);
+  if (most == 0) return row[column];
+  if (!(row[column] >= 0 && row[column] <= most)) {
+    fail(ErrorKind::input, "{}: point {} has the colour {}: of its type allowed are 0 to {}", path_,
+         cloud_.positions.size() - 1, row[column], most);
+  }
+  return row[column] / most;
+}
+
+float CloudColumns::colour(std::span<const double> row, std::size_t column) const {
+  const double value = share(row, column);
+  return static_cast<float>(whole_numbers_[column] > 0 ? srgb_decode(value) : value);
 }
 
 void CloudColumns::add(std::span<const double> row) {
@@ -97,10 +107,7 @@ void CloudColumns::add(std::span<const double> row) {
     cloud_.colours.push_back(
         {colour(row, (*colour_)[0]), colour(row, (*colour_)[1]), colour(row, (*colour_)[2])});
   }
-  if (alpha_) {
-    const double most = whole_numbers_[*alpha_];
-    cloud_.alpha.push_back(static_cast<float>(most > 0 ? row[*alpha_] / most : row[*alpha_]));
-  }
+  if (alpha_) cloud_.alpha.push_back(static_cast<float>(share(row, *alpha_)));
 }
 
 PointCloud CloudColumns::take() && { return std::move(cloud_); }

@@ -31,12 +31,15 @@ class CloudColumns {
  private:
   using Group = std::optional<std::array<std::size_t, 3>>;  ///< Three columns that go together.
   Group group(const std::vector<std::string>& names, std::array<const char*, 3> wanted) const;
+  /// Of its type's largest; of floats the value.
+  double share(std::span<const double> row, std::size_t column) const;
   float colour(std::span<const double> row, std::size_t column) const;
 
   std::array<std::size_t, 3> place_{};
   Group normal_, colour_;
   std::optional<std::size_t> alpha_, radius_;
   std::vector<double> whole_numbers_;
+  std::string path_;
   bool has_origin_ = false;
   PointCloud cloud_;
 };

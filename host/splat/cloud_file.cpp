@@ -23,6 +23,7 @@ PointCloud read_point_cloud(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(ErrorKind::input, "{}: cannot be read: {}", path, std::strerror(errno));
   const std::uint64_t bytes = std::filesystem::file_size(path, ignored);
+  if (bytes == 0) fail(ErrorKind::input, "{}: is empty", path);
   return is_ply ? read_ply(file, bytes, path) : read_text_cloud(file, bytes, path);
 }
 

@@ -55,7 +55,7 @@ class PlyBody {
   void read_row(const PlyElement& element, std::uint64_t index, std::vector<double>& row) {
     row.clear();
     const auto next = [&](PlyType type) {
-      const double value = format_ == PlyFormat::ascii ? word() : binary(type);
+      const double value = format_ == PlyFormat::ascii ? word(element, index) : binary(type);
       if (!file_) {
         fail(ErrorKind::input, "{}: ends within element '{}', at {} of {}: it is cut off", path_,
              element.name, index, element.count);
@@ -73,6 +73,21 @@ class PlyBody {
     }
   }
 
+  /// After the last element: the header may have counted too few. Less than a row may follow.
+  void check_end(const PlyElement& last) {
+    std::uint64_t rest = 0;
+    std::string text;
+    if (format_ == PlyFormat::ascii) {
+      if (file_ >> text) rest = 1 + text.size();
+    } else {
+      while (rest < last.row_bytes() && file_.get() != std::istream::traits_type::eof()) ++rest;
+    }
+    const std::uint64_t row = format_ == PlyFormat::ascii ? 1 : last.row_bytes();
+    if (rest < row || row == 0) return;
+    fail(ErrorKind::input, "{}: goes on after the {} rows of element '{}': its header is wrong",
+         path_, last.count, last.name);
+  }
+
  private:
   double binary(PlyType type) {
     unsigned char bytes[8] = {};
@@ -83,13 +98,14 @@ class PlyBody {
   }
 
   /// By strtod, which reads nan and inf where a stream does not.
-  double word() {
+  double word(const PlyElement& element, std::uint64_t index) {
     std::string text;
     if (!(file_ >> text)) return 0;
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (*end != '\0') {
-      fail(ErrorKind::input, "{}: has '{}' where a number should be", path_, text.substr(0, 40));
+      fail(ErrorKind::input, "{}: has '{}' where a number should be, in element '{}', at {} of {}",
+           path_, text.substr(0, 40), element.name, index, element.count);
     }
     return value;
   }
@@ -164,6 +180,7 @@ PointCloud read_ply(std::istream& file, std::uint64_t bytes, const std::string& 
       body.read_row(element, i, row);
       columns.add(row);
     }
+    if (&element == &header.elements.back()) body.check_end(element);
     return std::move(columns).take();
   }
   fail(ErrorKind::input, "{}: has no element 'vertex', and so no points", path);

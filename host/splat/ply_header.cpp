@@ -39,7 +39,7 @@ class HeaderReader {
 
   PlyHeader read() {
     if (next_line() != "ply")
-      fail(ErrorKind::input, "{}: no PLY file: it does not begin so", path_);
+      fail(ErrorKind::input, "{}: no PLY file: it does not begin with a line 'ply'", path_);
     PlyHeader header;
     bool has_format = false;
     for (int i = 0; i < most_lines; ++i) {

@@ -10,6 +10,11 @@
 namespace defray {
 namespace {
 
+/// Farther from the first point, or larger, floats' squares and areas of pixels overflow.
+constexpr float most_units = 1e15f;
+/// Colours above this are hardly light of which white is 1.
+constexpr float bright_colour = 50;
+
 Vec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 bool is_finite(const std::array<float, 3>& v) {
@@ -32,7 +37,14 @@ void check_counts(const PointCloud& cloud) {
 std::vector<std::uint32_t> placed_points(const PointCloud& cloud, Surfels& out) {
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < cloud.positions.size(); ++i) {
-    if (is_finite(cloud.positions[i])) kept.push_back(i);
+    const auto& p = cloud.positions[i];
+    if (!is_finite(p)) continue;
+    if (std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}) > most_units) {
+      fail(ErrorKind::input,
+           "point {} lies {:g} {:g} {:g} units from the first one: allowed are {:g}", i, p[0], p[1],
+           p[2], most_units);
+    }
+    kept.push_back(i);
   }
   if (kept.empty()) {
     fail(ErrorKind::input, "the cloud has no points{}",
@@ -54,6 +66,10 @@ void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float given = given_cloud.radii.empty() ? 0 : given_cloud.radii[kept[i]];
     const bool is_given = std::isfinite(given) && given > 0;
+    if (is_given && given > most_units) {
+      fail(ErrorKind::input, "point {} has the radius {:g}: allowed are up to {:g}", kept[i], given,
+           most_units);
+    }
     without += !given_cloud.radii.empty() && !is_given;
     points[i].spacing = is_given ? static_cast<double>(given) : spacing_of(cloud, i);
     if (points[i].spacing > 0) known.push_back(points[i].spacing);
@@ -117,7 +133,7 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
   take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
   out.has_normals = cloud.is_oriented = given > 0;
-  if (out.has_normals && given < static_cast<std::ptrdiff_t>(points.size())) {
+  if (!given_cloud.normals.empty() && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));
   }
@@ -162,12 +178,22 @@ void check_colours(const PointCloud& cloud) {
   }
 }
 
+void note_bright_colours(const PointCloud& cloud, Surfels& out) {
+  float largest = 0;
+  for (const auto& c : cloud.colours) largest = std::max({largest, c[0], c[1], c[2]});
+  if (largest > bright_colour) {
+    out.notes.push_back(fmt::format(
+        "colours go up to {:g}: floats are linear light, of which white is 1", largest));
+  }
+}
+
 }  // namespace
 
 Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   check_counts(cloud);
   check_colours(cloud);
   Surfels out;
+  note_bright_colours(cloud, out);
   out.has_colours = !cloud.colours.empty();
   const std::vector<std::uint32_t> kept = placed_points(cloud, out);
   std::vector<std::array<float, 3>> places;

@@ -42,6 +42,8 @@ TEST_F(SplatCommand, EveryOptionChangesThePicture) {
     EXPECT_NE(hash(wide_lens + option), plain) << option;
   }
   EXPECT_NE(hash("--fstop 0.05 --focal-length 50"), hash("--fstop 0.1 --focal-length 50"));
+  EXPECT_EQ(hash("--fstop 0.1 --fov 90"), hash("--fstop 0.1 --focal-length 18"))
+      << "a field of view alone";
   // What a point cloud has no other picture for.
   EXPECT_EQ(hash(wide_lens + "--device reference"), plain);
   EXPECT_EQ(hash(wide_lens + "--quiet"), plain);
@@ -186,7 +188,8 @@ TEST_F(SplatCommand, FilesAreRead) {
   points.close();
   const Result result = defray(folder_, "splat p.xyz -o o.exr --size 48x32 " + wide_lens);
   expect_ok(result);
-  EXPECT_NE(result.err.find("1 of 401 points have no finite place"), std::string::npos);
+  EXPECT_NE(result.err.find("note: p.xyz: 1 of 401 points have no finite place"),
+            std::string::npos);
   const ImageFile file = ImageFile::read(folder_ / "o.exr");
   EXPECT_GT(file.plane(0, 3)[16 * 48 + 24], 0.95f);
   // Seen from behind, too: estimated normals have no outside.
@@ -244,6 +247,13 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat a.ply --model figure -o o.exr " + wide_lens, 2, {"--model", "stands instead"});
   refused("splat a.ply --model-points 3 -o o.exr " + wide_lens, 2,
           {"--model-points", "goes with --model"});
+  for (const std::string few : {"0", "-4"}) {
+    refused("splat --model figure --model-points " + few + " -o o.exr " + wide_lens, 2,
+            {"--model-points is " + few + ": allowed are 1 on"});
+  }
+  std::ofstream(folder_ / "far.xyz") << "0 0 0\n1e20 0 0\n0 1 0\n";
+  refused("splat far.xyz -o o.exr " + wide_lens, 3,
+          {"far.xyz: point 1 lies 1e+20 0 0 units from the first one: allowed are 1e+15"});
   refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "No such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,
@@ -268,6 +278,9 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused(figure + "-o o.exr --turntable 3 " + wide_lens, 2,
           {"o.exr", "3 frames would go to one file"});
   refused(figure + "-o o.####.exr --turntable -1 " + wide_lens, 2, {"--turntable is -1"});
+  refused(figure + "-o o.####.exr --turntable 0 " + wide_lens, 2, {"--turntable is 0"});
+  refused(figure + "-o o.####.exr --turntable 1000000000 " + wide_lens, 2,
+          {"--turntable is 1000000000: allowed are 1 to 100000"});
 }
 
 TEST_F(SplatCommand, WithoutAScreenThereIsNothingToShow) {

@@ -98,7 +98,7 @@ TEST_F(CloudFile, BinaryPlyOfEitherOrder) {
 }
 
 TEST_F(CloudFile, Text) {
-  const PointCloud plain = read_point_cloud(write("a.xyz", "# a scan\n1 2 3\n\n4,5;6\n"));
+  const PointCloud plain = read_point_cloud(write("a.xyz", "# a scan\n1 2 3\n\n4;5\t6\n"));
   EXPECT_EQ(plain.positions[1], (std::array<float, 3>{3, 3, 3}));
   const PointCloud coloured = read_point_cloud(write("a.pts", "2\n1 2 3 255 0 0\n1 2 4 0 0 255\n"));
   EXPECT_EQ(coloured.colours[1], (std::array<float, 3>{0, 0, 1}));
@@ -113,12 +113,42 @@ TEST_F(CloudFile, Text) {
       write("e.csv", "\"X\",\"Y\",\"Z\",\"radius\",\"R\",\"G\",\"B\"\n1,2,3,0.5,0.25,1,0\n"));
   EXPECT_EQ(named.radii[0], 0.5f);
   EXPECT_EQ(named.colours[0][0], 0.25f);
+  const PointCloud marked = read_point_cloud(write("f.csv", "\xef\xbb\xbfx;y;z;\n1;2;3;\n"));
+  EXPECT_EQ(marked.positions.size(), 1u);
+}
+
+/// Colours are what all rows together are: the first may well be black or white.
+TEST_F(CloudFile, AllRowsSayWhatColumnsAre) {
+  const std::string names = "x y z r g b\n";
+  for (const std::string first : {"0 0 0", "1 1 1", "0 0 1"}) {
+    const PointCloud floats =
+        read_point_cloud(write("a.xyz", names + "1 2 3 " + first + "\n1 2 4 0.8 0.4 1\n"));
+    EXPECT_EQ(floats.colours[1][0], 0.8f);
+    EXPECT_TRUE(floats.colours[0][2] == 0 || floats.colours[0][2] == 1) << first;
+    const PointCloud bytes =
+        read_point_cloud(write("a.xyz", names + "1 2 3 " + first + "\n1 2 4 255 0 1\n"));
+    EXPECT_EQ(bytes.colours[1][0], 1);
+    EXPECT_LT(bytes.colours[0][2], 0.01f);
+  }
+  EXPECT_EQ(read_point_cloud(write("b.xyz", names + "1 2 3 1 0 0\n")).colours[0][0], 1)
+      << "nothing but 0 and 1: pure colours";
+  const PointCloud facing = read_point_cloud(write("c.xyz", "1 2 3 0 0 1\n1 2 4 0 0 1\n"));
+  EXPECT_TRUE(facing.colours.empty());
+  EXPECT_EQ(facing.normals[0][2], 1);
+}
+
+TEST_F(CloudFile, ColoursOfATypeAreWithinIt) {
+  for (const std::string colour : {"300 0 0", "0 -20 0", "0 0 nan"}) {
+    expect_error("a.ply", coloured_header + "1 2 3 1 2 3\n1 2 3 " + colour + "\n3 0 1 1\n",
+                 "point 1 has the colour");
+  }
 }
 
 TEST_F(CloudFile, WhatIsWrongIsSaid) {
   expect_error("a.obj", "", "point clouds are .ply");
-  expect_error("a.ply", "", "ends within its PLY header, in line 1");
-  expect_error("a.ply", "plx\n", "no PLY file");
+  expect_error("a.ply", "", "is empty");
+  expect_error("a.ply", "pl", "ends within its PLY header, in line 1");
+  expect_error("a.ply", "plx\n", "no PLY file: it does not begin with a line 'ply'");
   expect_error("a.ply", "ply\nformat ascii 1.0\n", "ends within its PLY header, in line 3");
   expect_error("a.ply", "ply\nend_header\n", "has no format");
   expect_error("a.ply", "ply\nformat middle 1.0\n", "the format 'middle' in line 2");
@@ -143,8 +173,20 @@ TEST_F(CloudFile, WhatIsWrongIsSaid) {
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3 4.0000 5\n",
                "ends within element 'vertex', at 1 of 2");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "1 two 3\n",
-               "has 'two' where a number should be");
-  expect_error("a.xyz", "", "holds no points");
+               "has 'two' where a number should be, in element 'vertex', at 0 of 1");
+  expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "1 2 3\n4 5 6\n",
+               "goes on after the 1 rows of element 'vertex': its header is wrong");
+  const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + xyz;
+  expect_error("a.ply", binary + std::string(24, '\0'), "goes on after the 1 rows");
+  EXPECT_EQ(
+      read_point_cloud(write("n.ply", binary + std::string(12, '\0') + "\r\n")).positions.size(),
+      1u);
+  expect_error("a.xyz", "", "is empty");
+  expect_error("a.xyz", "# nothing\n", "holds no points: a line each, of numbers x y z");
+  expect_error("a.pts", "3\n1 2 3\n4 5 6\n", "its first line says 3 points, it has 2");
+  expect_error("a.csv", "x,y,z\n1,,2,3\n", "line 2 is no row of numbers: '1,,2,3'");
+  expect_error("a.csv", "x;y;z\n0,10;0,00;0,00\n",
+               "line 2 has commas and semicolons: decimals need a point");
   expect_error("a.xyz", "1 2\n", "has 2 columns");
   expect_error("a.xyz", "1 2 3\n1 2\n", "line 2 has 2 columns, others have 3");
   expect_error("a.xyz", "1 2 3\nfour five six\n", "line 2 is no row of numbers");

@@ -97,6 +97,31 @@ TEST(Surfels, NotesWhatItLeavesOutOrEstimates) {
   for (const DefraySplatNode& n : surfels.points) EXPECT_GT(area_of(n), 0);
 }
 
+/// Up to the largest that is allowed, areas and variances are numbers.
+TEST(Surfels, PlacesUpToTheFarthestGiveNumbers) {
+  PointCloud cloud = slope(9);
+  for (auto& p : cloud.positions) {
+    for (float& v : p) v *= 1e14f;
+  }
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    EXPECT_GT(area_of(n), 0);
+    EXPECT_TRUE(std::isfinite(area_of(n)) && std::isfinite(n.variance));
+  }
+}
+
+TEST(Surfels, NotesNormalsThatSayNothingAndColoursOfBytes) {
+  PointCloud cloud = slope(9);
+  const std::size_t count = cloud.positions.size();
+  cloud.normals.assign(count, {0, 0, 0});
+  cloud.colours.assign(count, {0.5f, 20, 1});
+  EXPECT_EQ(make_surfels(cloud).notes,
+            std::vector<std::string>{"81 points have no normal: estimated from those around"});
+  cloud.colours[7][1] = 255;
+  const std::vector<std::string> notes = make_surfels(cloud).notes;
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], "colours go up to 255: floats are linear light, of which white is 1");
+}
+
 TEST(Surfels, EstimatedNormalsHaveTheSideOfGivenOnes) {
   for (const float side : {1.0f, -1.0f}) {
     PointCloud cloud = slope(9);
@@ -173,6 +198,15 @@ TEST(Surfels, WhatItRefuses) {
   PointCloud clear = slope(2);
   clear.alpha = {1, 1, 1, 1.5f};
   refused(clear, ErrorKind::input, "point 3 has alpha 1.5");
+  for (const float far : {2e15f, -3e38f}) {
+    PointCloud stray = slope(3);
+    stray.positions[4][1] = far;
+    refused(stray, ErrorKind::input, "point 4 lies ");
+    stray = slope(3);
+    stray.radii.assign(9, 1);
+    stray.radii[5] = std::fabs(far);
+    refused(stray, ErrorKind::input, "point 5 has the radius ");
+  }
 }
 
 }  // namespace
