@@ -31,7 +31,7 @@ SplatModel::SplatModel(std::unique_ptr<State> state) : state_(std::move(state)) 
 
 namespace {
 
-/// Names the file in what is wrong with its points, and in notes.
+/// Names the file in what is wrong with its points.
 SplatModel of_file(const std::string& path, const Progress& progress) {
   const PointCloud cloud = read_point_cloud(path);
   try {
