@@ -114,7 +114,7 @@ class TextRows {
 };
 
 /// What a column holds, over all rows.
-struct Content {
+struct ColumnContent {
   bool is_byte = true;  ///< Whole numbers from 0 to 255.
   double largest = 0;
 
@@ -125,14 +125,15 @@ struct Content {
 };
 
 /// Whole numbers up to 255, and not all of them 0 or 1.
-bool are_bytes(const std::vector<Content>& columns) {
-  return std::all_of(columns.begin(), columns.end(), [](const Content& c) { return c.is_byte; }) &&
+bool are_bytes(const std::vector<ColumnContent>& columns) {
+  return std::all_of(columns.begin(), columns.end(),
+                     [](const ColumnContent& c) { return c.is_byte; }) &&
          std::any_of(columns.begin(), columns.end(),
-                     [](const Content& c) { return c.largest > 1; });
+                     [](const ColumnContent& c) { return c.largest > 1; });
 }
 
 /// What unnamed columns are, by their number and content.
-Columns names_for(const std::vector<Content>& content, const std::string& path) {
+Columns names_for(const std::vector<ColumnContent>& content, const std::string& path) {
   const auto are_colours = [&](std::size_t first) {
     return are_bytes({content[first], content[first + 1], content[first + 2]});
   };
@@ -156,9 +157,9 @@ Columns names_for(const std::vector<Content>& content, const std::string& path) 
 }
 
 /// Colours go up to 255 if all are such whole numbers; otherwise they are linear.
-CloudColumns columns_of(const Columns& names, const std::vector<Content>& content,
+CloudColumns columns_of(const Columns& names, const std::vector<ColumnContent>& content,
                         const std::string& path) {
-  std::vector<Content> colours;
+  std::vector<ColumnContent> colours;
   std::vector<std::size_t> where;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = lower_case(names[i]);
@@ -177,7 +178,7 @@ CloudColumns columns_of(const Columns& names, const std::vector<Content>& conten
 
 PointCloud read_text_cloud(std::istream& file, std::uint64_t bytes, const std::string& path) {
   TextRows rows(file, path);
-  std::vector<Content> content;
+  std::vector<ColumnContent> content;
   std::uint64_t points = 0;
   rows.each([&](const std::vector<double>& row, const std::string& line) {
     if (points++ == 0) {
