@@ -12,7 +12,8 @@ namespace {
 struct Found {
   std::size_t source;
   float distance;  ///< In pixels.
-  float coc;       ///< Quanta, and
+  float met;       ///< CoC there, quanta.
+  float coc;       ///< CoC, and
   float inverse;   ///< 1/depth: continued to where the way began.
   float weight;    ///< Of its colour.
 };
@@ -117,7 +118,8 @@ class Filler {
                 beyond = way.start + back + on;
     const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
-    Found found{q, static_cast<float>(t), static_cast<float>(coc), inverse_[q], 0};
+    const auto met = static_cast<float>(coc);
+    Found found{q, static_cast<float>(t), met, met, inverse_[q], 0};
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
     const auto slant = static_cast<float>(coc - frame_.coc(b));  // over DEFRAY_FILL_LOOK_PX
@@ -179,17 +181,37 @@ float upper_median(std::vector<float> values) {
   return *middle;
 }
 
-/// Weighted mean of what lies on the nearest surface found.
+/// The one on whose surface most of what was found lies, the nearest of them: directions count by
+/// 1 / distance.
+Found most_of(const std::vector<Found>& all, float own) {
+  const Found* best = nullptr;
+  float most = 0;
+  for (const Found& f : all) {
+    const auto is_alike = [own](float a, float b) {
+      return std::fabs(b - a) <= DEFRAY_JUMP_QUANTA + 0.125f * (a - own);
+    };
+    float around = 0;
+    for (const Found& other : all) {
+      if (is_alike(f.coc, other.coc) || is_alike(f.met, other.met)) around += 1 / other.distance;
+    }
+    const bool is_nearer = best && around == most && f.distance < best->distance;
+    if (best && around <= most && !is_nearer) continue;
+    best = &f;
+    most = around;
+  }
+  return *best;
+}
+
+/// Weighted mean of what lies on the surface of most.
 struct Mean {
   float coc, inverse;
   Colour colour;
 };
 
 Mean mean_of(std::vector<Found> all, const Planes& channels, int own) {
-  const Found nearest = *std::min_element(all.begin(), all.end(),
-                                          [](auto& a, auto& b) { return a.distance < b.distance; });
-  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (nearest.coc - static_cast<float>(own));
-  std::erase_if(all, [&](const Found& f) { return std::fabs(f.coc - nearest.coc) > alike; });
+  const float surface = most_of(all, static_cast<float>(own)).coc;
+  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (surface - static_cast<float>(own));
+  std::erase_if(all, [&](const Found& f) { return std::fabs(f.coc - surface) > alike; });
   std::vector<float> bright;
   for (const Found& f : all) bright.push_back(brightness(colour_at(channels, f.source)));
   const float median = upper_median(bright);

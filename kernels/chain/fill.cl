@@ -2,11 +2,12 @@
 //
 // From each pixel rays go out over the picture in 8 or 16 directions until they leave its surface
 // over a jump in CoC and meet a farther one, close enough for the lens to look there past the edge:
-// closer than the step in CoC. The found pixels that lie on the surface of the nearest, continued
-// along their slant, give CoC and depth: both are linear in the picture for a plane (depth as 1/z),
-// and weighed alike. Their colours are weighed by how little each changes further on along its ray:
-// stripes go on behind in their direction. Highlights do not smear: a colour far brighter than
-// those further on gives way to them, one far brighter than the median of all does not count.
+// closer than the step in CoC. The found pixels that lie on one surface, that of most of them,
+// continued along their slant, give CoC and depth: both are linear in the picture for a plane
+// (depth as 1/z), and weighed alike. Their colours are weighed by how little each changes further
+// on along its ray: stripes go on behind in their direction. Highlights do not smear: a colour far
+// brighter than those further on gives way to them, one far brighter than the median of all does
+// not count.
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
@@ -39,17 +40,55 @@ float16 own_inverse_of_run(const Window* w, const int2 start) {
   return select(nearest, own, is_pure);
 }
 
-// For which pixels of a run anything was found; the CoC of what is nearest.
-int16 find_nearest(const Found* found, const uint directions, float16* coc) {
-  float16 nearest = 0.0f;
+// Whether two CoC radii, or those where they were met, may be of one surface.
+int16 are_alike(const Found* a, const Found* b, const float16 own) {
+  const float16 far = DEFRAY_JUMP_QUANTA + 0.125f * (a->coc - own);
+  const float16 far_met = DEFRAY_JUMP_QUANTA + 0.125f * (a->met - own);
+  return (fabs(b->coc - a->coc) <= far) | (fabs(b->met - a->met) <= far_met);
+}
+
+// For which pixels of a run anything was found; the CoC of the nearest.
+int16 find_nearest(const Found* found, const uint directions, Found* nearest) {
   int16 is_found = 0;
-  *coc = 0.0f;
+  nearest->distance = nearest->coc = nearest->met = 0.0f;
   for (uint i = 0; i < directions; ++i) {
     const float16 distance = found[i].distance;
-    const int16 is_nearer = (distance != 0.0f) & (~is_found | (distance < nearest));
-    nearest = select(nearest, distance, is_nearer);
-    *coc = select(*coc, found[i].coc, is_nearer);
+    const int16 is_nearer = (distance != 0.0f) & (~is_found | (distance < nearest->distance));
+    nearest->distance = select(nearest->distance, distance, is_nearer);
+    nearest->coc = select(nearest->coc, found[i].coc, is_nearer);
+    nearest->met = select(nearest->met, found[i].met, is_nearer);
     is_found |= is_nearer;
+  }
+  return is_found;
+}
+
+// The CoC of the surface that lies behind pixels of a run, each on the one that most of what is
+// around it is on: silhouettes go on from edge to edge as lines. (Where the nearest decided they
+// went on in steps.) Directions count by 1 / distance, as in mean value coordinates (Floater 2003).
+int16 find_surface(const Found* found, const uint directions, const float16 own, float16* coc) {
+  Found best;
+  const int16 is_found = find_nearest(found, directions, &best);
+  int16 is_other = 0;
+  for (uint i = 0; i < directions; ++i) {
+    is_other |= (found[i].distance != 0.0f) & ~are_alike(&best, found + i, own);
+  }
+  *coc = best.coc;
+  if (!any_lane(is_other)) return is_found;
+  const float16 none = 0.0f;
+  float16 most = none;
+  for (uint i = 0; i < directions; ++i) {
+    const float16 distance = found[i].distance;
+    if (!any_lane(distance != 0.0f)) continue;
+    float16 around = none;
+    for (uint j = 0; j < directions; ++j) {
+      const int16 counts = (found[j].distance != 0.0f) & are_alike(found + i, found + j, own);
+      around += select(none, 1.0f / found[j].distance, counts);
+    }
+    const int16 is_nearer = (around == most) & (distance < best.distance);
+    const int16 is_more = (distance != 0.0f) & ((around > most) | is_nearer);
+    most = select(most, around, is_more);
+    best.distance = select(best.distance, distance, is_more);
+    *coc = select(*coc, found[i].coc, is_more);
   }
   return is_found;
 }
@@ -80,13 +119,13 @@ typedef struct {
   Colours colours;
 } Filled;
 
-// The mean of what was found on the surface of the nearest alone: others' colours say nothing about
-// its highlights.
+// The mean of what was found on one surface alone: others' colours say nothing about its
+// highlights.
 Filled fill_run(const Found* found, const uint directions, const int16 own,
                 const float16 own_inverse) {
   Filled behind;
   float16 surface;
-  behind.is_there = find_nearest(found, directions, &surface);
+  behind.is_there = find_surface(found, directions, convert_float16(own), &surface);
   const float16 same = DEFRAY_JUMP_QUANTA + 0.125f * (surface - convert_float16(own));
   int16 counts[DEFRAY_FILL_DIRECTIONS];
   for (uint i = 0; i < directions; ++i) {

@@ -221,6 +221,26 @@ TEST(Fill, StripesGoOnInTheirDirection) {
   }
 }
 
+/// Behind a bar across a slanting edge between two surfaces that edge goes on from one side to the
+/// other, through its middle; by the surface of the nearest pixel it ended in one step there.
+TEST(Fill, ASilhouetteGoesOnBehindABar) {
+  for (const double slope : {1.0, 0.5, -1.0}) {
+    Canvas f(90, 60);
+    const auto edge = [&](int y) { return 45 + slope * (y - 30.5); };
+    f.each([&](int x, int y) { f.coc[f.at(x, y)] = x < edge(y) ? 0 : 1536; });
+    for (int y = 25; y < 37; ++y) {
+      for (int x = 0; x < f.width; ++x) f.coc[f.at(x, y)] = -2048, f.inverse[f.at(x, y)] = 0.9f;
+    }
+    const Frame behind = f.filled();
+    for (int y = 26; y < 36; ++y) {
+      int first = 0;  // behind the edge
+      while (behind.coc_quanta[f.at(first, y)] < 768) ++first;
+      const bool is_middle = y == 30 || y == 31;
+      EXPECT_NEAR(first, edge(y), is_middle ? 1.5 : 5) << slope << " in row " << y;
+    }
+  }
+}
+
 /// Something to fill in one tile alone: a band that took another's flags would leave it empty.
 TEST(Fill, BandsTakeTheFlagsOfTheirOwnTiles) {
   Canvas f(3 * DEFRAY_FILL_TILE, 400);
