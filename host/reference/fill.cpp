@@ -181,6 +181,11 @@ float upper_median(std::vector<float> values) {
   return *middle;
 }
 
+Found nearest_of(const std::vector<Found>& all) {
+  return *std::min_element(all.begin(), all.end(),
+                           [](auto& a, auto& b) { return a.distance < b.distance; });
+}
+
 /// The one on whose surface most of what was found lies, the nearest of them: directions count by
 /// 1 / distance.
 Found most_of(const std::vector<Found>& all, float own) {
@@ -208,8 +213,10 @@ struct Mean {
   Colour colour;
 };
 
-Mean mean_of(std::vector<Found> all, const Planes& channels, int own) {
-  const float surface = most_of(all, static_cast<float>(own)).coc;
+Mean mean_of(std::vector<Found> all, const Planes& channels, int own, int directions) {
+  const bool is_all_around = 4 * all.size() >= 3 * size(directions);
+  const float surface =
+      (is_all_around ? most_of(all, static_cast<float>(own)) : nearest_of(all)).coc;
   const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (surface - static_cast<float>(own));
   std::erase_if(all, [&](const Found& f) { return std::fabs(f.coc - surface) > alike; });
   std::vector<float> bright;
@@ -241,7 +248,7 @@ Frame TwinBackend::fill(const Frame& f, const Words& mixed, int directions, Fram
     const auto [own, own_inverse] = filler.in_front(at);
     const std::vector<Found> all = filler.look_behind(at, own);
     if (all.empty()) return;
-    const Mean mean = mean_of(all, f.channels, own);
+    const Mean mean = mean_of(all, f.channels, own, directions);
     const std::size_t pixel = frame.index(at);
     coc[pixel] = static_cast<std::int32_t>(std::nearbyint(mean.coc));
     inverse[pixel] = std::min(own_inverse * 0.99999f, mean.inverse);  // behind

@@ -2,7 +2,7 @@
 //
 // From each pixel rays go out over the picture in 8 or 16 directions until they leave its surface
 // over a jump in CoC and meet a farther one, close enough for the lens to look there past the edge:
-// closer than the step in CoC. The found pixels that lie on one surface, that of most of them,
+// closer than the step in CoC. The found pixels that lie on one surface (find_surface),
 // continued along their slant, give CoC and depth: both are linear in the picture for a plane
 // (depth as 1/z), and weighed alike. Their colours are weighed by how little each changes further
 // on along its ray: stripes go on behind in their direction. Highlights do not smear: a colour far
@@ -62,18 +62,23 @@ int16 find_nearest(const Found* found, const uint directions, Found* nearest) {
   return is_found;
 }
 
-// The CoC of the surface that lies behind pixels of a run, each on the one that most of what is
-// around it is on: silhouettes go on from edge to edge as lines. (Where the nearest decided they
-// went on in steps.) Directions count by 1 / distance, as in mean value coordinates (Floater 2003).
+// The CoC of the surface that lies behind pixels of a run: that of the nearest. Where something was
+// found all around, in three quarters of the directions, it is the one that most of it is on, so
+// that silhouettes go on from one side to the other (by the nearest they ended in a step half way);
+// directions count by 1 / distance, as in mean value coordinates (Floater 2003). Where less was
+// found, past one edge, what is thin would end there.
 int16 find_surface(const Found* found, const uint directions, const float16 own, float16* coc) {
   Found best;
   const int16 is_found = find_nearest(found, directions, &best);
-  int16 is_other = 0;
+  int16 is_other = 0, count = 0;
   for (uint i = 0; i < directions; ++i) {
-    is_other |= (found[i].distance != 0.0f) & ~are_alike(&best, found + i, own);
+    const int16 is_there = found[i].distance != 0.0f;
+    count -= is_there;
+    is_other |= is_there & ~are_alike(&best, found + i, own);
   }
   *coc = best.coc;
-  if (!any_lane(is_other)) return is_found;
+  const int16 is_open = is_other & (4 * count >= (int16)(3 * (int)directions));
+  if (!any_lane(is_open)) return is_found;
   const float16 none = 0.0f;
   float16 most = none;
   for (uint i = 0; i < directions; ++i) {
@@ -85,7 +90,7 @@ int16 find_surface(const Found* found, const uint directions, const float16 own,
       around += select(none, 1.0f / found[j].distance, counts);
     }
     const int16 is_nearer = (around == most) & (distance < best.distance);
-    const int16 is_more = (distance != 0.0f) & ((around > most) | is_nearer);
+    const int16 is_more = is_open & (distance != 0.0f) & ((around > most) | is_nearer);
     most = select(most, around, is_more);
     best.distance = select(best.distance, distance, is_more);
     *coc = select(*coc, found[i].coc, is_more);
