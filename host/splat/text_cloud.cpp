@@ -70,8 +70,8 @@ class TextRows {
  public:
   TextRows(std::istream& file, const std::string& path) : file_(file), path_(path) {}
 
-  Columns names;                       ///< Of the columns, where the file has them.
-  std::optional<std::uint64_t> count;  ///< .pts begins with the number of its points.
+  Columns names;                ///< Of the columns, where the file has them.
+  std::optional<double> count;  ///< .pts begins with the number of its points.
 
   /// All of them, with their lines.
   void each(const std::function<void(const std::vector<double>&, const std::string&)>& visit) {
@@ -96,7 +96,7 @@ class TextRows {
       if (!row) wrong("is no row of numbers");
       if (has_decimal_commas(line)) wrong("has commas and semicolons: decimals need a point");
       if (row->size() == 1 && columns == 0) {
-        count = static_cast<std::uint64_t>(std::max(0.0, row->front()));
+        count = row->front();
         continue;
       }
       if (columns == 0) columns = row->size();
@@ -190,7 +190,7 @@ PointCloud read_text_cloud(std::istream& file, std::uint64_t bytes, const std::s
   if (points == 0) {
     fail(ErrorKind::input, "{}: holds no points: a line each, of numbers x y z, is needed", path);
   }
-  if (rows.count && *rows.count != points) {
+  if (rows.count && *rows.count != static_cast<double>(points)) {
     fail(ErrorKind::input, "{}: its first line says {} points, it has {}", path, *rows.count,
          points);
   }

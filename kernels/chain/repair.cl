@@ -69,7 +69,8 @@ int16 has_ramp(const DefrayFrameParams p, __global const int* restrict coc_quant
   const int16 high = coc_of_run(p.width, p.height, coc_quanta, start + line.ahead);
   const int16 rise = apart(high, low), eighth = rise / 8;
   const int16 is_steep = rise > (int16)(DEFRAY_RAMP_QUANTA);
-  if (!any_lane(is_steep)) return 0;
+  // Not any_lane: where Oclgrind looks for uninitialised reads, halves of vectors end it.
+  if (!any(is_steep)) return 0;
   const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
   const int16 before = coc_of_run(p.width, p.height, coc_quanta, start + line.back - line.step);
   const int16 after = coc_of_run(p.width, p.height, coc_quanta, start + line.ahead + line.step);
@@ -97,7 +98,6 @@ __kernel void repair(const DefrayFrameParams p, __global const int* restrict coc
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
   store_ints(p.width, (__global int*)ramps, start, (int16)(0));
-  // Not all_lanes: where Oclgrind looks for uninitialised reads, halves of vectors end it.
   if (all(is_level(p, coc_quanta, start))) return;
   int16 first_line = 16;
   for (int i = 15; i >= 0; --i) {
