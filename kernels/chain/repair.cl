@@ -12,9 +12,11 @@
 #include "base/colour.clh"
 #include "base/run.clh"
 
+// By an array: where Oclgrind looks for uninitialised reads, parts of vectors end it.
 float square_of(const float4 v) {
-  const float4 squares = v * v;
-  return squares.x + squares.y + squares.z + squares.w;
+  float squares[4];
+  vstore4(v * v, 0, squares);
+  return squares[0] + squares[1] + squares[2] + squares[3];
 }
 
 // Whether a pixel's colour is closer to the mean of two others than to each of them, in the shares
@@ -67,7 +69,7 @@ int16 has_ramp(const DefrayFrameParams p, __global const int* restrict coc_quant
                const Line line) {
   const int16 low = coc_of_run(p.width, p.height, coc_quanta, start + line.back);
   const int16 high = coc_of_run(p.width, p.height, coc_quanta, start + line.ahead);
-  const int16 rise = apart(high, low), eighth = rise / 8;
+  const int16 rise = apart(high, low), eighth = rise >> 3;
   const int16 is_steep = rise > (int16)(DEFRAY_RAMP_QUANTA);
   // Not any_lane: where Oclgrind looks for uninitialised reads, halves of vectors end it.
   if (!any(is_steep)) return 0;

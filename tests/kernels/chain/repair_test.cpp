@@ -200,7 +200,7 @@ const FaultRows faults{
     {"repair",
      "share the wrong way",
      {"from_low - share * step", "from_low - (1.0f - share) * step"}},
-    {"repair", "three channels", {"+ squares.z + squares.w", "+ squares.z"}},
+    {"repair", "three channels", {"+ squares[2] + squares[3]", "+ squares[2]"}},
     {"repair", "as of a pixel to the right", {"(2 + end.x)", "(3 + end.x)"}},
     {"repair",
      "rows and columns swapped",
