@@ -1,6 +1,6 @@
 #pragma once
 // The frame that the chain works on, all of it at once.
-#include "chain/border.h"
+#include "chain/steps/border.h"
 
 namespace defray::test {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "chain/behind.h"
-#include "chain/border.h"
-#include "chain/front.h"
-#include "chain/layered.h"
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
+#include "chain/steps/behind.h"
+#include "chain/steps/border.h"
+#include "chain/steps/front.h"
+#include "chain/steps/layered.h"
 
 namespace defray {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "chain/tile_classes.h"
+#include "chain/tiles/tile_classes.h"
 #include "defray/options.h"
 #include "defray/report.h"
 #include "frame/backend.h"

@@ -1,6 +1,6 @@
 #pragma once
 // The stages as an OpenCL device computes them.
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "device/ray_buffers.h"
 #include "frame/backend.h"
 #include "opencl/session.h"

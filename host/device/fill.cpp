@@ -1,5 +1,5 @@
 // Kernel `fill`.
-#include "chain/fill_tiles.h"
+#include "chain/tiles/fill_tiles.h"
 #include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"

@@ -1,5 +1,5 @@
 // Kernel `highlights`.
-#include "chain/highlight_tiles.h"
+#include "chain/tiles/highlight_tiles.h"
 #include "device/device_backend.h"
 #include "lens/coc.h"
 #include "opencl/bands.h"

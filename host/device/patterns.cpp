@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 #include "device/device_backend.h"
 #include "opencl/bands.h"
 #include "opencl/launch_table.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 #include "reference/reference.h"
 #include "reference/twin_backend.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "frame/frame.h"
 #include "lens/lens.h"
 #include "methods/gather.h"

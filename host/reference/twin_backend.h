@@ -25,7 +25,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "frame/backend.h"
 #include "methods/gather.h"
 

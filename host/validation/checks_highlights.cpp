@@ -1,7 +1,7 @@
 // The table's entries for highlights: which fragments are some, and their light added to the means.
 #include <algorithm>
 
-#include "chain/highlights.h"
+#include "chain/steps/highlights.h"
 #include "rdb/rdb_plan.h"
 #include "reference/twin_backend.h"
 #include "validation/kernel_checks.h"

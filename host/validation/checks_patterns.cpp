@@ -1,6 +1,6 @@
 #include "validation/checks_patterns.h"
 
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 #include "device/device_backend.h"
 #include "reference/reference.h"
 #include "validation/patterns_input.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Frames of patterns for `defray validate`.
 #include "base/random.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "validation/input.h"
 
 namespace defray::validation {

@@ -2,7 +2,7 @@
 //
 // Such depth is a mean of two surfaces', and so is the colour of its pixel, in the same shares.
 // What truly lies between two surfaces, thin things and rims, has its own colour: whether a pixel
-// is one or the other is decided by many of them (host/chain/antialiased.h).
+// is one or the other is decided by many of them (host/chain/steps/antialiased.h).
 //
 // coc_quanta   [height][width]  signed radius, 1/256 px
 // depth_units  [height][width]  planar depth, scene units

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
 #include "experiments.h"
 #include "machine/limits.h"
 #include "measure/plot.h"

@@ -1,7 +1,7 @@
 // What is left of the error: the default chain with more and more of what it must guess given to
 // it, from the scene.
-#include "chain/highlights.h"
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
+#include "chain/steps/highlights.h"
 #include "truth/truth_exact.h"
 
 namespace defray::perf {

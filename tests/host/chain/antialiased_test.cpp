@@ -1,5 +1,5 @@
 // Where depth was anti-aliased, by what `repair` says of its pixels.
-#include "chain/antialiased.h"
+#include "chain/steps/antialiased.h"
 
 #include <gtest/gtest.h>
 

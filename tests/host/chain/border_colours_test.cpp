@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "chain/border.h"
+#include "chain/steps/border.h"
 #include "support.h"
 
 namespace defray::test::border_colours_test {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "base/random.h"
-#include "chain/fill_tiles.h"
-#include "chain/highlight_tiles.h"
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
+#include "chain/tiles/fill_tiles.h"
+#include "chain/tiles/highlight_tiles.h"
 #include "support.h"
 
 namespace defray::test::chain_parts_test {

@@ -1,5 +1,5 @@
 // Layers of a frame: whose data a surface has, what the report counts, what was made up.
-#include "chain/layers.h"
+#include "chain/steps/layers.h"
 
 #include <cmath>
 #include <limits>

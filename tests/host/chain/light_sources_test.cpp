@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "chain/highlights.h"
+#include "chain/steps/highlights.h"
 #include "lens/aperture_mask.h"
 #include "lens/lens_points.h"
 #include "support.h"

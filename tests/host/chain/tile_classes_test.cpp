@@ -1,5 +1,5 @@
 // What a frame's tiles are said to hold.
-#include "chain/tile_classes.h"
+#include "chain/tiles/tile_classes.h"
 
 #include "support.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
 #include "lens/aperture_mask.h"
 #include "support.h"
 

@@ -1,13 +1,13 @@
 // What lies beyond the frame: goes on like the edge, seen by the confidence, and no source of light
 // that nobody saw.
-#include "chain/border.h"
+#include "chain/steps/border.h"
 
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "chain/chain.h"
-#include "chain/layers.h"
+#include "chain/steps/layers.h"
 #include "extended_frame.h"
 #include "methods/method.h"
 #include "support.h"

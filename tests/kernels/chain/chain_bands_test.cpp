@@ -9,10 +9,10 @@
 
 #include "base/pages.h"
 #include "base/random.h"
-#include "chain/behind.h"
 #include "chain/chain.h"
 #include "chain/half_size.h"
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
+#include "chain/steps/behind.h"
 #include "support.h"
 
 namespace defray::test::chain_bands_test {

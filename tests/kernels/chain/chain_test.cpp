@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "base/stopwatch.h"
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
 #include "rdb/rdb.h"
 #include "reference/twin_backend.h"
 #include "support.h"

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "support.h"
 
 namespace defray::test {

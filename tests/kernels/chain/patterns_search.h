@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/random.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 #include "support.h"
 
 namespace defray::test {

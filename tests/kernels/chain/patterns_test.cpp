@@ -1,5 +1,5 @@
 // `patterns`: the kernels against their twins.
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 #include "opencl/launch_table.h"
 #include "patterns_scene.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 #include "kernels/chain/patterns_scene.h"
 
 namespace defray::test::patterns_variance_test {

@@ -1,9 +1,9 @@
-#include "chain/highlight_tiles.h"
+#include "chain/tiles/highlight_tiles.h"
 
 #include <cmath>
 #include <cstdlib>
 
-#include "chain/tiles.h"
+#include "chain/tiles/tiles.h"
 #include "kernels/params.h"
 #include "lens/coc.h"
 

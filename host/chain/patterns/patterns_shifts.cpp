@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/vectorised.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 
 namespace defray {
 namespace {

@@ -1,4 +1,4 @@
-#include "chain/behind.h"
+#include "chain/steps/behind.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
-#include "chain/front.h"
+#include "chain/steps/front.h"
 
 #include <utility>
 
 #include "base/parallel.h"
-#include "chain/border.h"
+#include "chain/steps/border.h"
 #include "opencl/launch_table.h"
 
 namespace defray {

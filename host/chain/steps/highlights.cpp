@@ -1,4 +1,4 @@
-#include "chain/highlights.h"
+#include "chain/steps/highlights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 // on in the margin, and soften.
 #include <vector>
 
-#include "chain/behind.h"
+#include "chain/steps/behind.h"
 #include "rdb/light_sources.h"
 
 namespace defray {

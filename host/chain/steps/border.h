@@ -1,6 +1,7 @@
 #pragma once
 // What is taken to be outside the frame: a margin around it.
-#include "chain/chain.h"
+#include "defray/options.h"
+#include "defray/report.h"
 #include "frame/frame.h"
 
 namespace defray {

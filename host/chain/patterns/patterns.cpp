@@ -1,4 +1,4 @@
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/parallel.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 
 namespace defray {
 namespace {

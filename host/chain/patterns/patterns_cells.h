@@ -1,7 +1,7 @@
 #pragma once
 // The cells of pixels in which the kernels of `patterns` compare a picture with itself, and the
 // units of them that a work-item takes.
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
 
 namespace defray {
 

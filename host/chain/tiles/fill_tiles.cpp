@@ -1,8 +1,8 @@
-#include "chain/fill_tiles.h"
+#include "chain/tiles/fill_tiles.h"
 
 #include <algorithm>
 
-#include "chain/tiles.h"
+#include "chain/tiles/tiles.h"
 #include "lens/coc.h"
 #include "opencl/launch_table.h"
 

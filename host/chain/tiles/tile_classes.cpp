@@ -1,4 +1,4 @@
-#include "chain/tile_classes.h"
+#include "chain/tiles/tile_classes.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #pragma once
 // What the stages have found out about a frame, as the one or two layers that rays come from.
-#include "chain/chain.h"
+#include "defray/report.h"
 #include "frame/backend.h"
 
 namespace defray {

@@ -1,4 +1,4 @@
-#include "chain/patterns_cells.h"
+#include "chain/patterns/patterns_cells.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "chain/ray_plan.h"
+#include "chain/plan/ray_plan.h"
 
 #include "lens/aperture.h"
 #include "lens/cats_eye.h"

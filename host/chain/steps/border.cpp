@@ -1,4 +1,4 @@
-#include "chain/border.h"
+#include "chain/steps/border.h"
 
 #include <algorithm>
 #include <cmath>

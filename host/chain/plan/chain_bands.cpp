@@ -1,10 +1,10 @@
-#include "chain/chain_bands.h"
+#include "chain/plan/chain_bands.h"
 
 #include <algorithm>
 
-#include "chain/fill_tiles.h"
-#include "chain/highlight_tiles.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
+#include "chain/tiles/fill_tiles.h"
+#include "chain/tiles/highlight_tiles.h"
 #include "lens/coc.h"
 #include "lens/lens_grid.h"
 #include "opencl/launch_table.h"

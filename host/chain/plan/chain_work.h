@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/stopwatch.h"
-#include "chain/chain_bands.h"
-#include "chain/tile_classes.h"
+#include "chain/plan/chain_bands.h"
+#include "chain/tiles/tile_classes.h"
 #include "defray/options.h"
 #include "defray/report.h"
 #include "frame/backend.h"

@@ -1,7 +1,7 @@
 #pragma once
 // What the picture shows, with its margin: the stages border, repair and mixed.
-#include "chain/antialiased.h"
-#include "chain/chain_work.h"
+#include "chain/plan/chain_work.h"
+#include "chain/steps/antialiased.h"
 
 namespace defray {
 

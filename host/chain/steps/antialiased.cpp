@@ -1,4 +1,4 @@
-#include "chain/antialiased.h"
+#include "chain/steps/antialiased.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "chain/layers.h"
+#include "chain/steps/layers.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,12 +1,12 @@
-#include "chain/layered.h"
+#include "chain/steps/layered.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/parallel.h"
-#include "chain/border.h"
-#include "chain/highlights.h"
-#include "chain/layers.h"
+#include "chain/steps/border.h"
+#include "chain/steps/highlights.h"
+#include "chain/steps/layers.h"
 #include "lens/aperture.h"
 #include "lens/aperture_table.h"
 #include "opencl/launch_table.h"

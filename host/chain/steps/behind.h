@@ -2,8 +2,8 @@
 // What lies behind: the stages fill and patterns.
 #include <vector>
 
-#include "chain/front.h"
-#include "chain/patterns.h"
+#include "chain/patterns/patterns.h"
+#include "chain/steps/front.h"
 
 namespace defray {
 
