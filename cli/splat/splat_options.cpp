@@ -5,6 +5,8 @@
 namespace defray::cli {
 namespace {
 
+/// A frame each 13 seconds of arc: more is a mistake, and each takes memory before the first is
+/// drawn.
 constexpr std::int64_t most_turn_frames = 100000;
 
 const WordTable<bool> on_off_words{{"on", true}, {"off", false}};

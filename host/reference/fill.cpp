@@ -181,6 +181,11 @@ float upper_median(std::vector<float> values) {
   return *middle;
 }
 
+/// Whether a CoC radius may be of the surface of another.
+bool is_of(float coc, float surface, float own) {
+  return std::fabs(coc - surface) <= DEFRAY_JUMP_QUANTA + 0.125f * (surface - own);
+}
+
 Found nearest_of(const std::vector<Found>& all) {
   return *std::min_element(all.begin(), all.end(),
                            [](auto& a, auto& b) { return a.distance < b.distance; });
@@ -192,12 +197,10 @@ Found most_of(const std::vector<Found>& all, float own) {
   const Found* best = nullptr;
   float most = 0;
   for (const Found& f : all) {
-    const auto is_alike = [own](float a, float b) {
-      return std::fabs(b - a) <= DEFRAY_JUMP_QUANTA + 0.125f * (a - own);
-    };
     float around = 0;
     for (const Found& other : all) {
-      if (is_alike(f.coc, other.coc) || is_alike(f.met, other.met)) around += 1 / other.distance;
+      if (is_of(other.coc, f.coc, own) || is_of(other.met, f.met, own))
+        around += 1 / other.distance;
     }
     const bool is_nearer = best && around == most && f.distance < best->distance;
     if (best && around <= most && !is_nearer) continue;
@@ -207,18 +210,16 @@ Found most_of(const std::vector<Found>& all, float own) {
   return *best;
 }
 
-/// Weighted mean of what lies on the surface of most.
+/// Weighted mean of what lies on one surface.
 struct Mean {
   float coc, inverse;
   Colour colour;
 };
 
-Mean mean_of(std::vector<Found> all, const Planes& channels, int own, int directions) {
+Mean mean_of(std::vector<Found> all, const Planes& channels, float own, int directions) {
   const bool is_all_around = 4 * all.size() >= 3 * size(directions);
-  const float surface =
-      (is_all_around ? most_of(all, static_cast<float>(own)) : nearest_of(all)).coc;
-  const float alike = DEFRAY_JUMP_QUANTA + 0.125f * (surface - static_cast<float>(own));
-  std::erase_if(all, [&](const Found& f) { return std::fabs(f.coc - surface) > alike; });
+  const float surface = (is_all_around ? most_of(all, own) : nearest_of(all)).coc;
+  std::erase_if(all, [&](const Found& f) { return !is_of(f.coc, surface, own); });
   std::vector<float> bright;
   for (const Found& f : all) bright.push_back(brightness(colour_at(channels, f.source)));
   const float median = upper_median(bright);
@@ -248,7 +249,7 @@ Frame TwinBackend::fill(const Frame& f, const Words& mixed, int directions, Fram
     const auto [own, own_inverse] = filler.in_front(at);
     const std::vector<Found> all = filler.look_behind(at, own);
     if (all.empty()) return;
-    const Mean mean = mean_of(all, f.channels, own, directions);
+    const Mean mean = mean_of(all, f.channels, static_cast<float>(own), directions);
     const std::size_t pixel = frame.index(at);
     coc[pixel] = static_cast<std::int32_t>(std::nearbyint(mean.coc));
     inverse[pixel] = std::min(own_inverse * 0.99999f, mean.inverse);  // behind

@@ -40,11 +40,14 @@ float16 own_inverse_of_run(const Window* w, const int2 start) {
   return select(nearest, own, is_pure);
 }
 
-// Whether two CoC radii, or those where they were met, may be of one surface.
+// Whether a CoC radius may be of the surface of another.
+int16 is_of(const float16 coc, const float16 surface, const float16 own) {
+  return fabs(coc - surface) <= DEFRAY_JUMP_QUANTA + 0.125f * (surface - own);
+}
+
+// Whether what was found may be of one surface, where it is continued to or where it was met.
 int16 are_alike(const Found* a, const Found* b, const float16 own) {
-  const float16 far = DEFRAY_JUMP_QUANTA + 0.125f * (a->coc - own);
-  const float16 far_met = DEFRAY_JUMP_QUANTA + 0.125f * (a->met - own);
-  return (fabs(b->coc - a->coc) <= far) | (fabs(b->met - a->met) <= far_met);
+  return is_of(b->coc, a->coc, own) | is_of(b->met, a->met, own);
 }
 
 // For which pixels of a run anything was found; the CoC of the nearest.
@@ -129,12 +132,12 @@ typedef struct {
 Filled fill_run(const Found* found, const uint directions, const int16 own,
                 const float16 own_inverse) {
   Filled behind;
+  const float16 own_coc = convert_float16(own);
   float16 surface;
-  behind.is_there = find_surface(found, directions, convert_float16(own), &surface);
-  const float16 same = DEFRAY_JUMP_QUANTA + 0.125f * (surface - convert_float16(own));
+  behind.is_there = find_surface(found, directions, own_coc, &surface);
   int16 counts[DEFRAY_FILL_DIRECTIONS];
   for (uint i = 0; i < directions; ++i) {
-    counts[i] = (found[i].distance != 0.0f) & (fabs(found[i].coc - surface) <= same);
+    counts[i] = (found[i].distance != 0.0f) & is_of(found[i].coc, surface, own_coc);
   }
   const float16 brightest = 10.0f * median_of(found, counts, directions), none = 0.0f;
   float16 weights = 0.0f, coc = 0.0f, inverse = 0.0f, colour_weights = 0.0f;

@@ -35,7 +35,8 @@ bool mixes(__global const float* restrict depth_units, CHANNEL_PARAMETERS(channe
 }
 
 // Where all that may be an end of a ramp is close to its middle: there is none then. Of a steep one
-// one end is half of a step away at least.
+// one end is half of a step away at least. (Without this look first the stage takes 1.7 times as
+// long on fence bg, three times on spheres f3.)
 int16 is_level(const DefrayFrameParams p, __global const int* restrict coc_quanta,
                const int2 start) {
   const int16 own = coc_of_run(p.width, p.height, coc_quanta, start);
