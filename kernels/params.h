@@ -54,6 +54,9 @@
 #define DEFRAY_RAMP_MIXES 32u
 /// CoC radii count as no larger than this where differences are taken: 2^20 px.
 #define DEFRAY_TAME_QUANTA (1 << 28)
+/// What `fill` is told of a pixel: it is mixed, a silhouette goes on there behind what hides it.
+#define DEFRAY_MIXED 1u
+#define DEFRAY_SILHOUETTE 2u
 /// Side of the square tiles in which `fill` may have something to do, in pixels: whole runs.
 #define DEFRAY_FILL_TILE 16
 /// Side of the square cells that say how far around a run no pixel is mixed, in pixels.

@@ -18,9 +18,9 @@ const LaunchRow fill_launch({.kernel = "fill",
 
 }  // namespace
 
-Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions, Frame into) {
-  const Quanta farthest_met = farthest_to_fill(f, mixed);
-  const Values<std::uint8_t> pure_around = pure_around_runs(f, mixed);
+Frame DeviceBackend::fill(const Frame& f, const Words& marks, int directions, Frame into) {
+  const Quanta farthest_met = farthest_to_fill(f, marks);
+  const Values<std::uint8_t> pure_around = pure_around_runs(f, marks);
   const int cells_x = (f.width + DEFRAY_FILL_CELL - 1) / DEFRAY_FILL_CELL;
   const CocRange range = f.coc_range();
   const int tiles_x = (f.width + DEFRAY_FILL_TILE - 1) / DEFRAY_FILL_TILE;
@@ -35,7 +35,7 @@ Frame DeviceBackend::fill(const Frame& f, const Words& mixed, int directions, Fr
         const cl::Buffer pure = band.tiles(pure_around, cells_x, DEFRAY_FILL_CELL);
         const cl::Buffer behind_coc = band.out(out.coc_quanta), inverse = band.out(out.inverse);
         const auto behind = band.out(out.channels, f.channels.size());
-        band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(mixed), pure, tiles,
+        band.launch(p, band.in(f.coc_quanta), band.in(f.inverse), band.in(marks), pure, tiles,
                     band.in(f.channels), behind_coc, inverse, behind);
         session_.finish();  // tiles and cells are this function's own
       },

@@ -8,12 +8,12 @@ namespace defray {
 namespace {
 
 constexpr int fraction_bits = 8;
-constexpr std::int32_t radius = 1 << DEFRAY_LENS_FRACTION_BITS;
-static_assert(ApertureMask::side << fraction_bits == 2 * radius);
+constexpr std::int32_t lens_radius = 1 << DEFRAY_LENS_FRACTION_BITS;
+static_assert(ApertureMask::side << fraction_bits == 2 * lens_radius);
 
 /// A lens coordinate in 1/256 texel from the table's first edge.
 std::uint32_t to_table(std::int32_t lens) {
-  return static_cast<std::uint32_t>(std::clamp(lens, -radius, radius) + radius);
+  return static_cast<std::uint32_t>(std::clamp(lens, -lens_radius, lens_radius) + lens_radius);
 }
 
 /// Light above and to the left of a point.

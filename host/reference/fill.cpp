@@ -16,6 +16,7 @@ struct Found {
   float coc;       ///< CoC, and
   float inverse;   ///< 1/depth: continued to where the way began.
   float weight;    ///< Of its colour.
+  bool is_barred;  ///< A silhouette was passed on the way.
 };
 
 /// A straight way over the picture: place after t steps of a pixel.
@@ -44,11 +45,11 @@ float sum_of_squares(const Colour& c) { return c[0] * c[0] + c[1] * c[1] + c[2] 
 
 class Filler {
  public:
-  Filler(const Frame& f, const Words& mixed, int directions)
+  Filler(const Frame& f, const Words& marks, int directions)
       : frame_(f),
         inverse_(f.inverse.host()),
         channels_(f.channels),
-        mixed_(mixed.host()),
+        marks_(marks.host()),
         directions_(directions) {
     farthest_ = -DEFRAY_TAME_QUANTA;
     for (std::size_t i = 0; i < f.pixels(); ++i) farthest_ = std::max(farthest_, frame_.coc(i));
@@ -70,7 +71,7 @@ class Filler {
     const std::size_t pixel = frame_.index(at);
     int coc = frame_.coc(pixel);
     float inverse = inverse_[pixel];
-    if (!mixed_[pixel]) return {coc, inverse};
+    if (!is_mixed(pixel)) return {coc, inverse};
     for_each_around(at, 1, [&](Place q) {
       coc = std::min(coc, frame_.coc(q));
       inverse = std::max(inverse, inverse_[frame_.index(q)]);
@@ -94,7 +95,7 @@ class Filler {
         for (int i = t; i <= t + DEFRAY_FILL_MIXED; ++i) {
           const Place further = way.after(i);
           if (!frame_.contains(further)) return std::nullopt;
-          const bool is_pure = !mixed_[frame_.index(further)];
+          const bool is_pure = !is_mixed(frame_.index(further));
           if (is_pure && frame_.coc(further) - own > DEFRAY_JUMP_QUANTA) {
             return continued(way, i, own);
           }
@@ -106,9 +107,16 @@ class Filler {
     return std::nullopt;
   }
 
+  bool is_mixed(std::size_t pixel) const { return marks_[pixel] & DEFRAY_MIXED; }
+
+  bool passes_silhouette(const Way& way, int last) const {
+    while (last > 0 && !(marks_[frame_.index(way.after(last))] & DEFRAY_SILHOUETTE)) --last;
+    return last > 0;
+  }
+
   /// Without a mixed pixel what rises there is a surface that slants.
   bool passes_mixed(const Way& way, int first, int last) const {
-    while (last >= first && !mixed_[frame_.index(way.after(last))]) --last;
+    while (last >= first && !is_mixed(frame_.index(way.after(last)))) --last;
     return last >= first;
   }
 
@@ -119,11 +127,11 @@ class Filler {
     const std::size_t q = frame_.index(way.start + back);
     const int coc = frame_.coc(q);
     const auto met = static_cast<float>(coc);
-    Found found{q, static_cast<float>(t), met, met, inverse_[q], 0};
+    Found found{q, static_cast<float>(t), met, met, inverse_[q], 0, passes_silhouette(way, t)};
     if (!frame_.contains(beyond)) return found;
     const std::size_t b = frame_.index(beyond);
     const auto slant = static_cast<float>(coc - frame_.coc(b));  // over DEFRAY_FILL_LOOK_PX
-    if (mixed_[b] || std::fabs(slant) > 4 * DEFRAY_JUMP_QUANTA) return found;
+    if (is_mixed(b) || std::fabs(slant) > 4 * DEFRAY_JUMP_QUANTA) return found;
     const float most = 0.5f * static_cast<float>(coc - own);
     const float steps = static_cast<float>(back.x * on.x + back.y * on.y) /
                         static_cast<float>(on.x * on.x + on.y * on.y);
@@ -148,7 +156,7 @@ class Filler {
       const Place further = way.after(t + DEFRAY_FILL_LOOK_PX * i);
       if (!frame_.contains(further)) break;
       const std::size_t q = frame_.index(further);
-      if (mixed_[q] || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
+      if (is_mixed(q) || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
       const Colour c = colour_at(channels_, q);
       Colour difference = c;
       add(difference, -1, colour);
@@ -170,7 +178,7 @@ class Filler {
   CocFrame frame_;
   std::span<const float> inverse_;
   const Planes& channels_;
-  std::span<const std::uint32_t> mixed_;
+  std::span<const std::uint32_t> marks_;
   int directions_;
   std::int32_t farthest_;
 };
@@ -218,6 +226,9 @@ struct Mean {
 
 Mean mean_of(std::vector<Found> all, const Planes& channels, float own, int directions) {
   const bool is_all_around = 4 * all.size() >= 3 * size(directions);
+  if (std::any_of(all.begin(), all.end(), [](auto& f) { return !f.is_barred; })) {
+    std::erase_if(all, [](auto& f) { return f.is_barred; });
+  }
   const float surface = (is_all_around ? most_of(all, own) : nearest_of(all)).coc;
   std::erase_if(all, [&](const Found& f) { return !is_of(f.coc, surface, own); });
   std::vector<float> bright;
@@ -239,11 +250,11 @@ Mean mean_of(std::vector<Found> all, const Planes& channels, float own, int dire
 
 }  // namespace
 
-Frame TwinBackend::fill(const Frame& f, const Words& mixed, int directions, Frame) {
+Frame TwinBackend::fill(const Frame& f, const Words& marks, int directions, Frame) {
   std::vector<std::int32_t> coc = copy_of(f.coc_quanta);
   Plane inverse(f.pixels(), -1);
   std::vector<Plane> channels(f.channels.size(), Plane(f.pixels()));
-  const Filler filler(f, mixed, directions);
+  const Filler filler(f, marks, directions);
   const CocFrame frame(f);
   frame.for_each_place([&](Place at) {
     const auto [own, own_inverse] = filler.in_front(at);

@@ -41,7 +41,7 @@ int directions_of(const Case& c) { return c.seed % 2 ? DEFRAY_FILL_DIRECTIONS : 
 
 Outcome run_fill(Backend& backend, const Case& c, const Input& in) {
   const Frame f = stage_frame(c, in);
-  return values_of({backend.fill(f, reference::TwinBackend().mixed(f), directions_of(c))});
+  return values_of({backend.fill(f, marks_of(c, f), directions_of(c))});
 }
 
 std::size_t split_memory(const Case& c, const Input&) { return band_memory("split", c, 2); }

@@ -8,6 +8,7 @@
 #include "lens/landing_radii.h"
 #include "methods/linear.h"
 #include "methods/tiltshift.h"
+#include "reference/twin_backend.h"
 
 namespace defray::validation {
 
@@ -65,6 +66,17 @@ Frame blurred(const Case& c, Frame frame) {
     mean_of(channel, float{}, [](int x, int y) { return (x / 8 + y / 8) % 3 != 0; });
   }
   return frame;
+}
+
+Words marks_of(const Case& c, const Frame& frame) {
+  const Words mixed = reference::TwinBackend().mixed(frame);
+  std::vector<std::uint32_t> marks(mixed.begin(), mixed.end());
+  // Few, so that ways still pass over what they need not look at, or many.
+  const std::size_t among = c.seed % 3 == 1 ? 512 : 16;
+  for (std::size_t i = 0; i < marks.size() && c.seed % 3 > 0; ++i) {
+    if (i * 2654435761u / 64 % among == 0) marks[i] |= DEFRAY_SILHOUETTE;
+  }
+  return marks;
 }
 
 Frame soft_fragments(const Case& c, const Input& in) {

@@ -16,6 +16,10 @@ Frame stage_frame(const Case& c, const Input& in);
 /// direction, and in two of three blocks of 8 px colours, too.
 Frame blurred(const Case& c, Frame frame);
 
+/// What `fill` is told of a frame: mixed pixels, and of two seeds of three silhouettes, of pixels
+/// anywhere.
+Words marks_of(const Case& c, const Frame& frame);
+
 /// The case's fragments with CoC radii that lie together.
 Frame soft_fragments(const Case& c, const Input& in);
 

@@ -11,7 +11,9 @@
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
-// mixed        [height][width]    from kernel `mixed`: their colour is two surfaces'
+// marks        [height][width]    DEFRAY_MIXED, from kernel `mixed`: their colour is two surfaces';
+//                                 DEFRAY_SILHOUETTE: one goes on there
+//                                 (chain/silhouettes/silhouettes.h)
 // pure_around  [cells_y][cells_x] so many pixels around those of a run that begins in the cell none
 //                                 is mixed
 // farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;
@@ -50,6 +52,21 @@ int16 are_alike(const Found* a, const Found* b, const float16 own) {
   return is_of(b->coc, a->coc, own) | is_of(b->met, a->met, own);
 }
 
+// What lies beyond a silhouette is left out, where anything was found on this side of it. Returns
+// in how many directions.
+int16 leave_barred_out(Found* found, const uint directions) {
+  int16 is_free = 0, left_out = 0;
+  for (uint i = 0; i < directions; ++i) {
+    is_free |= (found[i].distance != 0.0f) & ~found[i].is_barred;
+  }
+  for (uint i = 0; i < directions; ++i) {
+    const int16 goes = is_free & (found[i].distance != 0.0f) & found[i].is_barred;
+    found[i].distance = select(found[i].distance, (float16)(0.0f), goes);
+    left_out -= goes;
+  }
+  return left_out;
+}
+
 // For which pixels of a run anything was found; the CoC of the nearest.
 int16 find_nearest(const Found* found, const uint directions, Found* nearest) {
   int16 is_found = 0;
@@ -70,10 +87,11 @@ int16 find_nearest(const Found* found, const uint directions, Found* nearest) {
 // that silhouettes go on from one side to the other (by the nearest they ended in a step half way);
 // directions count by 1 / distance, as in mean value coordinates (Floater 2003). Where less was
 // found, past one edge, what is thin would end there.
-int16 find_surface(const Found* found, const uint directions, const float16 own, float16* coc) {
+int16 find_surface(const Found* found, const uint directions, const float16 own,
+                   const int16 left_out, float16* coc) {
   Found best;
   const int16 is_found = find_nearest(found, directions, &best);
-  int16 is_other = 0, count = 0;
+  int16 is_other = 0, count = left_out;
   for (uint i = 0; i < directions; ++i) {
     const int16 is_there = found[i].distance != 0.0f;
     count -= is_there;
@@ -130,11 +148,11 @@ typedef struct {
 // The mean of what was found on one surface alone: others' colours say nothing about its
 // highlights.
 Filled fill_run(const Found* found, const uint directions, const int16 own,
-                const float16 own_inverse) {
+                const float16 own_inverse, const int16 left_out) {
   Filled behind;
   const float16 own_coc = convert_float16(own);
   float16 surface;
-  behind.is_there = find_surface(found, directions, own_coc, &surface);
+  behind.is_there = find_surface(found, directions, own_coc, left_out, &surface);
   int16 counts[DEFRAY_FILL_DIRECTIONS];
   for (uint i = 0; i < directions; ++i) {
     counts[i] = (found[i].distance != 0.0f) & is_of(found[i].coc, surface, own_coc);
@@ -182,14 +200,14 @@ void write_behind(const Window* w, const int2 start, const Filled* b,
 }
 
 __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_quanta,
-                   __global const float* restrict inverse, __global const uint* restrict mixed,
+                   __global const float* restrict inverse, __global const uint* restrict marks,
                    __global const uchar* restrict pure_around,
                    __global const int* restrict farthest, CHANNEL_PARAMETERS(channel),
                    __global int* restrict behind_coc, __global float* restrict behind_inverse,
                    WRITTEN_CHANNELS(behind)) {
   const int2 start = run_start();
   if (!is_inside(p.width, p.height, start)) return;
-  const Window w = {p.width,     p.height, coc_quanta, inverse,  mixed,
+  const Window w = {p.width,     p.height, coc_quanta, inverse,  marks,
                     pure_around, channel0, channel1,   channel2, channel3};
   const uint tile = (uint)start.y / DEFRAY_FILL_TILE * p.tiles_x + (uint)start.x / DEFRAY_FILL_TILE;
   Filled behind;
@@ -200,7 +218,8 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
     for (uint i = 0; i < p.directions; ++i) {
       look_behind(&w, start, direction_of(p, i), own, farthest[tile], found + i);
     }
-    behind = fill_run(found, p.directions, own, own_inverse_of_run(&w, start));
+    const int16 left_out = leave_barred_out(found, p.directions);
+    behind = fill_run(found, p.directions, own, own_inverse_of_run(&w, start), left_out);
   }
   write_behind(&w, start, &behind, behind_coc, behind_inverse, CHANNELS(behind));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chain/patterns/patterns.h"
+#include "chain/silhouettes/silhouettes.h"
 #include "chain/tiles/fill_tiles.h"
 #include "chain/tiles/highlight_tiles.h"
 #include "lens/coc.h"
@@ -26,7 +27,10 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
   ChainReach reach{.seen = f.coc_range(), .all = {}};
   reach.all = s.hidden == Hidden::off ? reach.seen : with_made_up(reach.seen);
   const std::int32_t largest = reach.all.largest_radius();
-  if (s.hidden != Hidden::off) reach.fill = fill_rows(reach.seen);
+  if (s.hidden != Hidden::off) {
+    reach.silhouettes = silhouette_rows();
+    reach.fill = fill_rows(reach.seen);
+  }
   if (s.hidden == Hidden::patterns) reach.patterns = pattern_rows_around(PatternSettings());
   if (s.highlights) reach.highlights = highlight_reach(largest);
   if (s.soften) {
@@ -45,14 +49,16 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   };
   const std::size_t channels = planes.channels, data = planes.has_data;
   const bool has_behind = reach.fill > 0;
-  const std::int64_t fill = reach.fill, patterns = reach.patterns;
+  const std::int64_t silhouettes = reach.silhouettes, fill = reach.fill, patterns = reach.patterns;
   // A stage that is ahead of another is so by whole steps.
   const std::int64_t rows = bands.rows < e.height ? bands.rows + 2 * band_step : bands.rows;
   // CoC, what of it is to be repaired, 1/depth, mixed.
+  const std::int64_t ahead = silhouettes + fill;
   const std::size_t front =
-      (4 + data + channels) * plane(rows + fill + std::max(fill, 2 * patterns));
-  const std::size_t behind =
-      (2 + channels) * plane(rows + patterns) + (patterns > 0 ? plane(rows + 2 * patterns) : 0);
+      (4 + data + channels) *
+      plane(rows + ahead + std::max({fill, silhouettes - fill, 2 * patterns}));
+  const std::size_t behind = plane(rows + 2 * fill) + (2 + channels) * plane(rows + patterns) +
+                             (patterns > 0 ? plane(rows + 2 * patterns) : 0);
   const std::size_t front_and_behind = front + (has_behind ? behind : 0);
   const std::int64_t sent = rows + 2 * std::int64_t{reach.rays};
   const std::int64_t layered = sent + reach.soften + 2 * std::int64_t{reach.highlights};

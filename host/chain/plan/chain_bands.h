@@ -10,7 +10,7 @@ namespace defray {
 
 /// Rows above and below its own that each stage looks at, at most; 0: it does not run.
 struct ChainReach {
-  int fill = 0, patterns = 0, highlights = 0, soften = 0, rays = 0;
+  int silhouettes = 0, fill = 0, patterns = 0, highlights = 0, soften = 0, rays = 0;
   CocRange seen;  ///< Radii of the picture.
   CocRange all;   ///< Of what is made up behind it, too.
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "chain/silhouettes/silhouettes.h"
+
 namespace defray {
 namespace {
 
@@ -86,21 +88,33 @@ void Behind::look_at_strips(const std::vector<Rows>& strips) {
 
 void Behind::restart(int y) {
   give_back_to(front_.frame.height);
-  fill_done_ = y / band_step * band_step;
+  const auto before = [](int row, int reach) {
+    return std::max(0, row - reach) / band_step * band_step;
+  };
+  fill_done_ = before(y, 0);
   done_ = kept_ = kept_pixels_ = fill_done_;
-  const int first = std::max(0, fill_done_ - work_.reach.fill);
-  front_.restart(first / band_step * band_step);
+  marks_done_ = kept_marks_ = before(fill_done_, work_.reach.fill);
+  front_.restart(before(marks_done_, work_.reach.silhouettes));
+}
+
+void Behind::marks_to(int end) {
+  const Rows rows = go_on(marks_done_, end, front_.frame.height);
+  if (rows.empty()) return;
+  front_.to(rows.end + work_.reach.silhouettes);
+  front_.frame.wanted = rows;
+  marks_ = continue_silhouettes(front_.frame, front_.mixed, std::move(marks_));
+  work_.done("silhouettes");
 }
 
 void Behind::fill_to(int end) {
   const Rows rows = go_on(fill_done_, end, front_.frame.height);
   if (rows.empty()) return;
-  front_.to(rows.end + work_.reach.fill);
+  marks_to(rows.end + work_.reach.fill);
   front_.frame.wanted = rows;
   // Where patterns add their detail twice as many directions are worth their time; without them
   // the mean of fewer is as close to the truth (perf/README.md).
   const int directions = has_patterns() ? DEFRAY_FILL_DIRECTIONS : 8;
-  frame = work_.backend.fill(front_.frame, front_.mixed, directions, std::move(frame));
+  frame = work_.backend.fill(front_.frame, marks_, directions, std::move(frame));
   work_.done("fill");
   if (!has_patterns()) return;
   pixels_ = patterns_pixels(front_.frame, frame, front_.mixed, std::move(pixels_));
@@ -120,8 +134,9 @@ void Behind::to(int end) {
 int Behind::front_needed() const {
   const int height = front_.frame.height;
   const int by_fill = fill_done_ < height ? fill_done_ - work_.reach.fill : height;
+  const int by_marks = marks_done_ < height ? marks_done_ - work_.reach.silhouettes : height;
   const int by_patterns = done_ < height && has_patterns() ? done_ - work_.reach.patterns : height;
-  return std::min(by_fill, by_patterns);
+  return std::min({by_fill, by_marks, by_patterns});
 }
 
 void Behind::give_back_to(int end) {
@@ -129,6 +144,7 @@ void Behind::give_back_to(int end) {
   give_back(front_.frame, rows, frame.coc_quanta);
   give_back(front_.frame, rows, frame.inverse);
   give_back(front_.frame, rows, frame.channels);
+  give_back(front_.frame, not_needed(kept_marks_, fill_done_ - work_.reach.fill), marks_);
   give_back(front_.frame, not_needed(kept_pixels_, end - work_.reach.patterns), pixels_);
 }
 
