@@ -112,9 +112,9 @@ TEST(Chain, ReportsItsStagesByName) {
     names.push_back(s.stage);
     EXPECT_GE(s.seconds, 0) << s.stage;
   }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"lens", "border", "mixed", "repair", "fill", "patterns",
-                                      "split", "tiles", "highlights", "soften", "rays", "crop"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"lens", "border", "mixed", "repair", "silhouettes",
+                                             "fill", "patterns", "split", "tiles", "highlights",
+                                             "soften", "rays", "crop"}));
   EXPECT_EQ(result.report->highlights, 1u);
   EXPECT_EQ(result.report->lens_points, 137);
   EXPECT_GT(result.report->behind, 0u);
