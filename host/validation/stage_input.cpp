@@ -1,6 +1,7 @@
 #include "validation/stage_input.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -72,9 +73,10 @@ Words marks_of(const Case& c, const Frame& frame) {
   const Words mixed = reference::TwinBackend().mixed(frame);
   std::vector<std::uint32_t> marks(mixed.begin(), mixed.end());
   // Few, so that ways still pass over what they need not look at, or many.
-  const std::size_t among = c.seed % 3 == 1 ? 512 : 16;
-  for (std::size_t i = 0; i < marks.size() && c.seed % 3 > 0; ++i) {
-    if (i * 2654435761u / 64 % among == 0) marks[i] |= DEFRAY_SILHOUETTE;
+  const double share = std::array{0.0, 1.0 / 512, 1.0 / 16}[c.seed % 3];
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const auto x = static_cast<int>(i) % c.width, y = static_cast<int>(i) / c.width;
+    if (Random(x, y, c.seed).next() < share) marks[i] |= DEFRAY_SILHOUETTE;
   }
   return marks;
 }

@@ -15,7 +15,7 @@
 //                                 DEFRAY_SILHOUETTE: one goes on there
 //                                 (chain/silhouettes/silhouettes.h)
 // pure_around  [cells_y][cells_x] so many pixels around those of a run that begins in the cell none
-//                                 is mixed
+//                                 is marked
 // farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;
 //                                 DEFRAY_NOTHING_BEHIND: none behind them
 // channel0..3  [height][width]

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "chain/tiles/fill_tiles.h"
 #include "lens/coc.h"
 
 namespace defray {
@@ -84,18 +85,19 @@ class Silhouettes {
   void go_on_from(Corner at) const {
     std::array<std::int32_t, 4> sorted = around(at);
     std::sort(sorted.begin(), sorted.end());
-    std::vector<std::int32_t> behind;  // the nearest of each surface but the first
+    int jumps = 0;
+    std::int32_t middle = 0;  // of three surfaces
     for (std::size_t i = 0; i < 3; ++i) {
-      if (is_jump(sorted[i], sorted[i + 1])) behind.push_back(sorted[i + 1]);
+      if (is_jump(sorted[i], sorted[i + 1]) && ++jumps == 1) middle = sorted[i + 1];
     }
-    if (behind.size() != 2) return;
-    const double px = std::min<double>(longest_px, (behind[0] - sorted[0]) / 256 + 2);
+    if (jumps != 2) return;
+    const double px = std::min(longest_px, fill_reach(middle, sorted[0]));
     for (std::size_t way = 0; way < 4; ++way) {
       for (const Hand hand : {Hand::left, Hand::right}) {
-        const std::vector<Corner> corners = trace(at, behind[0], way, hand);
+        const std::vector<Corner> corners = trace(at, middle, way, hand);
         if (corners.size() <= least_traced) continue;
         const auto [x, y] = direction_of(corners);
-        const End end{at, behind[0], x, y, px};
+        const End end{at, middle, x, y, px};
         const bool is_loop = !std::isfinite(x);  // has no direction
         if (!is_loop && is_wide(end, hand)) draw(end);
       }
@@ -159,34 +161,33 @@ class Silhouettes {
   void draw(const End& end) const {
     for (const int i : {0, 1, 2, 3}) mark_hidden(end, end.at.x - i % 2, end.at.y - i / 2);
     constexpr double step = 0.125;
-    int x = floor_of(end.at.x - seen_px * end.along_x);
-    int y = floor_of(end.at.y - seen_px * end.along_y);
-    int seen = 0;
-    for (double px = -seen_px; px <= end.px && seen < 2; px += step) {
-      const int next_x = floor_of(end.at.x + px * end.along_x);
-      const int next_y = floor_of(end.at.y + px * end.along_y);
-      if (next_x == x && next_y == y) continue;
-      if (px > 0 ? mark_hidden(end, x, next_y) : mark(x, next_y)) seen = 0;
-      x = next_x;
-      y = next_y;
-      if (px > 0 ? mark_hidden(end, x, y) : mark(x, y)) {
-        seen = 0;
-      } else if (px > 2) {
-        ++seen;
+    double hidden_px = 0;  // as far as it was
+    int last_x = floor_of(end.at.x - seen_px * end.along_x);
+    for (double px = -seen_px; px <= std::min(end.px, hidden_px + 2); px += step) {
+      const int x = floor_of(end.at.x + px * end.along_x);
+      const int y = floor_of(end.at.y + px * end.along_y);
+      if (px > 0) {
+        mark_hidden(end, last_x, y);
+        if (mark_hidden(end, x, y)) hidden_px = px;
+      } else {
+        mark(last_x, y);
+        mark(x, y);
       }
+      last_x = x;
     }
   }
 
+  /// Returns whether something in front of the surface hides it there.
   bool mark_hidden(const End& end, int x, int y) const {
-    return is_jump(coc(x, y), end.coc) && mark(x, y);
+    const bool is_hidden = is_jump(coc(x, y), end.coc);
+    if (is_hidden) mark(x, y);
+    return is_hidden;
   }
 
-  bool mark(int x, int y) const {
-    if (x >= 0 && x < f_.width && y >= rows_.y && y < rows_.end) {
-      const std::atomic_ref pixel(marks_[f_.index(x, y)]);
-      pixel.fetch_or(DEFRAY_SILHOUETTE, std::memory_order_relaxed);
-    }
-    return true;
+  void mark(int x, int y) const {
+    if (x < 0 || x >= f_.width || y < rows_.y || y >= rows_.end) return;
+    const std::atomic_ref pixel(marks_[f_.index(x, y)]);
+    pixel.fetch_or(DEFRAY_SILHOUETTE, std::memory_order_relaxed);
   }
 
   const Frame& f_;

@@ -20,21 +20,21 @@ struct FillTile {
   }
 };
 
-/// How many cells away the next one is in which a pixel is mixed, along either axis; 0: it is this
+/// How many cells away the next one is in which a pixel is marked, along either axis; 0: it is this
 /// one. Of cells in `known` rows. Two sweeps, each over the four neighbours that it has passed.
 class CellDistances {
  public:
-  CellDistances(const Frame& f, const Words& mixed, Rows known)
+  CellDistances(const Frame& f, const Words& marks, Rows known)
       : across_(cells(f.width)),
         first_(known.y / DEFRAY_FILL_CELL),
         end_(cells(known.end)),
         away_(size(across_) * size(cells(f.height)), far) {
-    const auto is_mixed = mixed.host();
+    const auto is_marked = marks.host();
     parallel_for(end_ - first_, [&](int row) {
       const int j = first_ + row, end = std::min(known.end, (j + 1) * DEFRAY_FILL_CELL);
       for (int y = std::max(known.y, j * DEFRAY_FILL_CELL); y < end; ++y) {
         for (int x = 0; x < f.width; ++x) {
-          if (is_mixed[f.index(x, y)]) at(x / DEFRAY_FILL_CELL, j) = 0;
+          if (is_marked[f.index(x, y)]) at(x / DEFRAY_FILL_CELL, j) = 0;
         }
       }
     });
@@ -46,7 +46,7 @@ class CellDistances {
     }
   }
 
-  /// So many pixels around those of a run that begins in a cell none is mixed, at least: of all
+  /// So many pixels around those of a run that begins in a cell none is marked, at least: of all
   /// cells, 0 where rows are not known.
   Values<std::uint8_t> pure_around_runs() const {
     std::vector<std::uint8_t> pure(away_.size());
@@ -94,15 +94,15 @@ int fill_rows(const CocRange& range) {
   return fill_reach(tame(range.largest), tame(range.least)) + launch_of("fill").reach_px;
 }
 
-Quanta farthest_to_fill(const Frame& f, const Words& mixed) {
+Quanta farthest_to_fill(const Frame& f, const Words& marks) {
   const auto coc_quanta = f.coc_quanta.host();
-  const auto is_mixed = mixed.host();
+  const auto marked = marks.host();
   const auto look = [&](FillTile& tile, int x0, int y0, int x1, int y1) {
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) {
         const std::size_t i = f.index(x, y);
         const std::int32_t coc = tame(coc_quanta[i]);
-        tile.add({coc, coc, is_mixed[i] != 0});
+        tile.add({coc, coc, (marked[i] & DEFRAY_MIXED) != 0});
       }
     }
   };
@@ -124,9 +124,9 @@ Quanta farthest_to_fill(const Frame& f, const Words& mixed) {
   return farthest;
 }
 
-Values<std::uint8_t> pure_around_runs(const Frame& f, const Words& mixed) {
+Values<std::uint8_t> pure_around_runs(const Frame& f, const Words& marks) {
   const Rows known = f.wanted_rows().with(fill_rows(f.coc_range()), f.height);
-  return CellDistances(f, mixed, known).pure_around_runs();
+  return CellDistances(f, marks, known).pure_around_runs();
 }
 
 }  // namespace defray
