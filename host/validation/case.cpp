@@ -14,16 +14,16 @@
 namespace defray::validation {
 namespace {
 
-const std::map<std::string, Pattern> patterns = {
+const std::map<std::string, Pattern> pattern_names = {
     {"constant", Pattern::constant}, {"slanted", Pattern::slanted},
     {"steps", Pattern::steps},       {"random", Pattern::random},
     {"ties", Pattern::ties},         {"converging", Pattern::converging},
     {"checker", Pattern::checker},   {"sparse", Pattern::sparse}};
 
-const std::map<std::string, Colours> colours = {{"plain", Colours::plain},
-                                                {"wild", Colours::wild},
-                                                {"extreme", Colours::extreme},
-                                                {"nonfinite", Colours::nonfinite}};
+const std::map<std::string, Colours> colours_names = {{"plain", Colours::plain},
+                                                      {"wild", Colours::wild},
+                                                      {"extreme", Colours::extreme},
+                                                      {"nonfinite", Colours::nonfinite}};
 
 template <typename T>
 std::string name_of(const std::map<std::string, T>& names, T value) {
@@ -78,10 +78,10 @@ const std::map<std::string, Read> case_fields = {
      }}};
 
 void read_word(Case& c, const std::string& word) {
-  if (patterns.count(word)) {
-    c.pattern = patterns.at(word);
-  } else if (colours.count(word)) {
-    c.colours = colours.at(word);
+  if (pattern_names.count(word)) {
+    c.pattern = pattern_names.at(word);
+  } else if (colours_names.count(word)) {
+    c.colours = colours_names.at(word);
   } else if (word == "jitter") {
     c.jitter = true;
   } else if (const auto equals = word.find('=');
@@ -91,8 +91,8 @@ void read_word(Case& c, const std::string& word) {
     read_pair(word, word, 65536, c.width, c.height);
   } else {
     std::vector<std::string> known{"jitter"};
-    for (const auto& [name, pattern] : patterns) known.push_back(name);
-    for (const auto& [name, kind] : colours) known.push_back(name);
+    for (const auto& [name, pattern] : pattern_names) known.push_back(name);
+    for (const auto& [name, kind] : colours_names) known.push_back(name);
     for (const auto& [name, read] : case_fields) known.push_back(name);
     const std::string name = word.substr(0, equals);
     if (case_fields.count(word))
@@ -107,8 +107,8 @@ void read_word(Case& c, const std::string& word) {
 
 /// What a word is about: no case says one thing twice.
 std::string subject_of(const std::string& word) {
-  if (patterns.count(word)) return "a pattern";
-  if (colours.count(word)) return "colours";
+  if (pattern_names.count(word)) return "a pattern";
+  if (colours_names.count(word)) return "colours";
   if (!word.empty() && word[0] >= '0' && word[0] <= '9') return "a size";
   return word.substr(0, word.find('='));
 }
@@ -118,8 +118,8 @@ std::string subject_of(const std::string& word) {
 std::string to_string(const Case& c) {
   const Case plain;
   std::string text =
-      fmt::format("{}x{},{},coc={},{}", c.width, c.height, name_of(patterns, c.pattern), c.coc_px,
-                  name_of(colours, c.colours));
+      fmt::format("{}x{},{},coc={},{}", c.width, c.height, name_of(pattern_names, c.pattern),
+                  c.coc_px, name_of(colours_names, c.colours));
   const auto add = [&](const char* name, auto value, auto standard) {
     if (value != standard) text += fmt::format(",{}={}", name, value);
   };

@@ -55,10 +55,9 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   const std::int64_t ahead = silhouettes + fill;
   // CoC, what of it is to be repaired, 1/depth, mixed.
   const std::size_t front =
-      (4 + data + channels) *
-      plane(rows + ahead + std::max({fill, silhouettes - fill, 2 * patterns}));
-  // What fill is told, what it makes, what patterns are told.
-  const std::size_t behind = plane(rows + 2 * fill) + (2 + channels) * plane(rows + patterns) +
+      (4 + data + channels) * plane(rows + ahead + std::max({fill, silhouettes, 2 * patterns}));
+  // What fill is told and strips, what it makes, what patterns are told.
+  const std::size_t behind = 2 * plane(rows + 2 * fill) + (2 + channels) * plane(rows + patterns) +
                              (patterns > 0 ? plane(rows + 2 * patterns) : 0);
   const std::size_t front_and_behind = front + (has_behind ? behind : 0);
   const std::int64_t sent = rows + 2 * std::int64_t{reach.rays};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "chain/silhouettes/silhouettes.h"
+#include "chain/silhouettes/strips.h"
 
 namespace defray {
 namespace {
@@ -93,28 +93,29 @@ void Behind::restart(int y) {
   };
   fill_done_ = before(y, 0);
   done_ = kept_ = kept_pixels_ = fill_done_;
-  marks_done_ = kept_marks_ = before(fill_done_, work_.reach.fill);
-  front_.restart(before(marks_done_, work_.reach.silhouettes));
+  silhouettes_done_ = kept_silhouettes_ = before(fill_done_, work_.reach.fill);
+  front_.restart(before(silhouettes_done_, work_.reach.silhouettes));
 }
 
-void Behind::marks_to(int end) {
-  const Rows rows = go_on(marks_done_, end, front_.frame.height);
+void Behind::silhouettes_to(int end) {
+  const Rows rows = go_on(silhouettes_done_, end, front_.frame.height);
   if (rows.empty()) return;
   front_.to(rows.end + work_.reach.silhouettes);
   front_.frame.wanted = rows;
-  marks_ = continue_silhouettes(front_.frame, front_.mixed, std::move(marks_));
+  continue_silhouettes(front_.frame, front_.mixed, silhouettes_);
   work_.done("silhouettes");
 }
 
 void Behind::fill_to(int end) {
   const Rows rows = go_on(fill_done_, end, front_.frame.height);
   if (rows.empty()) return;
-  marks_to(rows.end + work_.reach.fill);
+  silhouettes_to(rows.end + work_.reach.fill);
   front_.frame.wanted = rows;
   // Where patterns add their detail twice as many directions are worth their time; without them
   // the mean of fewer is as close to the truth (perf/README.md).
   const int directions = has_patterns() ? DEFRAY_FILL_DIRECTIONS : 8;
-  frame = work_.backend.fill(front_.frame, marks_, directions, std::move(frame));
+  frame = work_.backend.fill(front_.frame, silhouettes_.marks, directions, std::move(frame));
+  paint_strips(front_.frame, silhouettes_.strips, frame);
   work_.done("fill");
   if (!has_patterns()) return;
   pixels_ = patterns_pixels(front_.frame, frame, front_.mixed, std::move(pixels_));
@@ -133,10 +134,11 @@ void Behind::to(int end) {
 
 int Behind::front_needed() const {
   const int height = front_.frame.height;
-  const int by_fill = fill_done_ < height ? fill_done_ - work_.reach.fill : height;
-  const int by_marks = marks_done_ < height ? marks_done_ - work_.reach.silhouettes : height;
+  // Strips are painted from rows as far away as silhouettes look.
+  const int around_fill = std::max(work_.reach.fill, work_.reach.silhouettes);
+  const int by_fill = fill_done_ < height ? fill_done_ - around_fill : height;
   const int by_patterns = done_ < height && has_patterns() ? done_ - work_.reach.patterns : height;
-  return std::min({by_fill, by_marks, by_patterns});
+  return std::min(by_fill, by_patterns);
 }
 
 void Behind::give_back_to(int end) {
@@ -144,7 +146,9 @@ void Behind::give_back_to(int end) {
   give_back(front_.frame, rows, frame.coc_quanta);
   give_back(front_.frame, rows, frame.inverse);
   give_back(front_.frame, rows, frame.channels);
-  give_back(front_.frame, not_needed(kept_marks_, fill_done_ - work_.reach.fill), marks_);
+  const Rows marked = not_needed(kept_silhouettes_, fill_done_ - work_.reach.fill);
+  give_back(front_.frame, marked, silhouettes_.marks);
+  give_back(front_.frame, marked, silhouettes_.strips);
   give_back(front_.frame, not_needed(kept_pixels_, end - work_.reach.patterns), pixels_);
 }
 

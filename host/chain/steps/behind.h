@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "chain/patterns/patterns.h"
+#include "chain/silhouettes/silhouettes.h"
 #include "chain/steps/front.h"
 
 namespace defray {
@@ -26,7 +27,7 @@ class Behind {
   Frame frame;  ///< CoC, colours; `inverse` is negative where nothing is.
 
  private:
-  void marks_to(int end);
+  void silhouettes_to(int end);
   void fill_to(int end);
   void look_at_strips(const std::vector<Rows>& strips);
   void restart(int y);
@@ -35,10 +36,11 @@ class Behind {
   Front& front_;
   ChainWork& work_;
   PatternSettings settings_;
-  Words marks_;  ///< What `fill` is told: mixed pixels, silhouettes.
+  Silhouettes silhouettes_;
   Words pixels_;
   std::vector<PatternShift> shifts_;
-  int marks_done_ = 0, fill_done_ = 0, done_ = 0, kept_ = 0, kept_marks_ = 0, kept_pixels_ = 0;
+  int silhouettes_done_ = 0, fill_done_ = 0, done_ = 0;
+  int kept_ = 0, kept_silhouettes_ = 0, kept_pixels_ = 0;
 };
 
 /// The strips of a picture of `width` x `height` in which shifts are looked for, from the top; one

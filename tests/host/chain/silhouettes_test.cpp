@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -15,18 +16,18 @@ namespace {
 constexpr std::int32_t near = -5120, middle = 0, far = 2048;  // quanta; 256 are a pixel
 constexpr int width = 160, height = 120;
 
-Frame drawn(const std::function<std::int32_t(int x, int y)>& coc_at) {
+Frame drawn(const std::function<std::int32_t(int x, int y)>& coc_at, int rows = height) {
   std::vector<std::int32_t> coc;
-  for (int y = 0; y < height; ++y) {
+  for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < width; ++x) coc.push_back(coc_at(x, y));
   }
-  return Frame{width, height, std::move(coc)};
+  return Frame{width, rows, std::move(coc)};
 }
 
-Words marks_of(const Frame& f, Rows rows = {0, height}) {
-  Frame wanted = f;
-  if (rows.count() < height) wanted.wanted = rows;
-  return continue_silhouettes(wanted, reference::TwinBackend().mixed(f), {});
+Words marks_of(const Frame& f) {
+  Silhouettes all;
+  continue_silhouettes(f, reference::TwinBackend().mixed(f), all);
+  return all.marks;
 }
 
 bool is_marked(const Words& marks, int x, int y) {
@@ -34,9 +35,8 @@ bool is_marked(const Words& marks, int x, int y) {
 }
 
 std::size_t count_of(const Words& marks) {
-  std::size_t count = 0;
-  for (int i = 0; i < width * height; ++i) count += is_marked(marks, i % width, i / width);
-  return count;
+  const auto is_silhouette = [](std::uint32_t mark) { return (mark & DEFRAY_SILHOUETTE) != 0; };
+  return static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), is_silhouette));
 }
 
 /// Below a line through (80, 60), or above it, lies the middle surface; a near bar from column 70
@@ -105,7 +105,8 @@ TEST(Silhouettes, OfWhatIsAloneOrThinEndNowhere) {
   EXPECT_GT(count_of(marks_of(coc_of(near, middle, 70))), 30u);
   EXPECT_EQ(count_of(marks_of(coc_of(near, far, 70))), 0u);
   EXPECT_EQ(count_of(marks_of(coc_of(near, near, 70))), 0u);
-  EXPECT_EQ(count_of(marks_of(coc_of(near, middle, 63))), 0u);
+  EXPECT_EQ(count_of(marks_of(coc_of(near, middle, 66))), 0u);
+  EXPECT_GT(count_of(marks_of(coc_of(near, middle, 67))), 30u);
   EXPECT_EQ(count_of(marks_of(coc_of(near, middle + far - 192, 70))), 0u);  // no jump
   EXPECT_GT(count_of(marks_of(coc_of(near, middle + far - 193, 70))), 30u);
 }
@@ -120,25 +121,49 @@ TEST(Silhouettes, OfWhatIsHardlySeenEndNowhere) {
   }
 }
 
+/// Returns how many pixels lie behind something on a strip.
+std::size_t expect_same_in_bands(const Frame& f) {
+  const Words mixed = reference::TwinBackend().mixed(f);
+  Silhouettes all, bands;
+  continue_silhouettes(f, mixed, all);
+  EXPECT_GT(count_of(all.marks), 100u);
+  for (int y = 0; y < f.height; y += 16) {
+    const Rows rows{y, std::min(y + 16, f.height)};
+    // Of rows that it does not look at nothing matters.
+    const Rows seen = rows.with(silhouette_rows(), f.height);
+    const auto coc_at = [&](int x, int row) {
+      return row < seen.y || row >= seen.end ? (x * row) % 7 * 900 : f.coc_quanta[f.index(x, row)];
+    };
+    Frame band = drawn(coc_at, f.height);
+    band.wanted = rows;
+    continue_silhouettes(band, mixed, bands);
+  }
+  std::size_t in_strips = 0;
+  for (std::size_t i = 0; i < f.pixels(); ++i) {
+    EXPECT_EQ(bands.marks[i], all.marks[i]) << i;
+    EXPECT_EQ(bands.strips[i], all.strips[i]) << i;
+    in_strips += all.strips[i] > 0 ? 1 : 0;
+  }
+  return in_strips;
+}
+
 TEST(Silhouettes, AreTheSameInBandsOfRows) {
   const Frame f = drawn([](int x, int y) {
     if (std::abs(x - 40 - y / 3) < 12 || std::abs(x - 120 + y / 2) < 9) return 4 * near;
+    if (std::abs(2 * y - x - 20) < 4 || std::abs(3 * y + x - 210) < 7) return middle - 1000;
     return (x * x / 40 + y) % 50 < 25 ? middle : (x - y / 5) % 40 < 20 ? far : far + 1000;
   });
-  const Words all = marks_of(f);
-  EXPECT_GT(count_of(all), 100u);
-  Words bands;
-  const Words mixed = reference::TwinBackend().mixed(f);
-  for (int y = 0; y < height; y += 16) {
-    // Of rows that it does not look at nothing matters.
-    const Rows seen = Rows{y, std::min(y + 16, height)}.with(silhouette_rows(), height);
-    Frame band = drawn([&](int x, int row) {
-      return row < seen.y || row >= seen.end ? (x * row) % 7 * 900 : f.coc_quanta[f.index(x, row)];
-    });
-    band.wanted = Rows{y, std::min(y + 16, height)};
-    bands = continue_silhouettes(band, mixed, std::move(bands));
-  }
-  for (int i = 0; i < width * height; ++i) EXPECT_EQ(bands[size(i)], all[size(i)]) << i;
+  EXPECT_GT(expect_same_in_bands(f), 100u);
+}
+
+/// As far as they go on, from as far as their direction is looked for.
+TEST(Silhouettes, AreTheSameInBandsFarFromTheirEnds) {
+  const auto slanted = [](int x, int y) {
+    if (y >= 100 && y < 200) return 8 * near;
+    const int along = x + y / 3 + (y > 88 && y < 212 ? 0 : y / 2);
+    return along % 80 < 4 || (along % 80 > 40 && along % 80 < 70) ? middle : far;
+  };
+  EXPECT_GT(expect_same_in_bands(drawn(slanted, 300)), 500u);
 }
 
 TEST(Silhouettes, KeepMixedPixelsAndTinyFrames) {
@@ -146,7 +171,7 @@ TEST(Silhouettes, KeepMixedPixelsAndTinyFrames) {
   const Words mixed = reference::TwinBackend().mixed(f), marks = marks_of(f);
   for (std::size_t i = 0; i < f.pixels(); ++i) EXPECT_EQ(marks[i] & DEFRAY_MIXED, mixed[i]);
   const Frame one{1, 1, std::vector<std::int32_t>{near}};
-  EXPECT_EQ(continue_silhouettes(one, reference::TwinBackend().mixed(one), {})[0], 0u);
+  EXPECT_EQ(marks_of(one)[0], 0u);
 }
 
 }  // namespace

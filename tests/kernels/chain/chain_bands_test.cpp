@@ -24,9 +24,14 @@ struct Shot {
   bool is_antialiased = false;
   double blur_px = 12;  ///< Of background; near things have more.
   int lamp_every = 1500;
+  bool has_wires = false;  ///< Thin ones that go on behind beams of 60 rows.
 
   float depth_at(int x, int y) const {
     if (x > width * 3 / 4 && y < height / 5) return HUGE_VALF;
+    if (has_wires) {
+      if (y % 128 >= 40 && y % 128 < 100) return 1.2f;
+      return (x + y / 4) % 31 < 4 ? 2.6f : 4.0f;
+    }
     if (y >= 60 && y < 66) return 2.95f;
     if (x % 47 >= 20 && x % 47 < 26) return 1.2f;
     if (is_antialiased && x % 47 == 19) return 2.2f;
@@ -138,6 +143,17 @@ TEST(ChainBands, NoSeamShowsWhereStagesLookFarBack) {
   settings.cells_per_side = 5;
   Shot shot{160, 420};
   shot.blur_px = 40;
+  for (const Hidden hidden : {Hidden::fill, Hidden::patterns}) {
+    settings.hidden = hidden;
+    expect_no_seams(shot, settings);
+  }
+}
+
+TEST(ChainBands, NoSeamShowsWhereStripsGoOn) {
+  ChainSettings settings;
+  settings.cells_per_side = 5;
+  Shot shot{100, 420};
+  shot.has_wires = true;
   for (const Hidden hidden : {Hidden::fill, Hidden::patterns}) {
     settings.hidden = hidden;
     expect_no_seams(shot, settings);
