@@ -11,9 +11,10 @@
 //
 // coc_quanta   [height][width]    signed radius, 1/256 px
 // inverse      [height][width]    1/depth; 0: background
-// marks        [height][width]    DEFRAY_MIXED, from kernel `mixed`: their colour is two surfaces';
+// marks        [height][width]    DEFRAY_MIXED: nothing is found there, as their colour is two
+//                                 surfaces' (kernel `mixed`), or what they show is thin;
 //                                 DEFRAY_SILHOUETTE: one goes on there
-//                                 (chain/silhouettes/silhouettes.h)
+//                                 (host/chain/silhouettes/silhouettes.h)
 // pure_around  [cells_y][cells_x] so many pixels around those of a run that begins in the cell none
 //                                 is marked
 // farthest     [tiles_y][tiles_x] the largest signed radius that the tile's pixels can meet;

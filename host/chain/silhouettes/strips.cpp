@@ -177,14 +177,14 @@ void continue_strips(const Frame& front, const std::vector<SilhouetteEnd>& all_e
 void paint_strips(const Frame& front, const Words& strips, Frame& behind) {
   const Rows rows = front.wanted_rows();
   const auto from = strips.host();
+  const std::size_t first = front.index(0, rows.y), end = front.index(0, rows.end);
+  const auto is_strip = [&](std::size_t i) { return from[first + i] > 0; };
+  if (!parallel_any(end - first, is_strip)) return;  // planes stay on their device
   const auto paint = [&](const auto& plane, auto& into) {
     const auto source = plane.host();
     const auto painted = into.edit();
-    parallel_for(rows.count(), [&](int row) {
-      for (int x = 0; x < front.width; ++x) {
-        const std::size_t i = front.index(x, rows.y + row);
-        if (from[i] > 0) painted[i] = source[from[i] - 1];
-      }
+    parallel_for_each(end - first, [&](std::size_t i) {
+      if (is_strip(i)) painted[first + i] = source[from[first + i] - 1];
     });
   };
   paint(front.coc_quanta, behind.coc_quanta);
