@@ -28,7 +28,8 @@ struct Hull {
 struct Nearby {
   Colour colour;
   std::size_t source;  ///< Whose depth it has.
-  Hull hull;           ///< Of the colours that it is the mean of.
+  Hull hull;           ///< Of the colours that it is the mean of, and
+  float variance;      ///< theirs, all channels together.
 };
 
 /// a . b, added in channel order.
@@ -38,6 +39,11 @@ float dot(const Colour& a, const Colour& b) {
 
 Colour minus(Colour a, const Colour& b) {
   for (std::size_t c = 0; c < 4; ++c) a[c] -= b[c];
+  return a;
+}
+
+Colour times(Colour a, const Colour& b) {
+  for (std::size_t c = 0; c < 4; ++c) a[c] *= b[c];
   return a;
 }
 
@@ -60,6 +66,7 @@ class Splitter {
   /// depth.
   std::optional<Nearby> pure(Place at, int low, int high) const {
     Nearby found{};
+    Colour squares{};
     float weights = 0, largest = 0;
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
@@ -67,14 +74,20 @@ class Splitter {
       const Place d = place - at;
       const int distance2 = d.x * d.x + d.y * d.y;
       const float weight = 1.0f / static_cast<float>(distance2 * distance2);
-      add(found.colour, weight, colour_at(channels_, q));
-      found.hull.add(colour_at(channels_, q));
+      const Colour colour = colour_at(channels_, q);
+      add(found.colour, weight, colour);
+      add(squares, weight, times(colour, colour));
+      found.hull.add(colour);
       weights += weight;
       if (weight > largest) found.source = q;
       largest = std::max(largest, weight);
     });
     if (weights == 0) return std::nullopt;
     found.colour = divided(found.colour, weights);
+    const Colour mean2 = times(found.colour, found.colour);
+    const Colour variances = minus(divided(squares, weights), mean2);
+    const float sum = variances[0] + variances[1] + variances[2] + variances[3];
+    found.variance = std::fmax(sum, 0.0f);
     return found;
   }
 
@@ -88,7 +101,7 @@ class Splitter {
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(dot(d, d) > farthest)) return;
       farthest = dot(d, d);
-      front = {colour, q, {}};
+      front = {colour, q, {}, 0};
     });
     return front;
   }
@@ -114,13 +127,15 @@ struct Fit {
 };
 
 /// Share a of the front F that makes a F + (1 - a) B most like C, drawn towards what is likely
-/// where F and B are alike.
-float coverage_of(const Colour& c, const Colour& f, const Colour& b, bool saw_front) {
+/// where F and B are as alike as their own colours are.
+float coverage_of(const Colour& c, const Colour& f, const Colour& b, float variance,
+                  bool saw_front) {
   const auto [along, length2, share, misfit2] = Fit(c, f, b);
   Colour sizes;
   for (std::size_t i = 0; i < 4; ++i) sizes[i] = f[i] * f[i] + b[i] * b[i];
-  const float unsure = 1e-3f * (sizes[0] + sizes[1] + sizes[2] + sizes[3]);
-  const float likely = saw_front ? 0.75f : 0.25f;
+  const float size2 = sizes[0] + sizes[1] + sizes[2] + sizes[3];
+  const float unsure = std::fmin(1e-3f * size2 + 2 * variance, 3e-2f * size2);
+  const float likely = saw_front ? 0.875f : 0.125f;
   if (!std::isfinite(along) || !std::isfinite(length2 + unsure)) return saw_front ? 1 : 0;
   if (length2 + unsure == 0) return likely;
   const float mean = (share * length2 + likely * unsure) / (length2 + unsure);
@@ -237,7 +252,11 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     if (!saw_front && !is_third && seen && found) {
       b = best_behind(c, found->colour, b, {colour_at(f.channels, seen->source), seen->colour});
     }
-    const float share = found ? coverage_of(c, found->colour, b, saw_front) : saw_front ? 1 : 0;
+    const float variance =
+        (found ? found->variance : 0) + (!saw_front && seen ? seen->variance : 0);
+    const float share = found       ? coverage_of(c, found->colour, b, variance, saw_front)
+                        : saw_front ? 1
+                                    : 0;
     if (saw_front) {
       if (std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
       if (share > 1 - 0.03f) return;

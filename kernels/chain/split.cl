@@ -25,6 +25,15 @@
 #define LEAST_COVERAGE 0.03f
 #define MOST_OF_BEHIND 0.75f
 #define LEAST_OF_FRONT 0.25f
+// Of an edge anywhere between two pixels' centres, what the nearer one of a surface covers.
+#define LIKELY_COVERAGE 0.875f
+// So much do the surfaces' variances count against the difference of their colours, within shares
+// of the squares of those. (0, 2 and 4 times, 640x400: fence fence 39.46, 39.59, 39.62 dB, the
+// others within 0.03; at most 1 %: 39.53, 10 %: 39.62, `cutout` far at 96x72 -0.1; no bound:
+// spheres -0.5.)
+#define NOISE 2.0f
+#define LEAST_NOISE 1e-3f
+#define MOST_NOISE 3e-2f
 
 // A surface in one pixel.
 typedef struct {
@@ -38,6 +47,7 @@ typedef struct {
 typedef struct {
   float4 colour;
   float4 low, high;  // of the colours that it is the mean of, channel by channel
+  float variance;    // of them, all channels together
   uint source;       // whose depth it has
   bool is_found;
 } Nearby;
@@ -50,8 +60,9 @@ float4 higher_of(const float4 a, const float4 b) { return a > b ? a : b; }
 Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_quanta,
                    __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
                    const int low, const int high) {
-  Nearby found = {0.0f, INFINITY, -INFINITY, 0u, false};
+  Nearby found = {0.0f, INFINITY, -INFINITY, 0.0f, 0u, false};
   float weights = 0.0f, nearest = 0.0f;
+  float4 squares = 0.0f;
   for (int i = 0; i < 49; ++i) {
     const int2 d = (int2)(i % 7 - 3, i / 7 - 3);
     const uint q = pixel_at(p.width, p.height, at + d);
@@ -60,6 +71,7 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
     const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
     const float4 colour = colour_at(CHANNELS(channel), q);
     found.colour += weight * colour;
+    squares += weight * (colour * colour);
     found.low = lower_of(colour, found.low);
     found.high = higher_of(colour, found.high);
     weights += weight;
@@ -67,7 +79,10 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
     nearest = fmax(nearest, weight);
   }
   found.is_found = weights > 0.0f;
-  if (found.is_found) found.colour /= weights;
+  if (!found.is_found) return found;
+  found.colour /= weights;
+  const float4 variances = squares / weights - found.colour * found.colour;
+  found.variance = fmax(variances.x + variances.y + variances.z + variances.w, 0.0f);
   return found;
 }
 
@@ -75,7 +90,7 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
 Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
                   CHANNEL_PARAMETERS(channel), const int2 at, const int middle,
                   const float4 behind) {
-  Nearby front = {0.0f, INFINITY, -INFINITY, 0u, false};
+  Nearby front = {0.0f, INFINITY, -INFINITY, 0.0f, 0u, false};
   float farthest_colour = -1.0f;
   for (int i = 0; i < 49; ++i) {
     const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
@@ -110,15 +125,18 @@ Fit fit_of(const float4 c, const float4 f, const float4 b) {
   return fit;
 }
 
-// Share of the pixel that F covers. Where F and B are alike, colour says little and the depth
-// sample decides: it most likely saw the larger share. The more of C the two leave unexplained, the
-// less of it is taken apart. Colours that are not finite, or whose squares are not, say nothing:
-// the pixel stays whole.
-float coverage_of(const float4 c, const float4 f, const float4 b, const bool saw_front) {
+// Share of the pixel that F covers. Where F and B are no more unlike than each is in itself, colour
+// says little and the depth sample decides: it most likely saw the larger share. The more of C the
+// two leave unexplained, the less of it is taken apart. Colours that are not finite, or whose
+// squares are not, say nothing: the pixel stays whole.
+float coverage_of(const float4 c, const float4 f, const float4 b, const float variance,
+                  const bool saw_front) {
   const Fit fit = fit_of(c, f, b);
   const float4 sizes = f * f + b * b;
-  const float unsure = 1e-3f * (sizes.x + sizes.y + sizes.z + sizes.w);
-  const float all2 = fit.length2 + unsure, likely = saw_front ? 0.75f : 0.25f;
+  const float size2 = sizes.x + sizes.y + sizes.z + sizes.w;
+  const float unsure = fmin(LEAST_NOISE * size2 + NOISE * variance, MOST_NOISE * size2);
+  const float all2 = fit.length2 + unsure;
+  const float likely = saw_front ? LIKELY_COVERAGE : 1.0f - LIKELY_COVERAGE;
   if (!isfinite(fit.along) || !isfinite(all2)) return saw_front ? 1.0f : 0.0f;
   if (all2 == 0.0f) return likely;
   const float mean = (fit.share * fit.length2 + likely * unsure) / all2;
@@ -189,8 +207,9 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
       b = best_behind(c, f.colour, b, colour_at(CHANNELS(channel), seen.source), seen.colour);
     }
   }
+  const float variance = saw_front ? f.variance : f.variance + seen.variance;
   const float share =
-      f.is_found ? coverage_of(c, f.colour, b, saw_front) : (saw_front ? 1.0f : 0.0f);
+      f.is_found ? coverage_of(c, f.colour, b, variance, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
     if (abs(nearest) < DEFRAY_SMALL_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;

@@ -59,35 +59,60 @@ Canvas random_canvas(std::uint32_t seed) {
   return f;
 }
 
+/// Pure pixels of one surface around a mixed pixel, by 1 / distance^4.
+struct Pure {
+  Colour mean{}, nearest{};
+  double weights = 0, variance = 0;
+};
+
+template <typename IsOfIt>
+Pure pure_around(const Canvas& f, const Words& mixed, int x, int y, const IsOfIt& is_of_it) {
+  Pure pure;
+  double largest = 0;
+  std::vector<std::pair<double, Colour>> all;
+  for (int j = -3; j <= 3; ++j) {
+    for (int i = -3; i <= 3; ++i) {
+      const std::size_t at =
+          f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1));
+      if (mixed[at] || !is_of_it(f.coc[at])) continue;
+      const double weight = std::pow(std::hypot(i, j), -4);
+      const Colour c = colour_of(f.view().channels, at);
+      for (std::size_t k = 0; k < 4; ++k) pure.mean[k] += weight * c[k];
+      if (weight > largest) pure.nearest = c;
+      largest = std::max(largest, weight);
+      pure.weights += weight;
+      all.emplace_back(weight, c);
+    }
+  }
+  for (double& v : pure.mean) v /= pure.weights;
+  for (const auto& [weight, c] : all) {
+    pure.variance += weight * distance2(c, pure.mean) / pure.weights;
+  }
+  return pure;
+}
+
 /// Of a mixed pixel.
 struct Around {
   int nearest = 1 << 30, farthest = -(1 << 30);
-  Colour front{};
-  double weights = 0;
+  bool saw_front;
+  Pure front, seen;
 };
 
 Around around(const Canvas& f, const Words& mixed, int x, int y) {
   Around a;
-  const auto at = [&](int i, int j) {
-    return f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1));
-  };
   for (int j = -1; j <= 1; ++j) {
     for (int i = -1; i <= 1; ++i) {
-      a.nearest = std::min(a.nearest, f.coc[at(i, j)]);
-      a.farthest = std::max(a.farthest, f.coc[at(i, j)]);
+      const int coc =
+          f.coc[f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1))];
+      a.nearest = std::min(a.nearest, coc);
+      a.farthest = std::max(a.farthest, coc);
     }
   }
-  const int middle = a.nearest + (a.farthest - a.nearest) / 2;
-  for (int j = -3; j <= 3; ++j) {
-    for (int i = -3; i <= 3; ++i) {
-      if (mixed[at(i, j)] || f.coc[at(i, j)] >= middle) continue;
-      const double weight = std::pow(std::hypot(i, j), -4);
-      const Colour c = colour_of(f.view().channels, at(i, j));
-      for (std::size_t k = 0; k < 4; ++k) a.front[k] += weight * c[k];
-      a.weights += weight;
-    }
-  }
-  for (double& v : a.front) v /= a.weights;
+  const int middle = a.nearest + (a.farthest - a.nearest) / 2, own = f.coc[f.at(x, y)];
+  a.saw_front = own < middle;
+  a.front = pure_around(f, mixed, x, y, [&](int coc) { return coc < middle; });
+  a.seen = pure_around(f, mixed, x, y,
+                       [&](int coc) { return std::abs(coc - own) <= DEFRAY_JUMP_QUANTA; });
   return a;
 }
 
@@ -105,48 +130,33 @@ double lowest(const Cost& cost) {
 
 /// Nearest to the pixel's colour, drawn to what is likely as the colours are alike, and the less
 /// taken apart the more of the pixel both leave unexplained.
-double sought_share(const Colour& c, const Colour& front, const Colour& behind, bool saw_front) {
-  const double share = lowest([&](double a) { return distance2(mixture(a, front, behind), c); });
+double sought_share(const Colour& c, const Around& a, const Colour& behind) {
+  const Colour& front = a.front.mean;
+  const double share = lowest([&](double s) { return distance2(mixture(s, front, behind), c); });
   const double contrast = distance2(front, behind);
-  const double unsure = 1e-3 * (distance2(front, {}) + distance2(behind, {}));
-  const double likely = saw_front ? 0.75 : 0.25;
-  const double drawn = lowest([&](double a) {
-    return contrast * (a - share) * (a - share) + unsure * (a - likely) * (a - likely);
+  const double variance =
+      a.front.variance + (!a.saw_front && a.seen.weights > 0 ? a.seen.variance : 0);
+  const double sizes = distance2(front, {}) + distance2(behind, {});
+  const double unsure = std::min(1e-3 * sizes + 2 * variance, 3e-2 * sizes);
+  const double likely = a.saw_front ? 0.875 : 0.125;
+  const double drawn = lowest([&](double s) {
+    return contrast * (s - share) * (s - share) + unsure * (s - likely) * (s - likely);
   });
   const double left = distance2(mixture(share, front, behind), c);
   const double fit = 1 / (1 + left / (contrast + unsure));
-  return saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
+  return a.saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
 }
 
 /// What lies behind, of which the pixel is a mixture: what `fill` found or, where the depth sample
 /// saw it and it comes twice as near, the nearest pure pixel of its surface, or their mean.
-Colour sought_behind(const Canvas& f, const Words& mixed, const Colour& made_up,
-                     const Colour& front, int x, int y) {
-  const std::size_t own = f.at(x, y);
-  Colour nearest{}, mean{};
-  double weights = 0, largest = 0;
-  for (int j = -3; j <= 3; ++j) {
-    for (int i = -3; i <= 3; ++i) {
-      const std::size_t at =
-          f.at(std::clamp(x + i, 0, f.width - 1), std::clamp(y + j, 0, f.height - 1));
-      if (mixed[at] || std::abs(f.coc[at] - f.coc[own]) > DEFRAY_JUMP_QUANTA) continue;
-      const double weight = 1.0 / ((i * i + j * j) * (i * i + j * j));
-      const Colour c = colour_of(f.view().channels, at);
-      for (std::size_t k = 0; k < 4; ++k) mean[k] += weight * c[k];
-      if (weight > largest) nearest = c;
-      largest = std::max(largest, weight);
-      weights += weight;
-    }
-  }
-  if (weights == 0) return made_up;
-  for (double& v : mean) v /= weights;
-  const Colour c = colour_of(f.view().channels, own);
+Colour sought_behind(const Colour& c, const Around& a, const Colour& made_up) {
+  if (a.seen.weights == 0) return made_up;
   const auto misfit = [&](const Colour& behind) {
-    const double share = lowest([&](double a) { return distance2(mixture(a, front, behind), c); });
-    return distance2(mixture(share, front, behind), c);
+    const auto mixed = [&](double share) { return mixture(share, a.front.mean, behind); };
+    return distance2(mixed(lowest([&](double share) { return distance2(mixed(share), c); })), c);
   };
   Colour best = made_up;
-  for (const Colour& other : {nearest, mean}) {
+  for (const Colour& other : {a.seen.nearest, a.seen.mean}) {
     if (misfit(other) < 0.25 * misfit(best)) best = other;
   }
   return best;
@@ -177,15 +187,15 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
                   int y, Counts& counts) {
   const std::size_t i = f.at(x, y);
   const Around a = around(f, mixed, x, y);
-  const bool saw_front = f.coc[i] < a.nearest + (a.farthest - a.nearest) / 2;
+  const bool saw_front = a.saw_front;
   // Two surfaces, both in pure pixels.
-  if (a.weights == 0 ||
+  if (a.front.weights == 0 ||
       (!saw_front && std::abs(filled.coc_quanta[i] - f.coc[i]) > DEFRAY_JUMP_QUANTA))
     return;
   const Colour c = colour_of(f.view().channels, i);
   Colour made_up = colour_of(filled.channels, i);
-  if (!saw_front) made_up = sought_behind(f, mixed, made_up, a.front, x, y);
-  const double share = sought_share(c, a.front, made_up, saw_front);
+  if (!saw_front) made_up = sought_behind(c, a, made_up);
+  const double share = sought_share(c, a, made_up);
   if (std::fabs(share - 0.03) < 1e-3 || std::fabs(share - 0.97) < 1e-3) return;
   const bool is_whole = saw_front ? share > 0.97 || std::abs(a.nearest) < 256 : share < 0.03;
   const double kept = saw_front ? std::max(share, 0.25) : std::min(share, 0.75);
