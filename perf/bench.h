@@ -19,6 +19,7 @@ struct Bench {
   DeviceBackend& backend;  ///< Of the device that is measured.
   bool is_quick = false;   ///< Small pictures and few repetitions: to see that it works.
   std::function<void(const std::string& step)> step;  ///< Told before each long step.
+  std::string scenes = {};  ///< A folder of ray-traced scenes (truth/places.h); empty: none.
 
   int repetitions() const { return is_quick ? 2 : 5; }
   /// A picture size, a quarter of it when quick.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdlib>
 
 #include "base/error.h"
@@ -13,13 +14,14 @@
 #include "image/safe_output.h"
 #include "keep_memory.h"
 #include "tables/report.h"
+#include "truth/places.h"
 
 namespace defray::perf {
 namespace {
 
 struct Options {
   std::vector<std::string> names;
-  std::string folder, device;
+  std::string folder, device, scenes;
   bool is_quick = false;
 };
 
@@ -46,6 +48,10 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
 
 int run(const Options& o) {
   const std::vector<std::string> names = chosen_names(o.names);
+  if (!o.scenes.empty() && std::find(names.begin(), names.end(), "silhouettes") == names.end()) {
+    fail(ErrorKind::usage, "--scenes is for the experiment 'silhouettes'");
+  }
+  check_scenes(o.scenes);
   create_folder(o.folder);
   check_can_write(o.folder + "/index.html");
   Session session(select_device(o.device));
@@ -56,7 +62,7 @@ int run(const Options& o) {
     const auto step = [&](const std::string& what) {
       if (is_terminal) fmt::print(stderr, "\r\033[K{}: {}", name, what);
     };
-    sections.push_back(experiments().at(name).run({o.folder, backend, o.is_quick, step}));
+    sections.push_back(experiments().at(name).run({o.folder, backend, o.is_quick, step, o.scenes}));
     if (is_terminal) fmt::print(stderr, "\r\033[K");
     // Small pictures have small circles of confusion: what they show is not what the papers saw.
     if (o.is_quick) sections.back().findings = {"a rehearsal (--quick): its figures mean nothing"};
@@ -79,9 +85,9 @@ int run(const Options& o) {
 
 std::string about() {
   std::string text = "Experiments:\n";
-  for (const auto& [name, e] : experiments()) text += fmt::format("  {:9} {}\n", name, e.about);
+  for (const auto& [name, e] : experiments()) text += fmt::format("  {:12} {}\n", name, e.about);
   return text +
-         "  all       every one; some ten minutes on two cores\n\n"
+         "  all          every one; some ten minutes on two cores\n\n"
          "Example: defray-perf experiment plate1 -o report";
 }
 
@@ -95,6 +101,7 @@ int parse_and_run(int argc, char** argv) {
       ->required()
       ->check([](const std::string& path) { return std::string(path.empty() ? "is empty" : ""); });
   command->add_option("--device", o.device, "Index or part of the name of 'defray devices'");
+  command->add_option("--scenes", o.scenes, std::string("silhouettes: ") + scenes_help);
   command->add_flag("--quick", o.is_quick, "A quarter of the size, two repetitions: a rehearsal");
   command->footer(about());
   const std::function<int()> report = add_report(app);
@@ -118,6 +125,7 @@ const std::map<std::string, Experiment>& experiments() {
       {"eye", {"Glatzel & Wilhelm: miniatures, artefacts, the effect's cost", eye}},
       {"tradeoff", {"Error against time for every method on three scenes", tradeoff}},
       {"layered", {"The default beside the other methods on random layers", layered}},
+      {"silhouettes", {"Edges that the truth has not: the default's worst places", silhouettes}},
       {"prediction", {"Errors that renders expect beside their true ones", prediction}},
       {"splat-table1",
        {"Krivanek & Zara's table 1: point clouds, time against aperture", splat_table1}},

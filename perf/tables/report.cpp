@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -17,6 +16,7 @@
 #include "image/safe_output.h"
 #include "tables/markers.h"
 #include "tables/tables.h"
+#include "truth/places.h"
 
 namespace defray::perf {
 namespace {
@@ -70,9 +70,7 @@ std::vector<std::string> chosen_tables(const ReportOptions& o) {
 
 int run(const ReportOptions& o) {
   const std::vector<std::string> names = chosen_tables(o);
-  if (!o.scenes.empty() && !std::filesystem::is_directory(o.scenes)) {
-    fail(ErrorKind::input, "{}: no such folder", o.scenes);
-  }
+  check_scenes(o.scenes);
   check_can_write(o.file);
   setenv("RUSTICL_ENABLE", "llvmpipe", 0);  // as 'validate --all': Mesa hides its CPU device
   Session session(select_device(o.device));
@@ -82,7 +80,7 @@ int run(const ReportOptions& o) {
     if (is_terminal) fmt::print(stderr, "\r\033[K{}", what);
   };
   DeviceBackend backend(session);
-  TableBench bench({pictures.path(), backend, o.is_quick, step}, o.scenes);
+  TableBench bench({pictures.path(), backend, o.is_quick, step, o.scenes});
   for (const std::string& name : names) {
     Figures figures = readme_tables().at(name).measure(bench);
     figures.notes.push_back(fmt::format("Measured on {}, {} compute units.", session.info().name,
@@ -119,9 +117,7 @@ std::function<int()> add_report(CLI::App& app) {
       ->add_option("--table", o->tables,
                    "Only these tables, comma-separated; default: all whose markers are there")
       ->delimiter(',');
-  command->add_option("--scenes", o->scenes,
-                      "accuracy: folder of scenes, each with pinhole.exr, truth_SETTING.exr, "
-                      "camera.json");
+  command->add_option("--scenes", o->scenes, std::string("accuracy, prediction: ") + scenes_help);
   command->add_option("--device", o->device, "Index or part of the name of 'defray devices'");
   command->add_flag("--quick", o->is_quick, "A quarter of the size, few repetitions: a rehearsal");
   command->footer(about_report());

@@ -1,7 +1,7 @@
 // Error and time of every method: on built-in scenes, and on ray-traced ones where they are given.
 #include "measure/metrics.h"
-#include "tables/places.h"
 #include "tables/tables.h"
+#include "truth/places.h"
 
 namespace defray::perf {
 namespace {
@@ -63,7 +63,7 @@ MeasuredPlace plate1_place(const Bench& bench) {
 Figures measure_accuracy(TableBench& b) {
   std::vector<MeasuredPlace> places;
   places.push_back(plate1_place(b.bench()));
-  for (MeasuredPlace& place : read_places(b.bench(), b.scenes())) {
+  for (MeasuredPlace& place : read_places(b.bench())) {
     places.push_back(std::move(place));
   }
   return {table_of(b.bench(), places, 1), {}};

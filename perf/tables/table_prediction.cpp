@@ -2,8 +2,8 @@
 // given, which never set the model.
 #include "experiments.h"
 #include "prediction/renders.h"
-#include "tables/places.h"
 #include "tables/tables.h"
+#include "truth/places.h"
 
 namespace defray::perf {
 
@@ -11,7 +11,7 @@ Figures measure_prediction(TableBench& b) {
   const Section section = experiments().at("prediction").run(b.bench());
   Figures figures{section.tables[0], {}};
   std::vector<PredictedRender> given;
-  for (const MeasuredPlace& place : read_places(b.bench(), b.scenes())) {
+  for (const MeasuredPlace& place : read_places(b.bench())) {
     b.bench().step(place.name);
     std::string note = place.name + ", true and expected:";
     for (PredictedRender& r :

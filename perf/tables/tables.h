@@ -12,20 +12,15 @@ namespace defray::perf {
 /// What tables are measured with, and what several of them need.
 class TableBench {
  public:
-  TableBench(Bench bench, std::string scenes)
-      : bench_(std::move(bench)), scenes_(std::move(scenes)) {}
+  explicit TableBench(Bench bench) : bench_(std::move(bench)) {}
 
   const Bench& bench() const { return bench_; }
-
-  /// A folder of ray-traced scenes; empty: none.
-  const std::string& scenes() const { return scenes_; }
 
   /// Those of the experiment `truth`, made when first asked for.
   const std::vector<Setup>& setups();
 
  private:
   Bench bench_;
-  std::string scenes_;
   std::optional<std::vector<Setup>> setups_;
 };
 

@@ -47,7 +47,8 @@ TEST_F(PerfCommand, AllExperimentsLeaveOneCompleteReport) {
   const std::string html = text_of("report/index.html");
   for (const std::string part :
        {"Plate 1", "Plate 2", "Figure 7", "The eye", "Error against time", "Where the time goes",
-        "Closer to truth", "defray render spheres/pinhole.exr", "</html>"}) {
+        "Closer to truth", "Edges that are not there", "defray render spheres/pinhole.exr",
+        "</html>"}) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   }
   std::size_t links = 0;
@@ -132,14 +133,16 @@ TEST_F(PerfCommand, RefusesWhatItCannotDo) {
   expect_refused("experiment plate1 -o /proc/none", 4, {"/proc/none"});
   expect_refused("experiment plate1", 2, {"--output"});
   expect_refused("experiment plate1 -o report --device nothing", 5, {"nothing"});
+  expect_refused("experiment plate1 -o report --scenes .", 2, {"--scenes", "silhouettes"});
+  expect_refused("experiment silhouettes -o report --scenes none", 3, {"none: no such folder"});
   expect_refused("experimnt plate1 -o out", 2, {"ubcommand"});
 }
 
 TEST_F(PerfCommand, HelpListsTheExperiments) {
   const Result help = perf("experiment --help");
   expect_ok(help);
-  for (const std::string name :
-       {"plate1", "plate2", "figure7", "eye", "tradeoff", "roofline", "truth", "Example"}) {
+  for (const std::string name : {"plate1", "plate2", "figure7", "eye", "tradeoff", "roofline",
+                                 "silhouettes", "truth", "Example"}) {
     EXPECT_NE(help.out.find(name), std::string::npos) << name;
   }
 }

@@ -1,8 +1,9 @@
-#include "tables/places.h"
+#include "truth/places.h"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "base/error.h"
 #include "image/channels.h"
 #include "lens/camera.h"
 #include "lens/depth.h"
@@ -40,10 +41,16 @@ MeasuredPlace read_place(const Bench& bench, const std::filesystem::path& folder
 
 }  // namespace
 
-std::vector<MeasuredPlace> read_places(const Bench& bench, const std::string& scenes) {
+void check_scenes(const std::string& scenes) {
+  if (!scenes.empty() && !std::filesystem::is_directory(scenes)) {
+    fail(ErrorKind::input, "{}: no such folder", scenes);
+  }
+}
+
+std::vector<MeasuredPlace> read_places(const Bench& bench) {
   std::vector<std::filesystem::path> truths;
-  if (scenes.empty()) return {};
-  for (const auto& scene : std::filesystem::directory_iterator(scenes)) {
+  if (bench.scenes.empty()) return {};
+  for (const auto& scene : std::filesystem::directory_iterator(bench.scenes)) {
     if (!scene.is_directory()) continue;
     for (const auto& file : std::filesystem::directory_iterator(scene)) {
       if (file.path().filename().string().starts_with("truth_")) truths.push_back(file.path());
