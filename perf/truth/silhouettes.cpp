@@ -84,7 +84,8 @@ void add_crops(const Bench& bench, const MeasuredPlace& place,
     crops.emplace_back("truth", enlarged(place.truth, width, w));
     std::vector<std::pair<std::string, const std::vector<Plane>*>> shown;
     for (const auto& [name, crop] : crops) shown.emplace_back(name, &crop);
-    std::string file = fmt::format("silhouettes-{}-{}", place.name, i);
+    // A given scene may have a built-in one's name.
+    std::string file = fmt::format("silhouettes-{}-{}", section.figures.size() + 1, place.name);
     std::replace(file.begin(), file.end(), ' ', '-');
     section.figures.push_back(
         sheet(bench, file,

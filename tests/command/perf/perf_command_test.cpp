@@ -126,6 +126,37 @@ TEST_F(PerfCommand, TradeoffsCommandsGiveItsFigures) {
   EXPECT_EQ(rows, 5);
 }
 
+TEST_F(PerfCommand, SilhouettesOfGivenScenesAreThoseThatCompareFinds) {
+  SKIP_UNLESS_FULL();
+  expect_ok(defray(folder, "scene fence -o mine/fence --width 160 --height 100 --truth-samples 4"));
+  expect_ok(perf("experiment silhouettes -o report --quick --scenes mine"));
+  std::ifstream stream(folder / "report/silhouettes.csv");
+  const std::string csv{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t given = csv.rfind("\nfence bg,");
+  ASSERT_GT(given, csv.find("\nfence bg,")) << csv;  // the built-in one comes first
+  std::smatch row;
+  const std::string line = csv.substr(given + 1, csv.find('\n', given + 1) - given);
+  ASSERT_TRUE(
+      std::regex_search(line, row, std::regex("\"([0-9.]+), ([0-9.]+); ([0-9.]+) dB\"\n?$")))
+      << line;
+  expect_ok(defray(folder,
+                   "render mine/fence/pinhole.exr -o out.exr --camera mine/fence/camera.json "
+                   "--focus-setting bg"));
+  const Result compared =
+      defray(folder, "compare out.exr mine/fence/truth_bg.exr --false-edges --json");
+  expect_ok(compared);
+  const nlohmann::json json = nlohmann::json::parse(compared.out);
+  EXPECT_NEAR(json["false_edges"]["rms"].get<double>(), std::stod(row[1]), 0.01);
+  EXPECT_NEAR(json["false_edges"]["p999"].get<double>(), std::stod(row[2]), 0.1);
+  EXPECT_NEAR(json["psnr_srgb_db"].get<double>(), std::stod(row[3]), 0.05);
+  // Two crops a setting, where there are so many, none written over.
+  int crops = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder / "report")) {
+    crops += file.path().filename().string().find("-fence-bg.png") != std::string::npos;
+  }
+  EXPECT_EQ(crops, 4);
+}
+
 TEST_F(PerfCommand, RefusesWhatItCannotDo) {
   expect_refused("experiment plat1 -o report", 2, {"plat1", "Did you mean 'plate1'", "tradeoff"});
   expect_refused("experiment all plat2 -o report", 2, {"plat2"});
