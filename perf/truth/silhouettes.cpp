@@ -14,6 +14,8 @@ namespace {
 /// Of each setting so many places, so large, shown so many times as large.
 constexpr int shown_places = 2, crop_width = 120, crop_height = 90, zoom = 3;
 
+using NamedPictures = std::vector<std::pair<std::string, std::vector<Plane>>>;
+
 struct Window {
   int x, y, width, height;
 };
@@ -67,9 +69,8 @@ std::vector<MeasuredPlace> builtin_places(const Bench& bench) {
   return places;
 }
 
-/// The crops where `shown`, the last of the pictures but the truth, is worst.
-void add_crops(const Bench& bench, const MeasuredPlace& place,
-               const std::vector<std::pair<std::string, std::vector<Plane>>>& pictures,
+/// Crops of all pictures, and the truth, where the last one is worst.
+void add_crops(const Bench& bench, const MeasuredPlace& place, const NamedPictures& pictures,
                Section& section) {
   const int width = place.subject.scene.width, height = place.subject.scene.height;
   std::vector<Plane> left = pictures.back().second;
@@ -77,7 +78,7 @@ void add_crops(const Bench& bench, const MeasuredPlace& place,
     const Excess excess = false_edges(left, place.truth, width);
     if (!(excess.worst > 0)) return;
     const Window w = window_around(excess.worst_x, excess.worst_y, width, height);
-    std::vector<std::pair<std::string, std::vector<Plane>>> crops;
+    NamedPictures crops;
     for (const auto& [name, picture] : pictures) {
       crops.emplace_back(name, enlarged(picture, width, w));
     }
@@ -96,19 +97,36 @@ void add_crops(const Bench& bench, const MeasuredPlace& place,
   }
 }
 
+/// The pinhole picture, other methods' and, last, the default's.
+NamedPictures pictures_of(const Bench& bench, const MeasuredPlace& place) {
+  const auto rendered = [&](const MethodSettings& settings) {
+    return render(bench.backend, place.subject, settings);
+  };
+  return {{"pinhole", place.subject.pinhole.colour},
+          {"literal RDB 9x9", rendered(rdb_of(9))},
+          {"gather aware 32x2", rendered(gather_of(GatherKind::aware, 32, 2))},
+          {"default", rendered(default_chain())}};
+}
+
+std::vector<std::string> row_of(const MeasuredPlace& place, const NamedPictures& pictures) {
+  std::vector<std::string> row{place.name};
+  const int width = place.subject.scene.width;
+  for (const auto& [name, picture] : pictures) {
+    const Excess excess = false_edges(picture, place.truth, width);
+    row.push_back(fmt::format("{:.3f}, {:.2f}; {:.2f} dB", excess.rms, excess.p999,
+                              compare(picture, place.truth, width).psnr_srgb_db));
+  }
+  return row;
+}
+
 }  // namespace
 
 Section silhouettes(const Bench& bench) {
-  const std::vector<std::pair<std::string, MethodSettings>> methods{
-      {"literal RDB 9x9", rdb_of(9)},
-      {"gather aware 32x2", gather_of(GatherKind::aware, 32, 2)},
-      {"default", default_chain()}};
   Table table{"silhouettes",
               "False edges: gradients of sRGB luma above the largest of the truth within 2 px, "
               "255ths a pixel: RMS, 99.9th percentile; and PSNR, sRGB dB",
-              {"scene", "pinhole"},
+              {"scene"},
               {}};
-  for (const auto& [name, settings] : methods) table.columns.push_back(name);
   Section section{"Edges that are not there",
                   "What a near thing hides has a shape, too. Where that is guessed wrongly, or cut "
                   "off, a blurred edge shows a crisp one. Here are the places where the default "
@@ -120,18 +138,11 @@ Section silhouettes(const Bench& bench) {
   for (MeasuredPlace& place : read_places(bench)) places.push_back(std::move(place));
   for (const MeasuredPlace& place : places) {
     bench.step(place.name);
-    const int width = place.subject.scene.width;
-    std::vector<std::pair<std::string, std::vector<Plane>>> pictures{
-        {"pinhole", place.subject.pinhole.colour}};
-    for (const auto& [name, settings] : methods) {
-      pictures.emplace_back(name, render(bench.backend, place.subject, settings));
+    const NamedPictures pictures = pictures_of(bench, place);
+    if (table.rows.empty()) {
+      for (const auto& [name, picture] : pictures) table.columns.push_back(name);
     }
-    auto& row = table.rows.emplace_back(std::vector<std::string>{place.name});
-    for (const auto& [name, picture] : pictures) {
-      const Excess excess = false_edges(picture, place.truth, width);
-      row.push_back(fmt::format("{:.3f}, {:.2f}; {:.2f} dB", excess.rms, excess.p999,
-                                compare(picture, place.truth, width).psnr_srgb_db));
-    }
+    table.rows.push_back(row_of(place, pictures));
     add_crops(bench, place, pictures, section);
   }
   section.tables.push_back(table);
