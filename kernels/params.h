@@ -81,9 +81,7 @@
 #define DEFRAY_HIGHLIGHT_WHOLE 13.0f
 /// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
 #define DEFRAY_HIGHLIGHT_TILE 16
-/// From this CoC on (4 px) a highlight's visibility at a pixel is the mean over 3 px around it, of
-/// smaller ones that within the pixel. (One lens point: meadow near and spheres f3 -0.02 dB,
-/// teeth.)
+/// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens point.
 #define DEFRAY_WIDE_QUANTA 1024
 /// Below this CoC (1 px) rays may land as those of another radius do.
 #define DEFRAY_SMALL_QUANTA 256

@@ -85,6 +85,7 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
       for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
+        const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
         const Box box = box_between(x - sx, y - sy, coc);
         const std::uint64_t arrives =
             has_rim ? light_through(table, box, rim_at(plan, x, y))
@@ -96,22 +97,22 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
         const float covered = sharp_edge(f, own, coc);
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
-        // Of 4 x 4 points, in eighths of a pixel from its centre.
-        const int spread = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 1 : 4;
-        const auto is_visible = [&](int i, int j) {
-          const int dx = 8 * (x - sx) + spread * (2 * i - 3);
-          const int dy = 8 * (y - sy) + spread * (2 * j - 3);
+        const auto is_hidden = [&](int dx, int dy) {
           const std::int32_t held = winner[cell_between(lights, dx, dy, coc)][target];
           const auto at = static_cast<std::size_t>(held);
-          if (covered > 0 && at == own) return true;
-          return held < 0 || tame(f.coc_quanta[at]) >= coc - DEFRAY_JUMP_QUANTA;
+          if (covered > 0 && at == own) return false;
+          return held >= 0 && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
-        const int corners =
-            is_visible(0, 0) + is_visible(3, 0) + is_visible(0, 3) + is_visible(3, 3);
-        int visible = corners == 4 ? 16 : 0;
-        for (int k = 0; corners % 4 != 0 && k < 16; ++k) visible += is_visible(k % 4, k / 4);
+        int visible = 0;
+        for (int j = 0; j < across; ++j) {
+          for (int i = 0; i < across; ++i) {
+            const int du = across == 4 ? 2 * i - 3 : 0, dv = across == 4 ? 2 * j - 3 : 0;
+            visible += !is_hidden(8 * (x - sx) + du, 8 * (y - sy) + dv);
+          }
+        }
         if (visible == 0) continue;
-        const float seen = static_cast<float>(visible) / 16 * (1 - covered);
+        const float seen =
+            static_cast<float>(visible) / static_cast<float>(across * across) * (1 - covered);
         const float share = static_cast<float>(arrives) * lights.share_of_light * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];

@@ -95,12 +95,6 @@ int map_entry(const int eighths, const int coc) {
   return (int)(at < 0 ? 0 : at > DEFRAY_CELL_MAP - 1 ? DEFRAY_CELL_MAP - 1 : at);
 }
 
-// Points of a 4 x 4 square around a pixel's centre, in halves of their distance; corners first.
-int2 point_around(const int k) {
-  const int x = k & 4 ? 1 : 3, y = k & 8 ? 1 : 3;
-  return (int2)(k & 1 ? x : -x, k & 2 ? y : -y);
-}
-
 // The lens point nearest to the way from a source to a point of a pixel, in eighths of a pixel.
 uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
   return cell_at[map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)];
@@ -136,19 +130,14 @@ __kernel void highlights_add(
     const int2 distance = (int2)((int)x - h.x, (int)y - h.y);
     if (misses(distance.x, h.z) || misses(distance.y, h.z)) continue;
     const long4 box = box_between(distance, h.z);
+    // A pixel that is large beside the disc sees many cells.
+    const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;
     const ulong arrives = p.has_rim ? light_through(table, box, rim) : light_in(table, box);
     if (arrives == 0ul) continue;
     const bool is_veiled = is_sharp_edge && own_coc < h.z - DEFRAY_JUMP_QUANTA;
-    // A pixel that is large beside the disc sees many cells. Of larger discs, what hides a part
-    // would have teeth: cells see it where rays land, half a pixel off.
-    const int spread = abs(h.z) < DEFRAY_WIDE_QUANTA ? 1 : 4;
     uint visible = 0u;
-    for (int k = 0; k < 16; ++k) {
-      if (k == 4 && visible % 4u == 0u) {  // the corners agree
-        visible *= 4u;
-        break;
-      }
-      const int2 point = spread * point_around(k);
+    for (int k = 0; k < points * points; ++k) {
+      const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
       const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
       const uint held = winner[(cell * cells_apart + target) * p.winner_words];
       const bool is_free = is_veiled && held == own;
@@ -156,7 +145,7 @@ __kernel void highlights_add(
     }
     if (visible == 0u) continue;
     const float past = is_veiled ? 1.0f - (float)coverage[own] * (1.0f / DEFRAY_WHOLE) : 1.0f;
-    const float seen = (float)visible * (1.0f / 16.0f) * past;
+    const float seen = (float)visible / (float)(points * points) * past;
     light += ((float)arrives * l.share_of_light * seen) * excess[list[i]];
   }
   if (p.has_rim && first[tile] < first[tile + 1u]) {
