@@ -26,7 +26,7 @@ left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAwa
 left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
 perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
-  longer=Arithmetic.*:$perf:Rdb.Huge*:ChainBands.TakeNoMore*:*EqualsTwin*:*EqualTwins*
+  longer=Arithmetic.*:$perf:Rdb.Huge*:ChainMemory.IsNoMore*:*EqualsTwin*:*EqualTwins*
   DEFRAY_TEST_LONG=1 exec "$program" --gtest_filter="${GTEST_FILTER:-$left_out:$longer}" "$@"
 fi
 case $name in

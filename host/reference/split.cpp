@@ -254,9 +254,8 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     }
     const float variance =
         (found ? found->variance : 0) + (!saw_front && seen ? seen->variance : 0);
-    const float share = found       ? coverage_of(c, found->colour, b, variance, saw_front)
-                        : saw_front ? 1
-                                    : 0;
+    float share = saw_front ? 1 : 0;
+    if (found) share = coverage_of(c, found->colour, b, variance, saw_front);
     if (saw_front) {
       if (std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
       if (share > 1 - 0.03f) return;
