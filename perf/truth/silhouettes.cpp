@@ -59,12 +59,8 @@ std::vector<MeasuredPlace> builtin_places(const Bench& bench) {
                                                            {"plate1", "default"}}};
   std::vector<MeasuredPlace> places;
   for (const auto& [scene, setting] : all) {
-    const std::string name = fmt::format("{} {}", scene, setting);
-    bench.step(name + ": truth");
-    Subject s = make_antialiased(bench.backend, make_scene(scene, bench.size(640), bench.size(400)),
-                                 setting);
-    Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 144, 1);
-    places.push_back({name, std::move(s), std::move(truth.colour)});
+    Setup setup = make_setup(bench, scene, setting, 640, 400);
+    places.push_back({setup.name(), std::move(setup.subject), std::move(setup.truth.colour)});
   }
   return places;
 }

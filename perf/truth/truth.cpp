@@ -26,6 +26,15 @@ Subject make_antialiased(Backend& backend, Scene scene, const std::string& setti
   return s;
 }
 
+Setup make_setup(const Bench& bench, const std::string& scene, const std::string& setting,
+                 int width, int height) {
+  bench.step(fmt::format("{} {}: truth", scene, setting));
+  Subject s = make_antialiased(bench.backend,
+                               make_scene(scene, bench.size(width), bench.size(height)), setting);
+  Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 144, 1);
+  return {scene, setting, std::move(s), std::move(truth)};
+}
+
 std::vector<Setup> make_setups(const Bench& bench) {
   struct Place {
     std::string scene, setting;
@@ -41,11 +50,7 @@ std::vector<Setup> make_setups(const Bench& bench) {
   if (bench.is_quick) places.resize(5);
   std::vector<Setup> setups;
   for (const Place& place : places) {
-    bench.step(place.scene + ": truth");
-    Subject s = make_antialiased(
-        bench.backend, make_scene(place.scene, bench.size(320), bench.size(208)), place.setting);
-    Truth truth = render_truth(s.scene, s.lens, bench.is_quick ? 16 : 144, 1);
-    setups.push_back({place.scene, place.setting, std::move(s), std::move(truth)});
+    setups.push_back(make_setup(bench, place.scene, place.setting, 320, 208));
   }
   return setups;
 }

@@ -25,6 +25,10 @@ struct Setup {
 Subject make_antialiased(Backend& backend, Scene scene, const std::string& setting,
                          bool averages_depth = false);
 
+/// At this size, a quarter of it when quick.
+Setup make_setup(const Bench& bench, const std::string& scene, const std::string& setting,
+                 int width, int height);
+
 std::vector<Setup> make_setups(const Bench& bench);
 
 /// `defray render` with --quality alone.
