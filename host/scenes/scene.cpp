@@ -44,6 +44,8 @@ const std::vector<Builtin>& builtins() {
       {{"cutout", "flat shapes at many depths before nothing: what alpha does"},
        still<make_cutout>},
       {{"drift", "a fence drifting before a portrait", drift_frames}, make_drift},
+      {{"garden", "grass swaying, and lamps that pass behind a near post", garden_frames},
+       make_garden},
   };
   return all;
 }

@@ -25,4 +25,8 @@ constexpr int drift_frames = 24;
 /// Frames from 1 to drift_frames.
 Scene make_drift(int width, int height, int frame);
 
+constexpr int garden_frames = 24;
+/// Frames from 1 to garden_frames.
+Scene make_garden(int width, int height, int frame);
+
 }  // namespace defray

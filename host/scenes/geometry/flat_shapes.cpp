@@ -45,22 +45,28 @@ void Disc::add_crossings(double y, std::vector<double>& xs) const {
   xs.push_back(centre_.x + std::sqrt(squared));
 }
 
+/// Of its sides, in their order.
+template <typename Visit>
+void Polygon::for_each_crossing(double y, const Visit& visit) const {
+  for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
+    const auto [ax, ay] = corners_[i];
+    const auto [bx, by] = corners_[j];
+    if ((ay > y) != (by > y)) visit(ax + (bx - ax) * (y - ay) / (by - ay));
+  }
+}
+
 Polygon::Polygon(std::vector<std::array<double, 2>> corners, double depth, const Vec3& colour)
     : FlatShape(depth, colour), corners_(std::move(corners)) {}
 
 bool Polygon::contains(double x, double y) const {
-  std::vector<double> xs;
-  add_crossings(y, xs);
-  return std::count_if(xs.begin(), xs.end(), [&](double at) { return x < at; }) % 2 == 1;
+  bool is_inside = false;
+  for_each_crossing(y, [&](double at) { is_inside ^= x < at; });
+  return is_inside;
 }
 
 void Polygon::add_crossings(double y, std::vector<double>& xs) const {
   const auto first = static_cast<std::ptrdiff_t>(xs.size());
-  for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
-    const auto [ax, ay] = corners_[i];
-    const auto [bx, by] = corners_[j];
-    if ((ay > y) != (by > y)) xs.push_back(ax + (bx - ax) * (y - ay) / (by - ay));
-  }
+  for_each_crossing(y, [&](double at) { xs.push_back(at); });
   std::sort(xs.begin() + first, xs.end());
 }
 

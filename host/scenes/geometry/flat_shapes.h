@@ -50,6 +50,9 @@ class Polygon : public FlatShape {
   bool contains(double x, double y) const override;
 
  private:
+  template <typename Visit>
+  void for_each_crossing(double y, const Visit& visit) const;
+
   std::vector<std::array<double, 2>> corners_;
 };
 

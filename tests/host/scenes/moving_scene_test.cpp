@@ -4,6 +4,7 @@
 
 #include "measure/flicker.h"
 #include "scenes/builtin/builtin.h"
+#include "scenes/geometry/flat_shapes.h"
 #include "scenes/tracing/render.h"
 #include "support.h"
 
@@ -61,6 +62,63 @@ TEST(Drift, TheFenceDissolvesBeforeTheFace) {
   }
   EXPECT_GT(widest, 8);
   EXPECT_GT(2 * coc_px, widest * 1.3);
+}
+
+/// The lamps of a frame, in their order.
+std::vector<const Emitter*> lamps(const Scene& scene) {
+  std::vector<const Emitter*> all;
+  for (const auto& primitive : scene.primitives) {
+    if (const auto* lamp = dynamic_cast<const Emitter*>(primitive.get())) all.push_back(lamp);
+  }
+  return all;
+}
+
+TEST(Garden, LampsPassBehindThePosts) {
+  EXPECT_EQ(scene_info("garden").frames, 24);
+  const Scene first = make_scene("garden", 640, 400), second = make_scene("garden", 640, 400, 2);
+  const Lens lens = lens_of(first, find_setting(first, "grass"));
+  for (std::size_t i = 0; i < lamps(first).size(); ++i) {
+    const Vec3 a = lamps(first)[i]->centre(), b = lamps(second)[i]->centre();
+    const double px = (b.x - a.x) * pixel_focal_length(first) / a.z;
+    EXPECT_GE(px, 2) << i;
+    EXPECT_LE(px, 4) << i;
+    EXPECT_EQ(a.y, b.y) << i;
+    EXPECT_GT(background_coc_px(lens, 640) * (1 - lens.focus_distance_units / a.z), 3) << i;
+  }
+  int passing = 0;
+  for (std::size_t i = 0; i < lamps(first).size(); ++i) {
+    int hidden = 0;
+    for (int frame = 1; frame <= 24; ++frame) {
+      const Scene scene = make_scene("garden", 640, 8, frame);
+      const Vec3 at = lamps(scene)[i]->centre();
+      const double column = 320 + at.x / at.z * pixel_focal_length(scene);
+      if (column < 0 || column >= 640) continue;
+      hidden += render_pinhole(scene).depth[static_cast<std::size_t>(column)] == 1.2f;
+    }
+    passing += hidden > 0 && hidden < 24;
+  }
+  EXPECT_GE(passing, 4);
+}
+
+TEST(Garden, GrassSwaysAndIsWhereItWasAfterAllFrames) {
+  // What is not a lamp has gone round after 24 frames: the last is a step before the first.
+  const auto depth = [](int frame) {
+    return render_pinhole(make_scene("garden", 640, 400, frame)).depth;
+  };
+  const Plane first = depth(1);
+  const auto changed = [&](const Plane& other) {
+    int count = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) count += first[i] != other[i];
+    return count;
+  };
+  const int next = changed(depth(2)), last = changed(depth(24)), half = changed(depth(13));
+  EXPECT_GT(next, 640);
+  EXPECT_LT(std::abs(next - last), next / 2);
+  EXPECT_GT(half, 2 * next);
+  const Plane second = depth(2);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ASSERT_EQ(first[i] == 1.2f, second[i] == 1.2f) << "a post does not move";
+  }
 }
 
 }  // namespace
