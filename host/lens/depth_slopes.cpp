@@ -13,10 +13,10 @@ namespace {
 
 /// Of a line to either side, px. Half floats are 68.4 dB from floats with 48, 64.4 with 16 and 24,
 /// 36.4 without lines: `slanted`, 480x300, 300 mm f/0.5.
-constexpr int reach = 48;
+constexpr int most_steps = 48;
 constexpr int fewest = 4;  ///< Pixels that make a line.
 /// Two pixels were rounded by half a step each; a quarter more where steps change their size.
-constexpr double rounding = 1.25;
+constexpr double rounding_slack = 1.25;
 constexpr double steep = 0.75;  ///< Steps a pixel; below it there are terraces.
 
 /// The slopes that a line through a pixel may have, and the pixels that it goes through.
@@ -35,7 +35,7 @@ struct Line {
   }
   /// Whether it goes on through a pixel `k` away that is higher by `w` steps.
   bool takes(int k, double w) {
-    const double one = (w - rounding) / k, other = (w + rounding) / k;
+    const double one = (w - rounding_slack) / k, other = (w + rounding_slack) / k;
     const double low = std::max(least, std::min(one, other));
     const double high = std::min(most, std::max(one, other));
     if (low > high) return false;
@@ -95,7 +95,7 @@ class Slopes {
   /// From a pixel to one side.
   Line side(std::size_t i, int direction, int room, int stride, double step) const {
     Line line;
-    for (int k = direction; std::abs(k) <= std::min(reach, room); k += direction) {
+    for (int k = direction; std::abs(k) <= std::min(most_steps, room); k += direction) {
       const float there =
           inverse_[i + static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) * stride)];
       const double w = (static_cast<double>(there) - static_cast<double>(inverse_[i])) / step;

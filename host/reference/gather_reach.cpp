@@ -7,9 +7,9 @@
 namespace defray::reference {
 namespace {
 
-constexpr int tile = DEFRAY_GATHER_TILE;
+constexpr int tile_px = DEFRAY_GATHER_TILE;
 
-int tiles_across(int pixels) { return (pixels + tile - 1) / tile; }
+int tiles_across(int pixels) { return (pixels + tile_px - 1) / tile_px; }
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<std::int32_t> gather_tiles(const Frame& f) {
   std::vector<std::int32_t> largest(size(across) * size(tiles_across(height)));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      std::int32_t& most = largest[size(y / tile) * size(across) + size(x / tile)];
+      std::int32_t& most = largest[size(y / tile_px) * size(across) + size(x / tile_px)];
       most = std::max(most, std::abs(coc_quanta[size(y) * size(width) + size(x)]));
     }
   }
@@ -36,7 +36,7 @@ std::vector<std::int32_t> gather_reach(const Frame& f) {
     for (std::size_t j = 0; j < reach.size(); ++j) {
       const int their_x = static_cast<int>(j) % across, their_y = static_cast<int>(j) / across;
       const int steps = std::max(std::abs(x - their_x), std::abs(y - their_y));
-      const double gap_px = std::max(steps - 1, 0) * tile;
+      const double gap_px = std::max(steps - 1, 0) * tile_px;
       if (gap_px <= largest[j] / 256.0) reach[i] = std::max(reach[i], largest[j]);
     }
   }

@@ -44,6 +44,17 @@ Outcome run_fill(Backend& backend, const Case& c, const Input& in) {
   return values_of({backend.fill(f, marks_of(c, f), directions_of(c))});
 }
 
+Outcome run_feather(Backend& backend, const Case& c, const Input& in) {
+  const Frame f = stage_frame(c, in);
+  const Words marks = marks_of(c, f);
+  const Frame behind = reference::TwinBackend().fill(f, marks, directions_of(c));
+  Outcome v;
+  for (const auto& channel : backend.feather(behind, marks, strips_of(c))) {
+    add_plane(v, channel.host());
+  }
+  return v;
+}
+
 std::size_t split_memory(const Case& c, const Input&) { return band_memory("split", c, 2); }
 
 /// With a margin.
@@ -88,6 +99,7 @@ Outcome run_soften(Backend& backend, const Case& c, const Input& in) {
 std::vector<KernelCheck> stage_checks() {
   return {{"mixed", integer_rule, run_mixed, mixed_work},
           {"fill", bits_rule, run_fill, fill_work},
+          {"feather", bits_rule, run_feather, feather_work},
           {"repair", integer_rule, run_repair, repair_work},
           {"soften", bits_rule, run_soften, soften_work, nullptr, nullptr, soften_memory},
           {"split", bits_rule, run_split, split_work, nullptr, nullptr, split_memory}};

@@ -12,6 +12,19 @@
 #include "reference/twin_backend.h"
 
 namespace defray::validation {
+namespace {
+
+/// Pixels anywhere: few, so that ways still pass over what they need not look at, many, or none.
+template <typename Visit>
+void for_each_sprinkled(const Case& c, std::uint32_t seed, const Visit& visit) {
+  const double share = std::array{0.0, 1.0 / 512, 1.0 / 16}[seed % 3];
+  for (std::size_t i = 0; i < size(c.width) * size(c.height); ++i) {
+    const auto x = static_cast<int>(i) % c.width, y = static_cast<int>(i) / c.width;
+    if (Random(x, y, seed).next() < share) visit(i);
+  }
+}
+
+}  // namespace
 
 Frame stage_frame(const Case& c, const Input& in) {
   std::vector<std::int32_t> coc_quanta;
@@ -72,13 +85,14 @@ Frame blurred(const Case& c, Frame frame) {
 Words marks_of(const Case& c, const Frame& frame) {
   const Words mixed = reference::TwinBackend().mixed(frame);
   std::vector<std::uint32_t> marks(mixed.begin(), mixed.end());
-  // Few, so that ways still pass over what they need not look at, or many.
-  const double share = std::array{0.0, 1.0 / 512, 1.0 / 16}[c.seed % 3];
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    const auto x = static_cast<int>(i) % c.width, y = static_cast<int>(i) / c.width;
-    if (Random(x, y, c.seed).next() < share) marks[i] |= DEFRAY_SILHOUETTE;
-  }
+  for_each_sprinkled(c, c.seed, [&](std::size_t i) { marks[i] |= DEFRAY_SILHOUETTE; });
   return marks;
+}
+
+Words strips_of(const Case& c) {
+  std::vector<std::uint32_t> strips(size(c.width) * size(c.height));
+  for_each_sprinkled(c, c.seed + 1, [&](std::size_t i) { strips[i] = 1 + c.seed % 7; });
+  return strips;
 }
 
 Frame soft_fragments(const Case& c, const Input& in) {

@@ -20,6 +20,9 @@ Frame blurred(const Case& c, Frame frame);
 /// anywhere.
 Words marks_of(const Case& c, const Frame& frame);
 
+/// Words that are not 0 at few pixels, or at many: anywhere, or, of one seed of three, nowhere.
+Words strips_of(const Case& c);
+
 /// The case's fragments with CoC radii that lie together.
 Frame soft_fragments(const Case& c, const Input& in);
 

@@ -40,6 +40,8 @@ double fill_work(const Case& c) {
   return pixels(c) * DEFRAY_FILL_DIRECTIONS * (2 + 16 * std::log1p(steps)) + band_work(c);
 }
 
+double feather_work(const Case& c) { return 100 * pixels(c) + fill_work(c); }
+
 double gather_work(const Case& c) { return pixels(c) * c.samples * (4 + 2.0 * c.channels); }
 
 double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8 + band_work(c); }

@@ -11,6 +11,7 @@ double clear_work(const Case& c);
 double difference_work(const Case& c);
 double mixed_work(const Case& c);
 double fill_work(const Case& c);
+double feather_work(const Case& c);
 double gather_work(const Case& c);
 double highlights_work(const Case& c);
 double linear_work(const Case& c);

@@ -56,9 +56,12 @@ std::size_t bytes_of_bands(const Frame& e, const PlaneCounts& planes, const Chai
   // CoC, what of it is to be repaired, 1/depth, mixed.
   const std::size_t front =
       (4 + data + channels) * plane(rows + ahead + std::max({fill, silhouettes, 2 * patterns}));
-  // What fill is told and strips, what it makes, what patterns are told.
-  const std::size_t behind = 2 * plane(rows + 2 * fill) + (2 + channels) * plane(rows + patterns) +
-                             (patterns > 0 ? plane(rows + 2 * patterns) : 0);
+  const std::int64_t feather = launch_of("feather").reach_px;
+  // What fill is told and strips, what it makes, what patterns are told, what feather makes.
+  const std::size_t behind = 2 * plane(rows + fill + std::max(fill, patterns + 2 * feather)) +
+                             (2 + channels) * plane(rows + patterns + 2 * feather) +
+                             (patterns > 0 ? plane(rows + 2 * patterns) : 0) +
+                             channels * plane(rows);
   const std::size_t front_and_behind = front + (has_behind ? behind : 0);
   const std::int64_t sent = rows + 2 * std::int64_t{reach.rays};
   const std::int64_t layered = sent + reach.soften + 2 * std::int64_t{reach.highlights};

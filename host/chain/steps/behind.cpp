@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "chain/silhouettes/strips.h"
+#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
@@ -40,6 +41,8 @@ class StripFrame {
  private:
   int rows_, apart_, next_ = 0;
 };
+
+int feather_reach() { return launch_of("feather").reach_px; }
 
 }  // namespace
 
@@ -92,7 +95,7 @@ void Behind::restart(int y) {
     return std::max(0, row - reach) / band_step * band_step;
   };
   fill_done_ = before(y, 0);
-  done_ = kept_ = kept_pixels_ = fill_done_;
+  patterns_done_ = done_ = kept_ = kept_made_ = kept_pixels_ = fill_done_;
   silhouettes_done_ = kept_silhouettes_ = before(fill_done_, work_.reach.fill);
   front_.restart(before(silhouettes_done_, work_.reach.silhouettes));
 }
@@ -114,22 +117,38 @@ void Behind::fill_to(int end) {
   // Where patterns add their detail twice as many directions are worth their time; without them
   // the mean of fewer is as close to the truth (perf/README.md).
   const int directions = has_patterns() ? DEFRAY_FILL_DIRECTIONS : 8;
-  frame = work_.backend.fill(front_.frame, silhouettes_.marks, directions, std::move(frame));
-  paint_strips(front_.frame, silhouettes_.strips, frame);
+  made_ = work_.backend.fill(front_.frame, silhouettes_.marks, directions, std::move(made_));
+  paint_strips(front_.frame, silhouettes_.strips, made_);
   work_.done("fill");
   if (!has_patterns()) return;
-  pixels_ = patterns_pixels(front_.frame, frame, front_.mixed, std::move(pixels_));
+  pixels_ = patterns_pixels(front_.frame, made_, front_.mixed, std::move(pixels_));
+  work_.done("patterns");
+}
+
+void Behind::patterns_to(int end) {
+  const Rows rows = go_on(patterns_done_, end, front_.frame.height);
+  if (rows.empty()) return;
+  fill_to(rows.end + work_.reach.patterns);
+  if (!has_patterns()) return;
+  front_.frame.wanted = rows;
+  improve_by_patterns(work_.backend, front_.frame, pixels_, shifts_, settings_, made_);
   work_.done("patterns");
 }
 
 void Behind::to(int end) {
   const Rows rows = go_on(done_, end, front_.frame.height);
   if (rows.empty()) return;
-  fill_to(rows.end + work_.reach.patterns);
-  if (!has_patterns()) return;
-  front_.frame.wanted = rows;
-  improve_by_patterns(work_.backend, front_.frame, pixels_, shifts_, settings_, frame);
-  work_.done("patterns");
+  patterns_to(rows.end + feather_reach());
+  made_.wanted = rows;
+  feathered_ =
+      work_.backend.feather(made_, silhouettes_.marks, silhouettes_.strips, std::move(feathered_));
+  work_.done("feather");
+}
+
+Frame Behind::frame() const {
+  Frame f = made_;
+  f.channels = feathered_;
+  return f;
 }
 
 int Behind::front_needed() const {
@@ -137,19 +156,24 @@ int Behind::front_needed() const {
   // Strips are painted from rows as far away as silhouettes look.
   const int around_fill = std::max(work_.reach.fill, work_.reach.silhouettes);
   const int by_fill = fill_done_ < height ? fill_done_ - around_fill : height;
-  const int by_patterns = done_ < height && has_patterns() ? done_ - work_.reach.patterns : height;
+  const bool has_matches = patterns_done_ < height && has_patterns();
+  const int by_patterns = has_matches ? patterns_done_ - work_.reach.patterns : height;
   return std::min(by_fill, by_patterns);
 }
 
 void Behind::give_back_to(int end) {
-  const Rows rows = not_needed(kept_, end);
-  give_back(front_.frame, rows, frame.coc_quanta);
-  give_back(front_.frame, rows, frame.inverse);
-  give_back(front_.frame, rows, frame.channels);
-  const Rows marked = not_needed(kept_silhouettes_, fill_done_ - work_.reach.fill);
-  give_back(front_.frame, marked, silhouettes_.marks);
-  give_back(front_.frame, marked, silhouettes_.strips);
-  give_back(front_.frame, not_needed(kept_pixels_, end - work_.reach.patterns), pixels_);
+  const Frame& f = front_.frame;
+  give_back(f, not_needed(kept_, end), feathered_);
+  const int feather = end - feather_reach();
+  const Rows made = not_needed(kept_made_, feather);
+  give_back(f, made, made_.coc_quanta);
+  give_back(f, made, made_.inverse);
+  give_back(f, made, made_.channels);
+  const Rows marked =
+      not_needed(kept_silhouettes_, std::min(fill_done_ - work_.reach.fill, feather));
+  give_back(f, marked, silhouettes_.marks);
+  give_back(f, marked, silhouettes_.strips);
+  give_back(f, not_needed(kept_pixels_, end - work_.reach.patterns), pixels_);
 }
 
 }  // namespace defray

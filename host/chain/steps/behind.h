@@ -1,5 +1,5 @@
 #pragma once
-// What lies behind: the stages fill and patterns.
+// What lies behind: the stages silhouettes, fill, patterns and feather.
 #include <vector>
 
 #include "chain/patterns/patterns.h"
@@ -24,11 +24,14 @@ class Behind {
   void give_back_to(int end);
   int front_needed() const;
 
-  Frame frame;  ///< CoC, colours; `inverse` is negative where nothing is.
+  /// Of the rows worked out; `inverse` is negative where nothing is. Shares the planes, which must
+  /// stay as they are meanwhile.
+  Frame frame() const;
 
  private:
   void silhouettes_to(int end);
   void fill_to(int end);
+  void patterns_to(int end);
   void look_at_strips(const std::vector<Rows>& strips);
   void restart(int y);
   bool has_patterns() const { return work_.settings.hidden == Hidden::patterns; }
@@ -37,10 +40,12 @@ class Behind {
   ChainWork& work_;
   PatternSettings settings_;
   Silhouettes silhouettes_;
+  Frame made_;  ///< Its colours are not feathered.
   Words pixels_;
   std::vector<PatternShift> shifts_;
-  int silhouettes_done_ = 0, fill_done_ = 0, done_ = 0;
-  int kept_ = 0, kept_silhouettes_ = 0, kept_pixels_ = 0;
+  Planes feathered_;
+  int silhouettes_done_ = 0, fill_done_ = 0, patterns_done_ = 0, done_ = 0;
+  int kept_ = 0, kept_made_ = 0, kept_silhouettes_ = 0, kept_pixels_ = 0;
 };
 
 /// The strips of a picture of `width` x `height` in which shifts are looked for, from the top; one

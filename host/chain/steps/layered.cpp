@@ -39,8 +39,8 @@ void Layered::split(Rows rows) {
               mixed.begin() + static_cast<std::ptrdiff_t>(f.index(0, rows.end)), 0u);
   }
   f.wanted = rows;
-  layers_ = work_.backend.split(f, work_.settings.split ? front_.mixed : none_mixed_, behind_.frame,
-                                std::move(layers_));
+  layers_ = work_.backend.split(f, work_.settings.split ? front_.mixed : none_mixed_,
+                                behind_.frame(), std::move(layers_));
   layers_.wanted = rows;
   describe_layers(f, layers_, work_.report);
 }
@@ -49,7 +49,7 @@ void Layered::split(Rows rows) {
 void Layered::describe(Rows rows) {
   front_.frame.wanted = rows;
   work_.tiles.add_surfaces(front_.frame, front_.mixed);
-  if (has_two()) work_.tiles.add_hidden(behind_.frame.inverse, rows);
+  if (has_two()) work_.tiles.add_hidden(behind_.frame().inverse, rows);
   const Frame& f = frame();
   const auto coc = f.coc_quanta.host();
   parallel_for(rows.count(), [&](int i) {

@@ -13,7 +13,7 @@ namespace defray {
 namespace {
 
 constexpr double post_depth = 1.2, grass_depth = 2.4, hedge_depth = 11;
-constexpr double px = 36 / 50.0 / 640;  ///< At depth 1, in units.
+constexpr double px_unit = 36 / 50.0 / 640;  ///< At depth 1, in units.
 
 /// How far round a movement is that begins anew after the last frame, in radians.
 double turn_of(int frame) { return 2 * std::numbers::pi * (frame - 1) / garden_frames; }
@@ -21,7 +21,7 @@ double turn_of(int frame) { return 2 * std::numbers::pi * (frame - 1) / garden_f
 /// A blade that grows from below the picture and bends sidewise, the more the higher; its tip sways
 /// by up to 5 px.
 std::unique_ptr<Primitive> blade(const Scene& scene, int i, double z, int frame) {
-  const double unit = z * px;
+  const double unit = z * px_unit;
   const double half_height = 320.0 * scene.height / scene.width;
   const double root_x = (hash01(i, 1) - 0.5) * 720, root_y = half_height + 20;
   const double height = half_height * (0.6 + 0.9 * hash01(i, 2));
@@ -46,7 +46,7 @@ std::unique_ptr<Primitive> blade(const Scene& scene, int i, double z, int frame)
 
 /// Lamps in rows, which go to the right by 2 to 4 px a frame.
 std::unique_ptr<Primitive> lamp(const Scene& scene, int i, int frame) {
-  const double z = 4.5 + 4.5 * hash01(i, 11), unit = z * px;
+  const double z = 4.5 + 4.5 * hash01(i, 11), unit = z * px_unit;
   const double speed = 2 + 2 * hash01(i, 12);
   const double x = -370 + 52 * i + 20 * hash01(i, 13) + speed * (frame - 1);
   const double y = (hash01(i, 14) - 0.7) * 260.0 * scene.height / scene.width;

@@ -67,7 +67,7 @@ std::uint64_t behind_by_strips(const Frame& f, std::size_t memory) {
   Behind behind(front, work, strips);
   behind.look_at_all();
   behind.to(front.frame.height);
-  return hash_of_planes(behind.frame.channels);
+  return hash_of_planes(behind.frame().channels);
 }
 
 TEST(ChainMemory, LargeFramesAreSearchedInTheSameStrips) {

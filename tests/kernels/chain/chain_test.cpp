@@ -31,6 +31,9 @@ class LateBackend : public reference::TwinBackend {
   Frame fill(const Frame& f, const Words& m, int n, Frame i) override {
     return wait("fill"), TwinBackend::fill(f, m, n, std::move(i));
   }
+  Planes feather(const Frame& b, const Words& m, const Words& s, Planes i) override {
+    return wait("feather"), TwinBackend::feather(b, m, s, std::move(i));
+  }
   Frame split(const Frame& f, const Words& m, const Frame& b, Frame i) override {
     return wait("split"), TwinBackend::split(f, m, b, std::move(i));
   }
@@ -113,8 +116,8 @@ TEST(Chain, ReportsItsStagesByName) {
     EXPECT_GE(s.seconds, 0) << s.stage;
   }
   EXPECT_EQ(names, (std::vector<std::string>{"lens", "border", "mixed", "repair", "silhouettes",
-                                             "fill", "patterns", "split", "tiles", "highlights",
-                                             "soften", "rays", "crop"}));
+                                             "fill", "patterns", "feather", "split", "tiles",
+                                             "highlights", "soften", "rays", "crop"}));
   EXPECT_EQ(result.report->highlights, 1u);
   EXPECT_EQ(result.report->lens_points, 137);
   EXPECT_GT(result.report->behind, 0u);
@@ -122,8 +125,8 @@ TEST(Chain, ReportsItsStagesByName) {
 
 TEST(Chain, GivesEachStageItsOwnTime) {
   reference::TwinBackend twins;
-  for (const std::string late :
-       {"mixed", "repair", "fill", "patterns", "split", "highlights", "soften", "rays"}) {
+  for (const std::string late : {"mixed", "repair", "fill", "patterns", "feather", "split",
+                                 "highlights", "soften", "rays"}) {
     LateBackend backend(late);
     const MethodResult result = rendered(backend);
     for (const StageTime& s : result.report->stages) {

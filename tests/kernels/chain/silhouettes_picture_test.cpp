@@ -47,8 +47,8 @@ void expect_straight(const std::function<bool(int x, int y)>& is_thing, float wi
     for (const int x : columns) {
       const std::vector<float> colours = behind_post(result, x);
       for (int y = 5; y < height - 5; ++y) {
-        // Beside its edge the wall is blurred.
-        const bool is_in = is_thing(x, y - 2) && is_thing(x, y + 2);
+        // Beside its edge the wall is blurred; where it comes out the edge is feathered.
+        const bool is_in = is_thing(x, y - 3) && is_thing(x, y + 3);
         const bool is_out = !is_thing(x, y - 5) && !is_thing(x, y) && !is_thing(x, y + 5);
         const float is = colours[size(y)];
         if (is_in) EXPECT_NEAR(is, thing, within) << x << " " << y;

@@ -88,11 +88,12 @@ TEST(KernelChecks, CompareAllThatAKernelWrites) {
   };
   constexpr std::size_t colour = 3;
   for (const Row& row :
-       {Row{"coc", 1, 0}, Row{"fill", 1, 1 + colour}, Row{"gather_aware", 0, colour},
-        Row{"gather_literal", 0, colour}, Row{"highlights", 0, 2}, Row{"highlights_add", 0, colour},
-        Row{"linear_psf", 0, colour}, Row{"mixed", 1, 0}, Row{"patterns_match", 0, colour},
-        Row{"rdb_gather", 1, colour}, Row{"rdb_merge", 1, colour}, Row{"repair", 1, 0},
-        Row{"soften", 0, 2 * colour}, Row{"split", 2 * 3, 2 * colour}, Row{"tiltshift", 1, 0}}) {
+       {Row{"coc", 1, 0}, Row{"feather", 0, colour}, Row{"fill", 1, 1 + colour},
+        Row{"gather_aware", 0, colour}, Row{"gather_literal", 0, colour}, Row{"highlights", 0, 2},
+        Row{"highlights_add", 0, colour}, Row{"linear_psf", 0, colour}, Row{"mixed", 1, 0},
+        Row{"patterns_match", 0, colour}, Row{"rdb_gather", 1, colour}, Row{"rdb_merge", 1, colour},
+        Row{"repair", 1, 0}, Row{"soften", 0, 2 * colour}, Row{"split", 2 * 3, 2 * colour},
+        Row{"tiltshift", 1, 0}}) {
     const Compared compared(row.kernel);
     EXPECT_EQ(compared.integers, 13 * 7 * row.integers) << row.kernel;
     EXPECT_EQ(compared.floats, 13 * 7 * row.floats) << row.kernel;
@@ -125,8 +126,9 @@ std::size_t copies_in_bands(const KernelCheck& check, Case c, int band_rows) {
 /// `patterns_match` by cells.
 TEST(KernelChecks, BandsHaveTheCasesRows) {
   const Case c = parse_case("16x48,ties,coc=0.3,cells=2,seed=2");
-  for (const char* kernel : {"gather_literal", "mixed", "linear_psf", "rdb_merge", "rdb_nearest",
-                             "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
+  for (const char* kernel :
+       {"feather", "gather_literal", "mixed", "linear_psf", "rdb_merge", "rdb_nearest",
+        "rdb_scatter", "rdb_scatter_two_pass", "repair", "soften", "split"}) {
     const KernelCheck& check = find_check(kernel);
     // 24, 8 and 2 bands: each takes as many copies.
     const std::size_t by_2 = copies_in_bands(check, c, 2), by_6 = copies_in_bands(check, c, 6),
