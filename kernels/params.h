@@ -86,7 +86,8 @@
 #define DEFRAY_HIGHLIGHT_WHOLE 13.0f
 /// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
 #define DEFRAY_HIGHLIGHT_TILE 16
-/// From this CoC on (4 px) a highlight's visibility at a pixel is that of one lens point.
+/// From this CoC on (4 px) a highlight's visibility at a pixel is a mean over lens points around
+/// one, below it over those of places in the pixel.
 #define DEFRAY_WIDE_QUANTA 1024
 /// Below this CoC (1 px) rays may land as those of another radius do.
 #define DEFRAY_SMALL_QUANTA 256
@@ -231,6 +232,7 @@ typedef struct {
 typedef struct {
   DEFRAY_UINT tiles_x;
   float share_of_light;  ///< 1 / the aperture table's total.
+  DEFRAY_INT spread;     ///< Lens units: cells to each side by which light arrives.
 } DefrayLightParams;
 
 /// One band of target rows of `linear`. Its source planes are those of a window: the band and the
@@ -281,7 +283,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayHighlightParams) == 20);
-static_assert(sizeof(DefrayLightParams) == 8);
+static_assert(sizeof(DefrayLightParams) == 12);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefraySplitParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);

@@ -11,7 +11,7 @@ const LaunchRow highlights_add_launch({.kernel = "highlights_add", .group = {64,
 
 void RayBuffers::add_light(const DefrayRdbParams& p, const RayWindow& window) {
   if (!lights_) return;
-  const DefrayLightParams l{word(lights_->tiles_x), lights_->share_of_light};
+  const DefrayLightParams l{word(lights_->tiles_x), lights_->share_of_light, lights_->spread};
   session_.launch("highlights_add", {p.width, p.band_rows}, p, l, light_first, list_, where_,
                   excess_, table_, cell_map_, winner, window.coc, window.coverage, rim_x, rim_y,
                   means);

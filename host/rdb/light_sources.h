@@ -16,6 +16,8 @@ struct LightSources {
   std::vector<std::uint32_t> table;     ///< The aperture's summed light.
   float share_of_light = 0;             ///< 1 / its total.
   std::vector<std::uint32_t> cell_map;  ///< [DEFRAY_CELL_MAP]^2: nearest lens point.
+  /// Lens units: cells around the nearest by which light arrives at a pixel, to each side.
+  std::int32_t spread = 0;
 
   bool empty() const { return where.empty(); }
 };

@@ -68,6 +68,25 @@ float sharp_edge(const Frame& f, std::size_t front, std::int32_t coc) {
   return static_cast<float>(f.coverage[front]) * (1.0f / DEFRAY_WHOLE);
 }
 
+/// How much of a source is seen from a pixel: of a small disc at 16 places in it, of a wide one
+/// from cells around the nearest, weighed 1 2 1 along both axes. Places in eighths of a
+/// pixel.
+template <typename IsSeen>
+int visible_of_16(std::int32_t coc, std::int64_t spread, const IsSeen& is_seen) {
+  int visible = 0;
+  if (std::abs(coc) < DEFRAY_WIDE_QUANTA) {
+    for (int i = 0; i < 16; ++i) visible += is_seen(2 * (i % 4) - 3, 2 * (i / 4) - 3);
+    return visible;
+  }
+  const auto step = static_cast<int>(std::abs(std::int64_t{coc}) * spread / (1 << 21));
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if (is_seen(step * du, step * dv)) visible += (2 - std::abs(du)) * (2 - std::abs(dv));
+    }
+  }
+  return visible;
+}
+
 RimCentre rim_at(const RayPlan& plan, int x, int y) {
   return {plan.rim_x[static_cast<std::size_t>(x)], plan.rim_y[static_cast<std::size_t>(y)]};
 }
@@ -85,7 +104,6 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
       for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
-        const int across = std::abs(coc) < DEFRAY_WIDE_QUANTA ? 4 : 1;
         const Box box = box_between(x - sx, y - sy, coc);
         const std::uint64_t arrives =
             has_rim ? light_through(table, box, rim_at(plan, x, y))
@@ -103,16 +121,11 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
           if (covered > 0 && at == own) return false;
           return held >= 0 && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
-        int visible = 0;
-        for (int j = 0; j < across; ++j) {
-          for (int i = 0; i < across; ++i) {
-            const int du = across == 4 ? 2 * i - 3 : 0, dv = across == 4 ? 2 * j - 3 : 0;
-            visible += !is_hidden(8 * (x - sx) + du, 8 * (y - sy) + dv);
-          }
-        }
+        const int visible = visible_of_16(coc, lights.spread, [&](int du, int dv) {
+          return !is_hidden(8 * (x - sx) + du, 8 * (y - sy) + dv);
+        });
         if (visible == 0) continue;
-        const float seen =
-            static_cast<float>(visible) / static_cast<float>(across * across) * (1 - covered);
+        const float seen = static_cast<float>(visible) / 16 * (1 - covered);
         const float share = static_cast<float>(arrives) * lights.share_of_light * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];

@@ -69,7 +69,8 @@ int16 are_at_edge(const MadeUp* b, const int2 start) {
 
 // Own colours with the mean difference to them added; as they are where there is none, or where
 // something around is not finite.
-float16 with_mean(const float16 own, const float16 sum, const float16 weights, const int16 is_edge) {
+float16 with_mean(const float16 own, const float16 sum, const float16 weights,
+                  const int16 is_edge) {
   const float16 difference = sum / weights, mean = own + difference;
   return select(own, mean, is_edge & (difference != 0.0f) & isfinite(mean));  // -0 stays -0
 }

@@ -4,8 +4,9 @@
 // the aperture, from a summed-area table, in integers, so that the shares of all pixels add up to
 // 1. Where the lens's rim cuts the aperture, boxes are cut in strips that end at the rim. Light
 // arrives where the RDB's cells nearest to its way through the lens are not held by a surface in
-// front. A sharp edge's share of a pixel holds some cells and others not: of light behind it that
-// share is taken, whichever cells are nearest.
+// front: means over nine of them, so that what hides a part of a disc has no teeth, and what covers
+// its pixels in part no dots. A sharp edge's share of a pixel holds some
+// cells and others not: of light behind it that share is taken, whichever cells are nearest.
 //
 // first        [tiles + 1]        where a tile's list begins
 // list                            highlights of each tile, in source order
@@ -95,14 +96,38 @@ int map_entry(const int eighths, const int coc) {
   return (int)(at < 0 ? 0 : at > DEFRAY_CELL_MAP - 1 ? DEFRAY_CELL_MAP - 1 : at);
 }
 
-// The lens point nearest to the way from a source to a point of a pixel, in eighths of a pixel.
-uint cell_between(__global const uint* restrict cell_at, const int2 eighths, const int coc) {
-  return cell_at[map_entry(eighths.y, coc) * DEFRAY_CELL_MAP + map_entry(eighths.x, coc)];
-}
-
 // Whether the RDB's cell on the way from a source to a target is held by a surface in front of it.
 bool is_hidden(const uint held, __global const int* restrict coc_quanta, const int4 source) {
   return held != DEFRAY_EMPTY && coc_of(coc_quanta, held) < source.z - DEFRAY_JUMP_QUANTA;
+}
+
+// How much of a source is seen from a target, by the cells nearest to its way through the lens: a
+// pixel that is large beside the disc sees those of 16 places in it, another those around one,
+// weighed 1 2 1 along both axes. Cells that a surface `not_hiding` holds are free.
+uint visible_of_16(const DefrayRdbParams p, const DefrayLightParams l,
+                   __global const uint* restrict cell_at, __global const uint* restrict winner,
+                   __global const int* restrict coc_quanta, const int4 source, const int2 distance,
+                   const uint not_hiding) {
+  const bool is_wide = abs(source.z) >= DEFRAY_WIDE_QUANTA;
+  const int spread = (int)((long)abs(source.z) * l.spread >> 21);
+  const int count = is_wide ? 3 : 4;
+  int columns[4], rows[4];
+  for (int i = 0; i < count; ++i) {
+    const int eighths = is_wide ? spread * (i - 1) : 2 * i - 3;
+    columns[i] = map_entry(distance.x * 8 + eighths, source.z);
+    rows[i] = map_entry(distance.y * 8 + eighths, source.z);
+  }
+  const size_t cells_apart = (size_t)p.band_rows * p.width * p.winner_words;
+  uint visible = 0u;
+  for (int j = 0; j < count; ++j) {
+    for (int i = 0; i < count; ++i) {
+      const uint held = winner[cell_at[rows[j] * DEFRAY_CELL_MAP + columns[i]] * cells_apart];
+      const bool is_free = held == not_hiding || !is_hidden(held, coc_quanta, source);
+      const uint weight = is_wide ? (1u + (i == 1 ? 1u : 0u)) * (1u + (j == 1 ? 1u : 0u)) : 1u;
+      visible += is_free ? weight : 0u;
+    }
+  }
+  return visible;
 }
 
 __kernel void highlights_add(
@@ -123,29 +148,20 @@ __kernel void highlights_add(
   const int own_coc = coc_of(coc_quanta, own);
   const bool is_sharp_edge = p.has_coverage && coverage[own] < DEFRAY_WHOLE && coverage[own] > 0u &&
                              abs(own_coc) < DEFRAY_SHARP_QUANTA;
-  const size_t cells_apart = (size_t)p.band_rows * p.width;
   float4 light = 0.0f;
   for (uint i = first[tile]; i < first[tile + 1u]; ++i) {
     const int4 h = where[list[i]];
     const int2 distance = (int2)((int)x - h.x, (int)y - h.y);
     if (misses(distance.x, h.z) || misses(distance.y, h.z)) continue;
     const long4 box = box_between(distance, h.z);
-    // A pixel that is large beside the disc sees many cells.
-    const int points = abs(h.z) < DEFRAY_WIDE_QUANTA ? 4 : 1;
     const ulong arrives = p.has_rim ? light_through(table, box, rim) : light_in(table, box);
     if (arrives == 0ul) continue;
     const bool is_veiled = is_sharp_edge && own_coc < h.z - DEFRAY_JUMP_QUANTA;
-    uint visible = 0u;
-    for (int k = 0; k < points * points; ++k) {
-      const int2 point = points == 4 ? 2 * (int2)(k % 4, k / 4) - 3 : (int2)(0, 0);
-      const size_t cell = cell_between(cell_at, distance * 8 + point, h.z);
-      const uint held = winner[(cell * cells_apart + target) * p.winner_words];
-      const bool is_free = is_veiled && held == own;
-      visible += is_free || !is_hidden(held, coc_quanta, h) ? 1u : 0u;
-    }
+    const uint visible = visible_of_16(p, l, cell_at, winner + target * p.winner_words, coc_quanta,
+                                       h, distance, is_veiled ? own : DEFRAY_EMPTY);
     if (visible == 0u) continue;
     const float past = is_veiled ? 1.0f - (float)coverage[own] * (1.0f / DEFRAY_WHOLE) : 1.0f;
-    const float seen = (float)visible / (float)(points * points) * past;
+    const float seen = (float)visible * 0.0625f * past;
     light += ((float)arrives * l.share_of_light * seen) * excess[list[i]];
   }
   if (p.has_rim && first[tile] < first[tile + 1u]) {

@@ -7,9 +7,16 @@
 
 #include "base/plane.h"
 #include "lens/coc.h"
+#include "lens/lens_grid.h"
 
 namespace defray {
 namespace {
+
+/// How far around the nearest cell those lie by which light arrives, in distances between cells. Of
+/// 0, 0.6, 0.8 and 1 the false edges of `garden` post (640x400, 99.9th percentile)
+/// are 8.6, 6.5, 5.9 and 5.3, PSNRs within 0.03 dB; other built-in scenes do not change. Hard edges
+/// before a lamp become the softer the fewer cells there are: drafts lose most by 1.
+constexpr float cells_spread = 0.8f;
 
 /// Calls visit(tile) for every tile that a source's disc may meet.
 template <typename Visit>
@@ -124,6 +131,9 @@ void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSo
   lights.table = aperture.sums;
   lights.share_of_light = 1.0f / static_cast<float>(aperture.total());
   lights.cell_map = map_cells(lens);
+  const float cells = cells_per_side(static_cast<int>(lens.points.size()));
+  constexpr float lens_units = 2 << DEFRAY_LENS_FRACTION_BITS;
+  lights.spread = static_cast<std::int32_t>(std::lround(cells_spread * lens_units / cells));
 }
 
 LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
@@ -139,6 +149,7 @@ LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
   near.table = all.table;
   near.share_of_light = all.share_of_light;
   near.cell_map = all.cell_map;
+  near.spread = all.spread;
   return near;
 }
 
