@@ -50,11 +50,13 @@ void copy_window(const std::vector<Plane>& from, std::vector<Plane>& to, int wid
 }
 
 std::vector<MeasuredPlace> builtin_places(const Bench& bench) {
-  constexpr std::array<std::array<const char*, 2>, 7> all{{{"cutout", "far"},
+  constexpr std::array<std::array<const char*, 2>, 9> all{{{"cutout", "far"},
                                                            {"lines", "default"},
                                                            {"fence", "bg"},
                                                            {"fence", "fence"},
                                                            {"drift", "face"},
+                                                           {"garden", "grass"},
+                                                           {"garden", "post"},
                                                            {"spheres", "f2"},
                                                            {"plate1", "default"}}};
   std::vector<MeasuredPlace> places;
