@@ -21,10 +21,10 @@ constexpr double mostly_behind = 0.9;
 
 constexpr const char* splat_footer =
     R"(Lens, focus and units are those of 'defray render': focus and places in scene units (--unit says what
-one is); focal length, sensor and aperture in millimetres; the picture is as wide as the sensor.
+one is); focal length (50 unless given), sensor and aperture in millimetres; the picture is as wide as the sensor.
 
 Examples:
-  defray splat scan.ply -o out.exr --fstop 2.8 --focal-length 50
+  defray splat scan.ply -o out.exr --fstop 2.8
   defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 1.4 --fov 40
   defray splat --model figure -o turn.####.exr --turntable 36 --size 512x512 --fstop 2 --focal-length 50)";
 
@@ -97,6 +97,10 @@ int run(const SplatCommand& job) {
     const double seconds = watch.seconds();
     const std::vector<std::string> notes = write(shot.output, job, result);
     bar.clear();
+    if (result.report.seen == 0) {
+      print_error("defray: note: " + shot.output +
+                  ": nothing of the cloud is in the picture: see --from, --look-at");
+    }
     if (result.report.from_behind > mostly_behind && !job.quiet) {
       print_error(fmt::format(
           "defray: note: {:.0f} % of what is before the camera is seen from behind and not drawn: "

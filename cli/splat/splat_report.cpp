@@ -37,9 +37,7 @@ void print_text(const std::string& path, const Lens& lens, const SplatReport& r,
   fmt::print("{}\n", path);
   fmt::print("  {} points drawn as {} splats, {} seen, {:.0f} fragments\n", r.points, r.drawn,
              r.seen, r.fragments);
-  if (r.seen == 0) {
-    fmt::print("  nothing of the cloud is in the picture: see --from, --look-at\n");
-  } else {
+  if (r.seen > 0) {
     fmt::print("  depth {:.6g} to {:.6g} units, CoC radius {:.4g} to {:.4g} px\n", r.nearest_units,
                r.farthest_units, r.nearest_coc_px, r.farthest_coc_px);
   }

@@ -73,10 +73,13 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
 }
 
 /// The lens; without a focus it is on what is looked at, `focus` away. A field of view alone is
-/// that of a camera whose sensor is as wide as the default one.
+/// that of a camera whose sensor is as wide as the default one; without one the focal length is the
+/// default one.
 Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
   CameraValues values = shot.camera;
-  if (!values.focal_length_mm && values.fov_deg && *values.fov_deg > 0 && *values.fov_deg < 180) {
+  if (!values.focal_length_mm && !values.fov_deg) {
+    values.focal_length_mm = Lens().focal_length_mm;
+  } else if (!values.focal_length_mm && *values.fov_deg > 0 && *values.fov_deg < 180) {
     values.focal_length_mm = Lens().sensor_width_mm / 2 / std::tan(*values.fov_deg * M_PI / 360);
   }
   if (!values.focus_distance_units) values.focus_distance_units = focus;

@@ -6,10 +6,11 @@
 namespace defray {
 namespace {
 
-// A square of 7 px around. Two layers are written, the frame and what lies behind read.
+// A square of 7 px around, and what is beside its pixels. Two layers are written, the frame and
+// what lies behind read.
 const LaunchRow split_launch({.kernel = "split",
                               .group = {64, 1},
-                              .reach_px = 3,
+                              .reach_px = 4,
                               .bytes_a_surface = 3 * Launch::plane + Launch::colour +
                                                  (5 * Launch::plane + 2 * Launch::colour) / 2});
 

@@ -91,13 +91,15 @@ class Splitter {
     return found;
   }
 
-  /// Of what is too thin for pure pixels, the one least like the surface behind.
+  /// Of what is too thin for pure pixels, the one least like the surface behind; none that a lamp
+  /// lights.
   std::optional<Nearby> thin_front(Place at, int middle, const Colour& behind) const {
     std::optional<Nearby> front;
     float farthest = -1;
+    const float limit = brightest_front(at, middle);
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
-      if (frame_.coc(q) >= middle) return;
+      if (frame_.coc(q) >= middle || lamp_of(place, middle, limit)) return;
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(dot(d, d) > farthest)) return;
       farthest = dot(d, d);
@@ -106,7 +108,47 @@ class Splitter {
     return front;
   }
 
+  /// Of a pixel in front: the brightest farther one beside it, where a lamp shines beside it.
+  std::optional<std::size_t> lamp_of(Place at, int middle) const {
+    return lamp_of(at, middle, brightest_front(at, middle));
+  }
+
  private:
+  float bright(std::size_t q) const {
+    const Colour c = colour_at(channels_, q);
+    return std::fabs(c[0]) + std::fabs(c[1]) + std::fabs(c[2]);
+  }
+
+  /// What is in front is at most so much brighter than the darkest behind it if something farther
+  /// is brighter still: a lamp.
+  float brightest_front(Place at, int middle) const {
+    float darkest = std::numeric_limits<float>::infinity(), brightest = 0, front = 0;
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) < middle) {
+        front = std::fmax(front, bright(q));
+      } else {
+        darkest = std::fmin(darkest, bright(q));
+        brightest = std::fmax(brightest, bright(q));
+      }
+    });
+    return brightest > front ? 7 * darkest : std::numeric_limits<float>::infinity();
+  }
+
+  std::optional<std::size_t> lamp_of(Place at, int middle, float limit) const {
+    const float own = bright(frame_.index(at));
+    std::optional<std::size_t> lamp;
+    if (!(own > limit)) return lamp;
+    float brightest = own / 2;
+    for_each_around(at, 1, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) < middle || !(bright(q) > brightest)) return;
+      brightest = bright(q);
+      lamp = q;
+    });
+    return lamp;
+  }
+
   CocFrame frame_;
   const Planes& channels_;
   std::span<const std::uint32_t> mixed_;
@@ -242,12 +284,26 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     Colour b = colour_at(behind.before, pixel);
     const auto [nearest, farthest] = splitter.range(at);
     const int middle = nearest + (farthest - nearest) / 2;
-    const bool saw_front = frame.coc(at) < middle;
+    bool saw_front = frame.coc(at) < middle;
+    std::size_t saw = pixel;  // whose surface
+    std::optional<std::size_t> lamp;
     auto found = splitter.pure(at, -DEFRAY_TAME_QUANTA, middle - 1);
-    if (!found) found = splitter.thin_front(at, middle, b);
+    if (!found) {
+      found = splitter.thin_front(at, middle, b);
+      if (saw_front) lamp = splitter.lamp_of(at, middle);
+    }
     const int own = frame.coc(at);
-    const auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
+    auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     const bool is_third = std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA;
+    if (lamp) {
+      saw_front = false;
+      saw = *lamp;
+      front.coc_quanta[pixel] = f.coc_quanta[saw];
+      front.inverse[pixel] = f.inverse[saw];
+      b = colour_at(f.channels, saw);
+      if (found) found->source = pixel;
+      seen.reset();
+    }
     if (!saw_front && is_third && seen) b = seen->colour;
     if (!saw_front && !is_third && seen && found) {
       b = best_behind(c, found->colour, b, {colour_at(f.channels, seen->source), seen->colour});
@@ -268,8 +324,8 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
       front.coc_quanta[pixel] = f.coc_quanta[found->source];
       front.inverse[pixel] = f.inverse[found->source];
       set_colour(front.channels, pixel, found->colour);
-      behind.coc_quanta[pixel] = f.coc_quanta[pixel];
-      behind.inverse[pixel] = f.inverse[pixel];
+      behind.coc_quanta[pixel] = f.coc_quanta[saw];
+      behind.inverse[pixel] = f.inverse[saw];
       behind.coverage[pixel] = DEFRAY_WHOLE;
       set_colour(behind.channels, pixel,
                  plausible(seen, b, c, rest_of(c, found->colour, share_of(front.coverage[pixel]))));

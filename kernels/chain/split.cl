@@ -6,7 +6,9 @@
 // the pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha
 // counts like a colour). What the two colours do not explain goes to the surface that the depth
 // sample saw, so that both together still give C; but what lies behind gets no colour beyond C, B
-// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are.
+// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are. Where
+// something thin crosses a lamp its own colours are those that the lamp does not light, and a pixel
+// whose depth is its has the lamp behind it.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -35,6 +37,9 @@
 #define LEAST_NOISE 1e-3f
 #define MOST_NOISE 3e-2f
 
+// What is so much brighter than a surface nearby is light (7: DEFRAY_HIGHLIGHT).
+#define LAMP DEFRAY_HIGHLIGHT
+
 // A surface in one pixel.
 typedef struct {
   int coc;
@@ -51,6 +56,8 @@ typedef struct {
   uint source;       // whose depth it has
   bool is_found;
 } Nearby;
+
+float brightness_of(const float4 c) { return fabs(c.x) + fabs(c.y) + fabs(c.z); }
 
 float4 lower_of(const float4 a, const float4 b) { return a < b ? a : b; }
 float4 higher_of(const float4 a, const float4 b) { return a > b ? a : b; }
@@ -86,16 +93,53 @@ Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_q
   return found;
 }
 
-// Of a surface in front that is too thin for pure pixels, the one least like what lies behind.
+// How bright what is in front can be at most, where something thin crosses a farther lamp: more is
+// the lamp's light. INFINITY: there is none.
+float brightest_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
+                      CHANNEL_PARAMETERS(channel), const int2 at, const int middle) {
+  float darkest = INFINITY, brightest = 0.0f, front = 0.0f;
+  for (int i = 0; i < 49; ++i) {
+    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
+    const float bright = brightness_of(colour_at(CHANNELS(channel), q));
+    if (coc_of(coc_quanta, q) < middle) {
+      front = fmax(front, bright);
+    } else {
+      darkest = fmin(darkest, bright);
+      brightest = fmax(brightest, bright);
+    }
+  }
+  return brightest > front ? LAMP * darkest : INFINITY;
+}
+
+// The brightest farther pixel beside one, if it is half as bright as that or more; else that.
+uint lamp_beside(const DefraySplitParams p, __global const int* restrict coc_quanta,
+                 CHANNEL_PARAMETERS(channel), const int2 at, const int middle) {
+  uint lamp = pixel_at(p.width, p.height, at);
+  float brightest = 0.5f * brightness_of(colour_at(CHANNELS(channel), lamp));
+  for (int i = 0; i < 9; ++i) {
+    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
+    const float bright = brightness_of(colour_at(CHANNELS(channel), q));
+    if (coc_of(coc_quanta, q) < middle || !(bright > brightest)) continue;
+    brightest = bright;
+    lamp = q;
+  }
+  return lamp;
+}
+
+// Of a surface in front that is too thin for pure pixels, the one least like what lies behind; none
+// that a lamp lights whose light goes beyond `brightest`.
 Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
-                  CHANNEL_PARAMETERS(channel), const int2 at, const int middle,
-                  const float4 behind) {
+                  CHANNEL_PARAMETERS(channel), const int2 at, const int middle, const float4 behind,
+                  const float brightest) {
   Nearby front = {0.0f, INFINITY, -INFINITY, 0.0f, 0u, false};
   float farthest_colour = -1.0f;
   for (int i = 0; i < 49; ++i) {
-    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
+    const int2 place = at + (int2)(i % 7 - 3, i / 7 - 3);
+    const uint q = pixel_at(p.width, p.height, place);
     if (coc_of(coc_quanta, q) >= middle) continue;
     const float4 c = colour_at(CHANNELS(channel), q);
+    const bool is_bright = brightness_of(c) > brightest;
+    if (is_bright && lamp_beside(p, coc_quanta, CHANNELS(channel), place, middle) != q) continue;
     const float4 d = c - behind;
     const float far = d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w;
     if (!(far > farthest_colour)) continue;
@@ -188,15 +232,26 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
     farthest = max(farthest, coc);
   }
   const int middle = nearest + (farthest - nearest) / 2;
-  const bool saw_front = own < middle;
+  bool saw_front = own < middle, is_lit = false;
   float4 b = behind->colour;
   Nearby f =
       pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, -DEFRAY_TAME_QUANTA, middle - 1);
   if (!f.is_found) {
-    f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b);
+    const float brightest = brightest_front(p, coc_quanta, CHANNELS(channel), at, middle);
+    f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b, brightest);
+    const bool is_bright = saw_front && brightness_of(c) > brightest;
+    const uint lamp = is_bright ? lamp_beside(p, coc_quanta, CHANNELS(channel), at, middle) : pixel;
+    is_lit = lamp != pixel;
+    if (is_lit) {  // as if the depth sample had seen the lamp
+      saw_front = false;
+      front->coc = coc_quanta[lamp];
+      front->inverse = inverse[lamp];
+      f.source = pixel;
+      b = colour_at(CHANNELS(channel), lamp);
+    }
   }
   Nearby seen = f;
-  if (!saw_front) {
+  if (!saw_front && !is_lit) {
     seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, own - DEFRAY_JUMP_QUANTA,
                        own + DEFRAY_JUMP_QUANTA);
     // Where `fill` found another surface than the one that was seen there are three.

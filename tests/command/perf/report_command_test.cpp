@@ -105,7 +105,8 @@ TEST_F(ReportCommand, UpdateChangesOnlyWhatStandsBetweenItsMarkers) {
       text.substr(head.size(), text.size() - head.size() - middle.size() - tail.size());
   EXPECT_EQ(written.find("old"), std::string::npos);
   EXPECT_EQ(written.find("<!-- motion:begin -->\n| focus | truth's change | pinhole |"), 0u);
-  EXPECT_NE(written.find("\n|---|---|---|---|---|---|\n| face | "), std::string::npos);
+  EXPECT_NE(written.find("\n|---|---|---|---|---|---|---|---|\n| drift face | "),
+            std::string::npos);
   EXPECT_NE(written.find("\nMeasured on "), std::string::npos);
   EXPECT_NE(written.find("\nA rehearsal"), std::string::npos);
   EXPECT_NE(written.find("\n<!-- motion:end -->\n"), std::string::npos);

@@ -115,6 +115,40 @@ TEST(Split, AThinBrightThingIsTakenApart) {
   }
 }
 
+/// A lamp of 5 x 5 px, and a dark blade of a pixel's width whose tip covers a third of three of
+/// them.
+Canvas lamp_behind_a_blade(float blade) {
+  Canvas f(40, 20);
+  f.each([&](int x, int y) {
+    const bool is_lamp = x >= 18 && x < 23 && y >= 6 && y < 11, is_blade = x == 20 && y >= 8;
+    const float there = is_lamp ? 60.0f : 0.1f;
+    const float c = is_blade ? (is_lamp ? 2 * there / 3 + blade / 3 : blade) : there;
+    f.paint(x, y, c, c, c);
+    if (is_lamp) f.coc[f.at(x, y)] = 1400, f.inverse[f.at(x, y)] = 0.21f;
+    if (is_blade) f.coc[f.at(x, y)] = bar_coc, f.inverse[f.at(x, y)] = 0.5f;
+  });
+  return f;
+}
+
+TEST(Split, ABladeBeforeALampHasNoneOfItsLight) {
+  const Canvas f = lamp_behind_a_blade(0.3f);
+  const auto [front, behind] = f.parted();
+  for (std::size_t i = 0; i < f.count(); ++i) {
+    if (front.coc_quanta[i] == bar_coc) EXPECT_LT(front.channels[0][i], 1) << i;
+  }
+  for (int y = 8; y < 11; ++y) {
+    const std::size_t i = f.at(20, y);
+    EXPECT_EQ(front.coc_quanta[i], bar_coc) << y;
+    EXPECT_NEAR(front.coverage[i] / 65536.0, 1 / 3.0, 0.02) << y;
+    EXPECT_NEAR(behind.channels[0][i], 60, 1) << y;
+    EXPECT_EQ(behind.coc_quanta[i], 1400) << y;
+    EXPECT_FLOAT_EQ(behind.depth[i], 1 / 0.21f) << y;
+  }
+  // One that is as bright as the lamp keeps its light.
+  const Canvas bright = lamp_behind_a_blade(70);
+  EXPECT_GT(bright.parted().front.channels[0][bright.at(20, 9)], 50);
+}
+
 TEST(Split, WhatIsNotFiniteStaysWhole) {
   for (const float odd : {infinite, -infinite, nan}) {
     Canvas f = bar_with_mixed_edges(0.5f, true);
@@ -133,6 +167,20 @@ TEST(Split, WhatIsNotFiniteStaysWhole) {
 }
 
 const FaultRows faults{
+    {"split", "no lamp is bright enough", {"LAMP * darkest", "INFINITY"}},
+    {"split", "the darkest of all", {"LAMP * darkest", "0.0f"}},
+    {"split", "lamps are in front", {"brightest > front ? LAMP", "brightest < front ? LAMP"}},
+    {"split", "any farther pixel is a lamp", {"0.5f * brightness_of", "0.0f * brightness_of"}},
+    {"split", "lit pixels are in front", {"is_bright = saw_front && b", "is_bright = false && b"}},
+    {"split",
+     "lit colours are in front",
+     {"if (is_bright && lamp_beside(", "if (false && lamp_beside("}},
+    {"split", "a lit pixel keeps its depth", {"front->inverse = inverse[lamp];", ""}},
+    {"split", "a lit pixel keeps its radius", {"front->coc = coc_quanta[lamp];", ""}},
+    {"split", "a blade's depth beside it", {"      f.source = pixel;\n", ""}},
+    {"split",
+     "behind it what was made up",
+     {"      b = colour_at(CHANNELS(channel), lamp);\n", ""}},
     {"split", "what is in front behind too", {"set_layer(behind, is", "set_layer(front, is"}},
     {"split",
      "made-up colours where those nearby explain the pixel",
