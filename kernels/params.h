@@ -71,6 +71,8 @@
 #define DEFRAY_FILL_LOOK_PX 4
 /// Most directions in which `fill` looks for what goes on behind.
 #define DEFRAY_FILL_DIRECTIONS 16
+/// So far `split` takes surfaces from: squares of 7 px.
+#define DEFRAY_SPLIT_PX 3
 /// So far `feather` takes colours from, by weights that are DEFRAY_FEATHER_WEIGHT less the squared
 /// distance. Of 1, 2 and 3 px (built-in scenes, 640x400): `cutout` -0.10, -0.18 and -0.42 dB, where
 /// all made-up shapes are plain; `drift` face +0.01, +0.03, +0.04, plate1 +0.01, +0.05, +0.06.

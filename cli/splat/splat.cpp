@@ -97,7 +97,7 @@ int run(const SplatCommand& job) {
     const double seconds = watch.seconds();
     const std::vector<std::string> notes = write(shot.output, job, result);
     bar.clear();
-    if (result.report.seen == 0) {
+    if (result.report.seen == 0 && !job.quiet) {
       print_error("defray: note: " + shot.output +
                   ": nothing of the cloud is in the picture: see --from, --look-at");
     }

@@ -10,7 +10,7 @@ namespace {
 // what lies behind read.
 const LaunchRow split_launch({.kernel = "split",
                               .group = {64, 1},
-                              .reach_px = 4,
+                              .reach_px = DEFRAY_SPLIT_PX + 1,
                               .bytes_a_surface = 3 * Launch::plane + Launch::colour +
                                                  (5 * Launch::plane + 2 * Launch::colour) / 2});
 

@@ -6,7 +6,6 @@
 
 #include "base/parallel.h"
 #include "kernels/params.h"
-#include "opencl/launch_table.h"
 
 namespace defray {
 namespace {
@@ -27,7 +26,7 @@ std::uint32_t data_of(const Frame& e, const Frame& two, int x, int y, int layer)
   };
   if (layer == 1 && two.coverage[i] >= DEFRAY_SYNTHESISED) return DEFRAY_EMPTY;
   if (is_on(e.index(x, y))) return e.data_of[e.index(x, y)];
-  static const int reach = launch_of("split").reach_px;
+  constexpr int reach = DEFRAY_SPLIT_PX;
   int least = 2 * reach * reach + 1;
   std::uint32_t data = DEFRAY_EMPTY;
   for (int j = std::max(0, y - reach); j <= std::min(e.height - 1, y + reach); ++j) {

@@ -79,7 +79,7 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   const Result text = defray(folder_, figure + "-o o.exr " + wide_lens);
   expect_ok(text);
   EXPECT_NE(text.out.find("2000 points drawn as "), std::string::npos) << text.out;
-  for (const std::string flag : {"--quiet ", "--depth "}) {
+  for (const std::string flag : {"--json ", "--depth "}) {
     const Result away =
         defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + flag + wide_lens);
     expect_ok(away);
