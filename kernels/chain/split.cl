@@ -20,8 +20,7 @@
 //                                     the margin was not seen
 // layer0..3       [height][2][width]  colour
 // Global size: (width, height).
-#include "base/colour.clh"
-#include "base/frame.clh"
+#include "chain/split_nearby.clh"
 
 // Coverages that are as good as none or all; and bounds, beyond which differences grow too much.
 #define LEAST_COVERAGE 0.03f
@@ -37,9 +36,6 @@
 #define LEAST_NOISE 1e-3f
 #define MOST_NOISE 3e-2f
 
-// What is so much brighter than a surface nearby is light (7: DEFRAY_HIGHLIGHT).
-#define LAMP DEFRAY_HIGHLIGHT
-
 // A surface in one pixel.
 typedef struct {
   int coc;
@@ -47,109 +43,6 @@ typedef struct {
   uint coverage;
   float4 colour;
 } Surface;
-
-// A surface, from the pixels around.
-typedef struct {
-  float4 colour;
-  float4 low, high;  // of the colours that it is the mean of, channel by channel
-  float variance;    // of them, all channels together
-  uint source;       // whose depth it has
-  bool is_found;
-} Nearby;
-
-float brightness_of(const float4 c) { return fabs(c.x) + fabs(c.y) + fabs(c.z); }
-
-float4 lower_of(const float4 a, const float4 b) { return a < b ? a : b; }
-float4 higher_of(const float4 a, const float4 b) { return a > b ? a : b; }
-
-// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
-// depth.
-Nearby pure_nearby(const DefraySplitParams p, __global const int* restrict coc_quanta,
-                   __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
-                   const int low, const int high) {
-  Nearby found = {0.0f, INFINITY, -INFINITY, 0.0f, 0u, false};
-  float weights = 0.0f, nearest = 0.0f;
-  float4 squares = 0.0f;
-  for (int i = 0; i < 49; ++i) {
-    const int2 d = (int2)(i % 7 - 3, i / 7 - 3);
-    const uint q = pixel_at(p.width, p.height, at + d);
-    const int coc = coc_of(coc_quanta, q);
-    if (mixed[q] || coc < low || coc > high) continue;
-    const float weight = 1.0f / (float)((d.x * d.x + d.y * d.y) * (d.x * d.x + d.y * d.y));
-    const float4 colour = colour_at(CHANNELS(channel), q);
-    found.colour += weight * colour;
-    squares += weight * (colour * colour);
-    found.low = lower_of(colour, found.low);
-    found.high = higher_of(colour, found.high);
-    weights += weight;
-    if (weight > nearest) found.source = q;
-    nearest = fmax(nearest, weight);
-  }
-  found.is_found = weights > 0.0f;
-  if (!found.is_found) return found;
-  found.colour /= weights;
-  const float4 variances = squares / weights - found.colour * found.colour;
-  found.variance = fmax(variances.x + variances.y + variances.z + variances.w, 0.0f);
-  return found;
-}
-
-// How bright what is in front can be at most, where something thin crosses a farther lamp: more is
-// the lamp's light. INFINITY: there is none.
-float brightest_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
-                      CHANNEL_PARAMETERS(channel), const int2 at, const int middle) {
-  float darkest = INFINITY, brightest = 0.0f, front = 0.0f;
-  for (int i = 0; i < 49; ++i) {
-    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 7 - 3, i / 7 - 3));
-    const float bright = brightness_of(colour_at(CHANNELS(channel), q));
-    if (coc_of(coc_quanta, q) < middle) {
-      front = fmax(front, bright);
-    } else {
-      darkest = fmin(darkest, bright);
-      brightest = fmax(brightest, bright);
-    }
-  }
-  return brightest > front ? LAMP * darkest : INFINITY;
-}
-
-// The brightest farther pixel beside one, if it is half as bright as that or more; else that.
-uint lamp_beside(const DefraySplitParams p, __global const int* restrict coc_quanta,
-                 CHANNEL_PARAMETERS(channel), const int2 at, const int middle) {
-  uint lamp = pixel_at(p.width, p.height, at);
-  float brightest = 0.5f * brightness_of(colour_at(CHANNELS(channel), lamp));
-  for (int i = 0; i < 9; ++i) {
-    const uint q = pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1));
-    const float bright = brightness_of(colour_at(CHANNELS(channel), q));
-    if (coc_of(coc_quanta, q) < middle || !(bright > brightest)) continue;
-    brightest = bright;
-    lamp = q;
-  }
-  return lamp;
-}
-
-// Of a surface in front that is too thin for pure pixels, the one least like what lies behind; none
-// that a lamp lights whose light goes beyond `brightest`.
-Nearby thin_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
-                  CHANNEL_PARAMETERS(channel), const int2 at, const int middle, const float4 behind,
-                  const float brightest) {
-  Nearby front = {0.0f, INFINITY, -INFINITY, 0.0f, 0u, false};
-  float farthest_colour = -1.0f;
-  for (int i = 0; i < 49; ++i) {
-    const int2 place = at + (int2)(i % 7 - 3, i / 7 - 3);
-    const uint q = pixel_at(p.width, p.height, place);
-    if (coc_of(coc_quanta, q) >= middle) continue;
-    const float4 c = colour_at(CHANNELS(channel), q);
-    const bool is_bright = brightness_of(c) > brightest;
-    if (is_bright && lamp_beside(p, coc_quanta, CHANNELS(channel), place, middle) != q) continue;
-    const float4 d = c - behind;
-    const float far = d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w;
-    if (!(far > farthest_colour)) continue;
-    farthest_colour = far;
-    front.colour = c;
-    front.source = q;
-    front.is_found = true;
-  }
-  return front;
-}
 
 // C beside what F and B can make: the share of F that comes nearest, and how far from it C stays,
 // squared.

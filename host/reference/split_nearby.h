@@ -1,0 +1,158 @@
+#pragma once
+// Surfaces that the twin of `split` finds around a pixel (kernels/chain/split_nearby.clh).
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "reference/stage_frame.h"
+
+namespace defray::reference {
+
+/// Of colours, channel by channel; one that is not a number does not count.
+struct Hull {
+  Colour low, high;
+
+  Hull() {
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+  }
+
+  void add(const Colour& colour) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (colour[i] < low[i]) low[i] = colour[i];
+      if (colour[i] > high[i]) high[i] = colour[i];
+    }
+  }
+};
+
+/// A surface, from the pixels around.
+struct Nearby {
+  Colour colour;
+  std::size_t source;  ///< Whose depth it has.
+  Hull hull;           ///< Of the colours that it is the mean of, and
+  float variance;      ///< theirs, all channels together.
+};
+
+/// a . b, added in channel order.
+inline float inner_product(const Colour& a, const Colour& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+inline Colour minus(Colour a, const Colour& b) {
+  for (std::size_t c = 0; c < 4; ++c) a[c] -= b[c];
+  return a;
+}
+
+inline Colour times(Colour a, const Colour& b) {
+  for (std::size_t c = 0; c < 4; ++c) a[c] *= b[c];
+  return a;
+}
+
+class Splitter {
+ public:
+  Splitter(const Frame& f, const Words& mixed)
+      : frame_(f), channels_(f.channels), mixed_(mixed.host()) {}
+
+  /// CoC of the nearest and the farthest pixel around.
+  std::pair<int, int> range(Place at) const {
+    int nearest = frame_.coc(at), farthest = nearest;
+    for_each_around(at, 1, [&](Place q) {
+      nearest = std::min(nearest, frame_.coc(q));
+      farthest = std::max(farthest, frame_.coc(q));
+    });
+    return {nearest, farthest};
+  }
+
+  /// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
+  /// depth.
+  std::optional<Nearby> pure(Place at, int low, int high) const {
+    Nearby found{};
+    Colour squares{};
+    float weights = 0, largest = 0;
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (mixed_[q] || frame_.coc(q) < low || frame_.coc(q) > high) return;
+      const Place d = place - at;
+      const int distance2 = d.x * d.x + d.y * d.y;
+      const float weight = 1.0f / static_cast<float>(distance2 * distance2);
+      const Colour colour = colour_at(channels_, q);
+      add(found.colour, weight, colour);
+      add(squares, weight, times(colour, colour));
+      found.hull.add(colour);
+      weights += weight;
+      if (weight > largest) found.source = q;
+      largest = std::max(largest, weight);
+    });
+    if (weights == 0) return std::nullopt;
+    found.colour = divided(found.colour, weights);
+    const Colour mean2 = times(found.colour, found.colour);
+    const Colour variances = minus(divided(squares, weights), mean2);
+    const float sum = variances[0] + variances[1] + variances[2] + variances[3];
+    found.variance = std::fmax(sum, 0.0f);
+    return found;
+  }
+
+  /// Of what is too thin for pure pixels, the one least like the surface behind; none that a lamp
+  /// lights.
+  std::optional<Nearby> thin_front(Place at, int middle, const Colour& behind) const {
+    std::optional<Nearby> front;
+    float farthest = -1;
+    const float limit = brightest_front(at, middle);
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) >= middle || lamp_of(place, middle, limit)) return;
+      const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
+      if (!(inner_product(d, d) > farthest)) return;
+      farthest = inner_product(d, d);
+      front = {colour, q, {}, 0};
+    });
+    return front;
+  }
+
+  /// Of a pixel in front: the brightest farther one beside it, where a lamp shines beside it.
+  std::optional<std::size_t> lamp_of(Place at, int middle) const {
+    return lamp_of(at, middle, brightest_front(at, middle));
+  }
+
+ private:
+  float bright(std::size_t q) const {
+    const Colour c = colour_at(channels_, q);
+    return std::fabs(c[0]) + std::fabs(c[1]) + std::fabs(c[2]);
+  }
+
+  /// What is in front is at most so much brighter than the darkest behind it if something farther
+  /// is brighter still: a lamp.
+  float brightest_front(Place at, int middle) const {
+    float darkest = std::numeric_limits<float>::infinity(), brightest = 0, front = 0;
+    for_each_around(at, 3, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) < middle) {
+        front = std::fmax(front, bright(q));
+      } else {
+        darkest = std::fmin(darkest, bright(q));
+        brightest = std::fmax(brightest, bright(q));
+      }
+    });
+    return brightest > front ? 7 * darkest : std::numeric_limits<float>::infinity();
+  }
+
+  std::optional<std::size_t> lamp_of(Place at, int middle, float limit) const {
+    const float own = bright(frame_.index(at));
+    std::optional<std::size_t> lamp;
+    if (!(own > limit)) return lamp;
+    float brightest = own / 2;
+    for_each_around(at, 1, [&](Place place) {
+      const std::size_t q = frame_.index(place);
+      if (frame_.coc(q) < middle || !(bright(q) > brightest)) return;
+      brightest = bright(q);
+      lamp = q;
+    });
+    return lamp;
+  }
+
+  CocFrame frame_;
+  const Planes& channels_;
+  std::span<const std::uint32_t> mixed_;
+};
+
+}  // namespace defray::reference
