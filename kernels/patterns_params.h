@@ -1,7 +1,13 @@
-// Constants and parameter blocks of `patterns_difference` and `patterns_match`, as in params.h.
+// Constants and parameter blocks of the kernels `patterns_*`, as in params.h.
 #ifndef DEFRAY_KERNELS_PATTERNS_PARAMS_H
 #define DEFRAY_KERNELS_PATTERNS_PARAMS_H
 #include "params.h"
+
+#ifdef __OPENCL_C_VERSION__
+#define DEFRAY_ULONG ulong
+#else
+#define DEFRAY_ULONG std::uint64_t
+#endif
 
 /// What a pixel's word holds for `patterns` beside its 8-bit colour (r | g << 8 | b << 16).
 #define DEFRAY_PATTERN_KNOWN (1u << 24)   ///< May be matched and copied.
@@ -41,7 +47,32 @@ typedef struct {
   float frame_pairs;             ///< What the frame's mean counts beside a window's pairs.
 } DefrayPatternsParams;
 
+/// Rows of a frame that are compared with the frame shifted: `patterns_agree`. Of a shift s those
+/// from row max(0, -s.y) of the frame on, one of `row_step`.
+typedef struct {
+  DEFRAY_UINT width;     ///< Pixels in a row of the frame.
+  DEFRAY_UINT height;    ///< Rows of the window.
+  DEFRAY_INT above;      ///< Rows of the frame above the window.
+  DEFRAY_INT first_row;  ///< In the window, of those that are compared.
+  DEFRAY_INT end_row;    ///< Below them.
+  DEFRAY_INT part_rows;  ///< Of them, those that a work-item takes.
+  DEFRAY_INT row_step;   ///< At least 1.
+  DEFRAY_UINT shift_count;
+  DEFRAY_INT tolerance_quanta;  ///< CoC radii that differ by no more are of one surface.
+} DefrayAgreeParams;
+
+/// How well pixels agree with others. Of a work-item fewer than 2^32 / (3 x 255^2) are compared in
+/// each lane of a run.
+typedef struct {
+  DEFRAY_ULONG squares;  ///< Of differences of 8-bit colours, all three together.
+  DEFRAY_ULONG pairs;    ///< Of known pixels of one surface.
+} DefrayAgreement;
+/// Rows that a work-item takes times runs of a row are no more.
+#define DEFRAY_AGREE_RUNS 16384
+
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DefrayAgreeParams) == 36);
+static_assert(sizeof(DefrayAgreement) == 16);
 static_assert(sizeof(DefrayPatternShift) == 16);
 static_assert(sizeof(DefrayPatternsParams) == 36);
 #endif

@@ -29,6 +29,8 @@ double add_work(const Case& c) {
 
 double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
 
+double agree_work(const Case& c) { return (3 + 3 * shift_count) * pixels(c) * 4 + band_work(c); }
+
 double difference_work(const Case& c) { return shift_count * pixels(c) * 4; }
 
 double mixed_work(const Case& c) { return 20 * pixels(c) + band_work(c); }

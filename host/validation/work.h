@@ -7,6 +7,7 @@ namespace defray::validation {
 double pixels(const Case& c);
 
 double add_work(const Case& c);
+double agree_work(const Case& c);
 double clear_work(const Case& c);
 double difference_work(const Case& c);
 double mixed_work(const Case& c);

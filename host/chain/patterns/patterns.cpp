@@ -80,10 +80,10 @@ Words patterns_pixels(std::vector<std::uint32_t> encoded, const Planes& channels
   return encoded;
 }
 
-std::vector<PatternShift> find_shifts(const Frame& frame, const Words& pixels,
+std::vector<PatternShift> find_shifts(Backend& backend, const Frame& frame, const Words& pixels,
                                       const PatternSettings& settings) {
   if (!is_any_behind(frame, pixels)) return {};
-  std::vector<PatternShift> shifts = find_pattern_shifts(frame, pixels, settings);
+  std::vector<PatternShift> shifts = find_pattern_shifts(backend, frame, pixels, settings);
   const std::vector<PatternShift> parallel = find_parallel_shifts(frame, pixels, settings);
   shifts.insert(shifts.end(), parallel.begin(), parallel.end());
   return shifts;

@@ -56,8 +56,8 @@ Words patterns_pixels(std::vector<std::uint32_t> encoded, const Planes& channels
 /// The shifts at which known pixels of one surface agree best in the mean over the frame: local
 /// minima on a grid of 4 px, refined to 1 px, each followed by its opposite. Empty where less than
 /// a fiftieth of the frame has partners.
-std::vector<PatternShift> find_pattern_shifts(const Frame& frame, const Words& pixels,
-                                              const PatternSettings& settings);
+std::vector<PatternShift> find_pattern_shifts(Backend& backend, const Frame& frame,
+                                              const Words& pixels, const PatternSettings& settings);
 
 /// The same for shifts parallel to the picture, to the right and down, on surfaces that slant
 /// across them (on others the shifts above do): lengths at which one in 50 sampled pixels has a
@@ -76,7 +76,7 @@ inline int parallel_length(float parallel, float inverse, int most) {
 }
 
 /// Both kinds; none where nothing lies behind in the frame.
-std::vector<PatternShift> find_shifts(const Frame& frame, const Words& pixels,
+std::vector<PatternShift> find_shifts(Backend& backend, const Frame& frame, const Words& pixels,
                                       const PatternSettings& settings);
 
 /// Rows around a pixel that its matches and their windows lie in, whatever the shifts.

@@ -71,7 +71,7 @@ void Behind::look_at_all() {
   if (strips.size() > 1) return look_at_strips(strips);
   fill_to(front_.frame.height);
   front_.frame.wanted.reset();
-  shifts_ = find_shifts(front_.frame, pixels_, settings_);
+  shifts_ = find_shifts(work_.backend, front_.frame, pixels_, settings_);
   work_.done("patterns");
 }
 
@@ -84,7 +84,7 @@ void Behind::look_at_strips(const std::vector<Rows>& strips) {
     all.add(front_.frame, pixels_, rows);
     work_.done("patterns");
   }
-  shifts_ = find_shifts(all.frame, all.pixels, settings_);
+  shifts_ = find_shifts(work_.backend, all.frame, all.pixels, settings_);
   if (work_.is_banded) restart(0);
   work_.done("patterns");
 }

@@ -1,10 +1,32 @@
-// Faults of patterns_difference, patterns_match.
+// Faults of patterns_agree, patterns_difference, patterns_match.
 #include "faults/fault.h"
 
 namespace defray::test::patterns_faults {
 namespace {
 
 const FaultRows faults{
+    {"patterns_agree", "another surface counts", {"(2u * tolerance)", "(200000u * tolerance)"}},
+    {"patterns_agree", "unknown pixels count", {"((a & b & (int)", "((a & (int)"}},
+    {"patterns_agree", "what is nearer is no surface's", {"+ tolerance;", "+ 0u;"}},
+    {"patterns_agree", "blue forgotten", {"+ blue * blue", ""}},
+    {"patterns_agree", "pixels of the last run twice", {"last + RUN_LANES >= (int16)(i)", "-1"}},
+    {"patterns_agree", "the last run forgotten", {"if (i < count)", "if (i < 0)"}},
+    {"patterns_agree", "narrow frames whole", {"RUN_LANES < (int16)(count)", "-1"}},
+    {"patterns_agree",
+     "narrow frames forgotten",
+     {"if (count < RUN) {", "if (count < RUN) { return;"}},
+    {"patterns_agree", "half of the lanes", {"convert_ulong8(v.lo) +", ""}},
+    {"patterns_agree", "every row", {"y += p.row_step)", "y += 1)"}},
+    {"patterns_agree",
+     "each part's first row is compared",
+     {"row <= first ? first : first + (row - first + step - 1) / step * step", "max(row, first)"}},
+    {"patterns_agree", "shifts up end below the frame", {"max(0, -shift.y) - p.above", "-p.above"}},
+    {"patterns_agree", "each band a frame", {"max(0, -shift.y) - p.above", "max(0, -shift.y)"}},
+    {"patterns_agree",
+     "shifts down end below the frame",
+     {"(int)p.height - max(0, shift.y)", "(int)p.height"}},
+    {"patterns_agree", "shifts left from the edge", {"x = max(0, -shift.x)", "x = 0"}},
+    {"patterns_agree", "one part's sums for all", {"sums[part * p.shift_count + i]", "sums[i]"}},
     {"patterns_difference", "another surface counts", {"a & b & close &", "a & b &"}},
     {"patterns_difference", "blue forgotten", {" + squared(a, b, 16)", ""}},
     {"patterns_difference",

@@ -14,7 +14,7 @@ class PatternPicture : public ::testing::Test {
 
 TEST_F(PatternPicture, ShiftsOfAPeriodicWallAreItsPeriods) {
   const PatternScene s = scene_of(bricks);
-  const auto shifts = find_pattern_shifts(s.frame(), s.words(), PatternSettings());
+  const auto shifts = find_pattern_shifts(device(), s.frame(), s.words(), PatternSettings());
   ASSERT_GE(shifts.size(), 8u);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_EQ(shifts[i].x % 24, 0) << shifts[i].x;
@@ -28,7 +28,7 @@ TEST_F(PatternPicture, ShiftsOfAPeriodicWallAreItsPeriods) {
 TEST_F(PatternPicture, ShiftsFromOneSurfaceToAnotherDoNotCount) {
   const auto halves = [](int x, int y, int c) { return noise(x % 100, y, c); };
   const auto finds_half = [](const PatternScene& s) {
-    const auto shifts = find_pattern_shifts(s.frame(), s.words(), PatternSettings());
+    const auto shifts = find_pattern_shifts(device(), s.frame(), s.words(), PatternSettings());
     return std::count_if(shifts.begin(), shifts.end(),
                          [](const PatternShift& s) { return s.x == 100 && s.y == 0; });
   };

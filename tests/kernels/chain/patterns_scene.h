@@ -69,7 +69,7 @@ struct PatternScene {
   }
   std::vector<Plane> improved(Backend& backend, const PatternSettings& settings = {}) const {
     Frame result = hidden();
-    const auto shifts = find_shifts(frame(), words(), settings);
+    const auto shifts = find_shifts(backend, frame(), words(), settings);
     improve_by_patterns(backend, frame(), words(), shifts, settings, result);
     std::vector<Plane> planes;
     for (const auto& channel : result.channels) planes.emplace_back(channel.begin(), channel.end());

@@ -105,7 +105,7 @@ TEST(PatternSearch, FindsTheShiftsThatPlainLoopsFind) {
     const SearchScene s = search_scene(80 + seed, 57 + 2 * seed, seed, seed % 3 == 0);
     const auto expected = expected_shifts(s);
     count += expected.size();
-    EXPECT_EQ(find_pattern_shifts(s.frame(), s.words(), s.settings), expected) << seed;
+    EXPECT_EQ(find_pattern_shifts(device(), s.frame(), s.words(), s.settings), expected) << seed;
   }
   EXPECT_GT(count, 40u);
 }
@@ -123,7 +123,8 @@ SearchScene noise_scene(int width, int height, int seed) {
 TEST(PatternSearch, OfShiftsThatAgreeAsWellThoseWithMorePartnersAreBetter) {
   for (int seed = 0; seed < 12; ++seed) {
     const SearchScene s = noise_scene(80 + seed, 57 + 2 * seed, seed);
-    EXPECT_EQ(find_pattern_shifts(s.frame(), s.words(), s.settings), expected_shifts(s)) << seed;
+    EXPECT_EQ(find_pattern_shifts(device(), s.frame(), s.words(), s.settings), expected_shifts(s))
+        << seed;
   }
 }
 
@@ -140,7 +141,7 @@ TEST(PatternSearch, ReachesAsFarAsItIsSaidTo) {
         s.grid.coc[s.grid.at(u, v)] = (u + v) % 2 ? 256 : 0;
       }
     }
-    const auto shifts = find_pattern_shifts(s.frame(), s.words(), {});
+    const auto shifts = find_pattern_shifts(device(), s.frame(), s.words(), {});
     const bool has = !shifts.empty() && shifts[0].x == x && shifts[0].y == y;
     EXPECT_EQ(has, is_found) << x << " " << y;
     EXPECT_LE(shifts.size(), 2 * 24u);
@@ -151,7 +152,7 @@ TEST(PatternSearch, LooksAtSomeRowsOfLargeFrames) {
   SearchScene s = noise_scene(1240, 1040, 1);
   s.settings.reach_x_px = 16;
   s.settings.reach_y_px = 12;
-  EXPECT_EQ(find_pattern_shifts(s.frame(), s.words(), s.settings), expected_shifts(s));
+  EXPECT_EQ(find_pattern_shifts(device(), s.frame(), s.words(), s.settings), expected_shifts(s));
 }
 
 }  // namespace
