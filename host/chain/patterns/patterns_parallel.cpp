@@ -97,11 +97,28 @@ class ParallelSearch {
     known_ /= step;
   }
 
+  /// Of lengths that grow.
   std::vector<Length> costs(const std::vector<float>& lengths) const {
-    std::vector<Length> all(lengths.size());
-    parallel_for(static_cast<int>(all.size()), [&](int i) {
-      all[size(i)] = {cost(lengths[size(i)]), lengths[size(i)]};
+    constexpr std::size_t stretch = 1024;  // of samples
+    const std::size_t stretches = (samples_.size() + stretch - 1) / stretch;
+    std::vector<std::vector<DefrayAgreement>> sums(stretches);
+    parallel_for(static_cast<int>(stretches), [&](int k) {
+      std::vector<DefrayAgreement>& own = sums[size(k)];
+      own.resize(lengths.size());
+      const std::size_t first = size(k) * stretch;
+      for (std::size_t i = first; i < std::min(first + stretch, samples_.size()); ++i) {
+        add_sample(samples_[i], lengths, own);
+      }
     });
+    std::vector<Length> all;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      DefrayAgreement sum{};
+      for (const auto& own : sums) {
+        sum.squares += own[i].squares;
+        sum.pairs += own[i].pairs;
+      }
+      all.push_back({cost(sum), lengths[i]});
+    }
     return all;
   }
 
@@ -115,30 +132,46 @@ class ParallelSearch {
                              [](const Length& a, const Length& b) { return a.cost < b.cost; });
   }
 
+  /// Adds the pairs that a sample is one of, for all lengths: those that it has a partner at lie
+  /// beside each other in the list, and many have the same.
+  void add_sample(const Sample& from, const std::vector<float>& lengths,
+                  std::vector<DefrayAgreement>& sums) const {
+    const int most = std::max(longest_.x, longest_.y);
+    const auto first = std::partition_point(lengths.begin(), lengths.end(), [&](float parallel) {
+      return parallel * from.inverse < DEFRAY_PATTERN_LEAST;
+    });
+    int before = 0;
+    DefrayAgreement pair{};
+    for (auto i = static_cast<std::size_t>(first - lengths.begin()); i < lengths.size(); ++i) {
+      const int length = parallel_length(lengths[i], from.inverse, most);
+      if (length == 0 || length > from.left) return;  // too long, and so are all others
+      if (length != before) pair = pair_at(from, length);
+      before = length;
+      sums[i].squares += pair.squares;
+      sums[i].pairs += pair.pairs;
+    }
+  }
+
+  DefrayAgreement pair_at(const Sample& from, int length) const {
+    const std::size_t step = longest_.y > 0 ? size(width_) : 1;
+    const std::size_t there = from.at + size(length) * step;
+    if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) return {};
+    if (std::abs(std::int64_t{from.coc} - coc_[there]) > settings_.tolerance_quanta) return {};
+    DefrayAgreement pair{0, 1};
+    for (const int bit : {0, 8, 16}) {
+      const int d = static_cast<int>(from.pixel >> bit & 255) -
+                    static_cast<int>(pixels_[there] >> bit & 255);
+      pair.squares += static_cast<std::uint64_t>(d * d);
+    }
+    return pair;
+  }
+
   /// Mean squared difference of a pair's three colours, in 1/256; what rounding to 8 bits hides
   /// (2/3) counts the more the fewer pairs there are.
-  std::uint64_t cost(float parallel) const {
-    std::uint64_t squares = 0, pairs = 0;
-    const int most = std::max(longest_.x, longest_.y);
-    const std::size_t step = longest_.y > 0 ? size(width_) : 1;
-    for (const Sample& from : samples_) {
-      const int length = parallel_length(parallel, from.inverse, most);
-      if (length == 0 || length > from.left) continue;
-      const std::size_t there = from.at + size(length) * step;
-      if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) continue;
-      if (std::abs(std::int64_t{from.coc} - coc_[there]) > settings_.tolerance_quanta) {
-        continue;
-      }
-      for (const int bit : {0, 8, 16}) {
-        const int d = static_cast<int>(from.pixel >> bit & 255) -
-                      static_cast<int>(pixels_[there] >> bit & 255);
-        squares += static_cast<std::uint64_t>(d * d);
-      }
-      ++pairs;
-    }
+  std::uint64_t cost(const DefrayAgreement& sum) const {
     constexpr std::uint64_t hidden = 2 * 256 / 3, least_share = 50;
-    if (pairs == 0 || pairs * least_share < known_) return no_length_cost;
-    return (squares << 8) / pairs + hidden * known_ / pairs;
+    if (sum.pairs == 0 || sum.pairs * least_share < known_) return no_length_cost;
+    return (sum.squares << 8) / sum.pairs + hidden * known_ / sum.pairs;
   }
 
   int width_, height_;
