@@ -159,8 +159,8 @@ class ParallelSearch {
     if (std::abs(std::int64_t{from.coc} - coc_[there]) > settings_.tolerance_quanta) return {};
     DefrayAgreement pair{0, 1};
     for (const int bit : {0, 8, 16}) {
-      const int d = static_cast<int>(from.pixel >> bit & 255) -
-                    static_cast<int>(pixels_[there] >> bit & 255);
+      const int d =
+          static_cast<int>(from.pixel >> bit & 255) - static_cast<int>(pixels_[there] >> bit & 255);
       pair.squares += static_cast<std::uint64_t>(d * d);
     }
     return pair;

@@ -40,8 +40,7 @@ std::vector<float> behind_post(const MethodResult& result, int column) {
 }
 
 /// Colours of what lies at least `edge_px` from its edge.
-void expect_straight(const std::function<bool(int x, int y)>& is_thing, int edge_px,
-                     float within) {
+void expect_straight(const std::function<bool(int x, int y)>& is_thing, int edge_px, float within) {
   for (const Hidden hidden : {Hidden::fill, Hidden::patterns}) {
     ChainSettings settings;
     settings.hidden = hidden;
