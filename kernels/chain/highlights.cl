@@ -33,12 +33,12 @@ float16 light_at(const uint channels, CHANNEL_PARAMETERS(channel), const Places 
 
 // Sixteen samples at a distance from a fragment.
 typedef struct {
-  float16 light;
+  Places from;
   int16 counts;  // in the frame, and seen
 } Ring;
 
 Ring ring_around(const DefrayHighlightParams p, __global const uint* restrict coverage,
-                 CHANNEL_PARAMETERS(channel), const int2 at, const float distance) {
+                 const int2 at, const float distance) {
   const float a = 0.923879533f, b = 0.707106781f, c = 0.382683432f;
   const float16 cosines = {1.0f, a, b, c, 0.0f, -c, -b, -a, -1.0f, -a, -b, -c, 0.0f, c, b, a};
   const float16 sines = {0.0f, c, b, a, 1.0f, a, b, c, 0.0f, -c, -b, -a, -1.0f, -a, -b, -c};
@@ -46,10 +46,10 @@ Ring ring_around(const DefrayHighlightParams p, __global const uint* restrict co
   const int16 y = at.y + nearest_px_of_run(distance * sines);
   const int16 column = clamp(x, (int16)(0), (int16)((int)p.width - 1));
   const int16 row = clamp(y, (int16)(0), (int16)((int)p.height - 1));
-  const Places from = places_at(p.width, column, row * (int)p.layers);
-  const int16 is_seen = ints_at((__global const int*)coverage, from) >= 0;  // the flag is bit 31
-  const Ring ring = {light_at(p.light_channels, CHANNELS(channel), from),
-                     (column == x) & (row == y) & is_seen};
+  Ring ring;
+  ring.from = places_at(p.width, column, row * (int)p.layers);
+  const int16 is_seen = ints_at((__global const int*)coverage, ring.from) >= 0;  // bit 31: not
+  ring.counts = (column == x) & (row == y) & is_seen;
   return ring;
 }
 
@@ -62,21 +62,19 @@ uint count_lanes(const int16 v) {
 }
 
 // Of a ring's samples, those that are not far darker.
-uint bright_of(const Ring ring, const float own) {
-  return count_lanes(ring.counts & ~(ring.light * DEFRAY_HIGHLIGHT < own));
+uint bright_of(const Ring ring, const float16 light, const float own) {
+  return count_lanes(ring.counts & ~(light * DEFRAY_HIGHLIGHT < own));
 }
 
-// Appends the samples that count.
-uint append(const Ring ring, const uint first, float* light) {
+// Writes what counts of a ring's light.
+void store_counting(const Ring ring, const float16 light, float* to) {
   float lights[RUN];
   int counts[RUN];
-  vstore16(ring.light, 0, lights);
+  vstore16(light, 0, lights);
   vstore16(ring.counts, 0, counts);
-  uint count = first;
   for (int i = 0; i < RUN; ++i) {
-    if (counts[i]) light[count++] = lights[i];
+    if (counts[i]) *to++ = lights[i];
   }
-  return count;
 }
 
 // The share of its light that a highlight before such surroundings keeps.
@@ -105,14 +103,19 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
 
   // Half way to the disc's rim and on it, two pixels further out.
   const float rim = fmax(fabs((float)coc) * (1.0f / 256.0f), 3.0f);
-  const Ring inner = ring_around(p, coverage, CHANNELS(channel), at, rim * 0.5f + 2.0f);
-  uint bright = bright_of(inner, own_light);
+  const Ring inner = ring_around(p, coverage, at, rim * 0.5f + 2.0f);
+  const float16 inner_light = light_at(p.light_channels, CHANNELS(channel), inner.from);
+  uint bright = bright_of(inner, inner_light, own_light);
   if (bright == 16u) return;  // of 32 at most: half are not dim, whatever comes
-  const Ring outer = ring_around(p, coverage, CHANNELS(channel), at, rim + 2.0f);
-  bright += bright_of(outer, own_light);
-  float light[2 * RUN];
-  const uint count = append(outer, append(inner, 0u, light), light);
+  const Ring outer = ring_around(p, coverage, at, rim + 2.0f);
+  const float16 outer_light = light_at(p.light_channels, CHANNELS(channel), outer.from);
+  bright += bright_of(outer, outer_light, own_light);
+  const uint inner_count = count_lanes(inner.counts);
+  const uint count = inner_count + count_lanes(outer.counts);
   if (count - bright <= count / 2u) return;
+  float light[2 * RUN];
+  store_counting(inner, inner_light, light);
+  store_counting(outer, outer_light, light + inner_count);
   for (uint i = 0; i < count; ++i) {
     if (rank_of(light, count, i) == count / 2u)
       kept[own] = kept_of(own_light, fmax(light[i], 0.0f));
