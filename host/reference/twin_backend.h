@@ -7,7 +7,8 @@
 // (tests/kernels):
 //   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal
 //                      and tiltshift
-//   from a definition  patterns (whole windows), gather_reach (each tile against each),
+//   from a definition  patterns (whole windows), patterns_agree (pair by pair), gather_reach (each
+//                      tile against each),
 //                      rdb_between (its rows in a list)
 //   the kernel's way   mixed, repair    mixed_test: steps and slopes drawn with known answers
 //                      fill             fill_test, stage_oracles_test: planes, slants and stripes
@@ -21,7 +22,7 @@
 // blended), rdb/sparse_tiles and lens/ (apertures, samples). There tests have oracles of their own:
 // picture_floor_test (ray-traced truths), lamp_test (energy and place), border_test, rim_test,
 // patterns_picture_test, *_search_test, chain_parts_test, layers_test,
-// sparse_test.
+// sparse_test. chain_stages_test holds the stages of whole pictures against their twins.
 #include <cstdint>
 #include <vector>
 

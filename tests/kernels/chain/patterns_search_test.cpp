@@ -110,6 +110,12 @@ TEST(PatternSearch, FindsTheShiftsThatPlainLoopsFind) {
   EXPECT_GT(count, 40u);
 }
 
+TEST(PatternSearch, FindsTheSameInBands) {
+  const SearchScene s = search_scene(90, 160, 3, false);
+  const InBands bands(session(), 90 * 8 * 60);
+  EXPECT_EQ(find_pattern_shifts(device(), s.frame(), s.words(), s.settings), expected_shifts(s));
+}
+
 /// Nothing but a little noise: every shift agrees almost as well.
 SearchScene noise_scene(int width, int height, int seed) {
   SearchScene s = search_scene(width, height, seed, false);
