@@ -14,7 +14,7 @@
 // kept         [height][layers][width]  share of its colour that the fragment keeps, else 1
 // Global size: (width, height x layers).
 #include "base/colour.clh"
-#include "base/run.clh"
+#include "base/frame.clh"
 #include "chain/rank.clh"
 
 // The largest of the light channels: alpha is no light.
@@ -23,58 +23,10 @@ float light_of(const float4 c, const uint channels) {
   return fmax(fmax(c.x, second), fmax(third, channels > 3u ? c.w : c.x));
 }
 
-float16 light_at(const uint channels, CHANNEL_PARAMETERS(channel), const Places from) {
-  float16 light = floats_at(channel0, from);
-  if (channels > 1u) light = fmax(light, floats_at(channel1, from));
-  if (channels > 2u) light = fmax(light, floats_at(channel2, from));
-  if (channels > 3u) light = fmax(light, floats_at(channel3, from));
-  return light;
-}
-
-// Sixteen samples at a distance from a fragment.
-typedef struct {
-  Places from;
-  int16 counts;  // in the frame, and seen
-} Ring;
-
-Ring ring_around(const DefrayHighlightParams p, __global const uint* restrict coverage,
-                 const int2 at, const float distance) {
-  const float a = 0.923879533f, b = 0.707106781f, c = 0.382683432f;
-  const float16 cosines = {1.0f, a, b, c, 0.0f, -c, -b, -a, -1.0f, -a, -b, -c, 0.0f, c, b, a};
-  const float16 sines = {0.0f, c, b, a, 1.0f, a, b, c, 0.0f, -c, -b, -a, -1.0f, -a, -b, -c};
-  const int16 x = at.x + nearest_px_of_run(distance * cosines);
-  const int16 y = at.y + nearest_px_of_run(distance * sines);
-  const int16 column = clamp(x, (int16)(0), (int16)((int)p.width - 1));
-  const int16 row = clamp(y, (int16)(0), (int16)((int)p.height - 1));
-  Ring ring;
-  ring.from = places_at(p.width, column, row * (int)p.layers);
-  const int16 is_seen = ints_at((__global const int*)coverage, ring.from) >= 0;  // bit 31: not
-  ring.counts = (column == x) & (row == y) & is_seen;
-  return ring;
-}
-
-// How many lanes are true.
-uint count_lanes(const int16 v) {
-  const int8 a = v.lo + v.hi;
-  const int4 b = a.lo + a.hi;
-  const int2 c = b.lo + b.hi;
-  return (uint) - (c.x + c.y);
-}
-
-// Of a ring's samples, those that are not far darker.
-uint bright_of(const Ring ring, const float16 light, const float own) {
-  return count_lanes(ring.counts & ~(light * DEFRAY_HIGHLIGHT < own));
-}
-
-// Writes what counts of a ring's light.
-void store_counting(const Ring ring, const float16 light, float* to) {
-  float lights[RUN];
-  int counts[RUN];
-  vstore16(light, 0, lights);
-  vstore16(ring.counts, 0, counts);
-  for (int i = 0; i < RUN; ++i) {
-    if (counts[i]) *to++ = lights[i];
-  }
+// Sample i of 32 around a fragment's disc: on its rim and half way, two pixels further out.
+int2 around(const int2 at, const float radius, const uint i) {
+  const float distance = fmax(radius, 3.0f) * (i < 16u ? 0.5f : 1.0f) + 2.0f;
+  return at + nearest_px(distance * sixteenth(i % 16u));
 }
 
 // The share of its light that a highlight before such surroundings keeps.
@@ -101,21 +53,19 @@ __kernel void highlights(const DefrayHighlightParams p, __global const int* rest
   const int2 tile = at / DEFRAY_HIGHLIGHT_TILE;
   if (!(darkest[(uint)tile.y * p.tiles_x + (uint)tile.x] * DEFRAY_HIGHLIGHT < own_light)) return;
 
-  // Half way to the disc's rim and on it, two pixels further out.
-  const float rim = fmax(fabs((float)coc) * (1.0f / 256.0f), 3.0f);
-  const Ring inner = ring_around(p, coverage, at, rim * 0.5f + 2.0f);
-  const float16 inner_light = light_at(p.light_channels, CHANNELS(channel), inner.from);
-  uint bright = bright_of(inner, inner_light, own_light);
-  if (bright == 16u) return;  // of 32 at most: half are not dim, whatever comes
-  const Ring outer = ring_around(p, coverage, at, rim + 2.0f);
-  const float16 outer_light = light_at(p.light_channels, CHANNELS(channel), outer.from);
-  bright += bright_of(outer, outer_light, own_light);
-  const uint inner_count = count_lanes(inner.counts);
-  const uint count = inner_count + count_lanes(outer.counts);
-  if (count - bright <= count / 2u) return;
-  float light[2 * RUN];
-  store_counting(inner, inner_light, light);
-  store_counting(outer, outer_light, light + inner_count);
+  float light[32];
+  uint count = 0u, dim = 0u;
+  for (uint i = 0; i < 32u; ++i) {
+    const int2 q = around(at, fabs((float)coc) * (1.0f / 256.0f), i);
+    if (!is_inside(p.width, p.height, q)) continue;
+    const size_t front = (size_t)q.y * p.layers * p.width + (uint)q.x;
+    if (coverage[front] >= DEFRAY_SYNTHESISED) continue;
+    light[count] = light_of(colour_at(CHANNELS(channel), front), p.light_channels);
+    dim += light[count] * DEFRAY_HIGHLIGHT < own_light ? 1u : 0u;
+    ++count;
+    if (count - dim == 16u) return;  // of 32 at most: half are not dim, whatever comes
+  }
+  if (dim <= count / 2u) return;
   for (uint i = 0; i < count; ++i) {
     if (rank_of(light, count, i) == count / 2u)
       kept[own] = kept_of(own_light, fmax(light[i], 0.0f));
