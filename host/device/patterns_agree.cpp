@@ -14,7 +14,7 @@ const LaunchRow patterns_agree_launch({.kernel = "patterns_agree",
                                        .group = {1, 1},
                                        .bytes_a_surface = 2 * Launch::plane});
 
-/// Rows that are compared by a work-item: enough of them for a GPU's units, few enough for lanes.
+/// Rows that a work-item compares: a part of a picture's, so that there is work for all of a GPU.
 constexpr int compared_rows = 16;
 
 int rows_of_part(int width, int row_step) {

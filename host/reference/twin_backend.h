@@ -7,9 +7,8 @@
 // (tests/kernels):
 //   from the papers    coc, rdb_* (each target asks every source), linear, gather_literal
 //                      and tiltshift
-//   from a definition  patterns (whole windows), patterns_agree (pair by pair), gather_reach (each
-//                      tile against each),
-//                      rdb_between (its rows in a list)
+//   from a definition  patterns (whole windows), patterns_agree (pair by pair), gather_reach
+//                      (each tile against each), rdb_between (its rows in a list)
 //   the kernel's way   mixed, repair    mixed_test: steps and slopes drawn with known answers
 //                      fill             fill_test, stage_oracles_test: planes, slants and stripes
 //                                       that must go on

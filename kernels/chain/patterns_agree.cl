@@ -25,7 +25,7 @@ INLINED uint16 squared_distance(const int16 a, const int16 b) {
 INLINED void add_lanes(LaneSums* sums, const uint tolerance, const int16 a, const int16 b,
                        const int16 coc, const int16 other_coc, const int16 fresh) {
   // Radii go up to 2^30: their difference fits 32 bits without a sign.
-  const uint16 apart_by = as_uint16(coc - other_coc) + tolerance;
+  const uint16 apart_by = as_uint16(coc) - as_uint16(other_coc) + tolerance;
   const int16 is_pair =
       fresh & (apart_by <= (uint16)(2u * tolerance)) & ((a & b & (int)DEFRAY_PATTERN_KNOWN) != 0);
   sums->squares += as_uint16(is_pair) & squared_distance(a, b);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "base/parallel.h"
+#include "chain/patterns/agreement.h"
 #include "chain/patterns/patterns.h"
 
 namespace defray {
@@ -18,7 +18,6 @@ constexpr double ratio = 1.02;                 ///< From one length to the next.
 constexpr int most_lengths = 512;     ///< 1.02^512: surfaces a thousand times as far as others.
 constexpr int refine_steps = 8;       ///< On each side of a minimum,
 constexpr double refine_by = 0.0025;  ///< of so much of its length.
-constexpr std::uint64_t no_length_cost = std::numeric_limits<std::uint64_t>::max();
 
 /// A pixel that may be compared with another along the axis of the search.
 struct Sample {
@@ -77,7 +76,7 @@ class ParallelSearch {
     std::uint64_t most = 0;  // of all shorter ones
     for (std::size_t i = 1; i + 1 < all.size(); ++i) {
       const std::uint64_t cost = all[i].cost;
-      if (cost == no_length_cost) continue;
+      if (cost == no_shift_cost) continue;
       const bool is_minimum = cost < all[i - 1].cost && cost <= all[i + 1].cost;
       if (is_minimum && cost < most / 2) best.push_back(refined(all[i]));
       most = std::max(most, cost);
@@ -117,7 +116,7 @@ class ParallelSearch {
         sum.squares += own[i].squares;
         sum.pairs += own[i].pairs;
       }
-      all.push_back({cost(sum), lengths[i]});
+      all.push_back({shift_cost(sum, known_, (known_ + 49) / 50), lengths[i]});  // one in 50
     }
     return all;
   }
@@ -157,21 +156,7 @@ class ParallelSearch {
     const std::size_t there = from.at + size(length) * step;
     if (!(pixels_[there] & DEFRAY_PATTERN_KNOWN)) return {};
     if (std::abs(std::int64_t{from.coc} - coc_[there]) > settings_.tolerance_quanta) return {};
-    DefrayAgreement pair{0, 1};
-    for (const int bit : {0, 8, 16}) {
-      const int d =
-          static_cast<int>(from.pixel >> bit & 255) - static_cast<int>(pixels_[there] >> bit & 255);
-      pair.squares += static_cast<std::uint64_t>(d * d);
-    }
-    return pair;
-  }
-
-  /// Mean squared difference of a pair's three colours, in 1/256; what rounding to 8 bits hides
-  /// (2/3) counts the more the fewer pairs there are.
-  std::uint64_t cost(const DefrayAgreement& sum) const {
-    constexpr std::uint64_t hidden = 2 * 256 / 3, least_share = 50;
-    if (sum.pairs == 0 || sum.pairs * least_share < known_) return no_length_cost;
-    return (sum.squares << 8) / sum.pairs + hidden * known_ / sum.pairs;
+    return {squared_difference(from.pixel, pixels_[there]), 1};
   }
 
   int width_, height_;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <tuple>
 
 #include "base/parallel.h"
+#include "chain/patterns/agreement.h"
 #include "chain/patterns/patterns.h"
 
 namespace defray {
@@ -17,7 +17,6 @@ constexpr int refine_px = 3;                  ///< Around a coarse minimum.
 constexpr int refine_rows = 8;                ///< One row of so many is compared, or of more:
 constexpr std::size_t most_blocks = 1 << 16;  ///< In all, of the coarse search,
 constexpr std::size_t most_pixels = 1 << 16;  ///< and of the refining one.
-constexpr std::uint64_t no_shift_cost = std::numeric_limits<std::uint64_t>::max();
 
 /// A picture that is compared with itself: its frame has coc_quanta.
 struct SearchedPicture {
@@ -57,16 +56,6 @@ SearchedPicture block_means(const Frame& frame, const Words& pixels) {
   return means;
 }
 
-/// The mean squared difference in 1/256, and what rounding to 8 bits hides of it (2/3) over the
-/// share of `all` pixels that have a partner: of shifts that agree as well as can be seen, the
-/// one that more pixels can use is the better. `no_shift_cost` with fewer pairs than `least`.
-std::uint64_t cost(const DefrayAgreement& sum, std::size_t all, std::size_t least) {
-  constexpr std::uint64_t hidden = 2 * 256 / 3;
-  return sum.pairs == 0 || sum.pairs < least
-             ? no_shift_cost
-             : (sum.squares << 8) / sum.pairs + hidden * all / sum.pairs;
-}
-
 /// One row of how many holds no more than `most` in all.
 int row_step(const Frame& frame, std::size_t most) {
   return std::max(1, static_cast<int>((frame.pixels() + most - 1) / most));
@@ -101,7 +90,7 @@ class CoarseMap {
     const std::vector<DefrayAgreement> sums =
         backend.patterns_agree(blocks.frame, blocks.pixels, shifts, step, s.tolerance_quanta);
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      costs_[i] = cost(sums[i], all, all / least_share);
+      costs_[i] = shift_cost(sums[i], all, all / least_share);
     }
   }
 
@@ -155,7 +144,7 @@ std::vector<Candidate> refined(Backend& backend, const Frame& frame, const Words
       backend.patterns_agree(frame, pixels, shifts, step, tolerance);
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    all.push_back({cost(sums[i], compared, 1), {shifts[i].x, shifts[i].y}});
+    all.push_back({shift_cost(sums[i], compared, 1), {shifts[i].x, shifts[i].y}});
   }
   std::vector<Candidate> best;
   for (auto first = all.begin(); first != all.end(); first += tries) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "chain/patterns/agreement.h"
 #include "chain/patterns/patterns_cells.h"
 
 namespace defray {
@@ -54,15 +55,6 @@ struct Cell {
 
 bool are_close(std::int32_t a, std::int32_t b, const PatternSettings& settings) {
   return std::abs(std::int64_t{a} - b) <= settings.tolerance_quanta;
-}
-
-std::uint32_t squared_difference(std::uint32_t a, std::uint32_t b) {
-  int sum = 0;
-  for (const int bit : {0, 8, 16}) {
-    const int d = static_cast<int>(a >> bit & 255) - static_cast<int>(b >> bit & 255);
-    sum += d * d;
-  }
-  return static_cast<std::uint32_t>(sum);
 }
 
 /// A known pixel's surface in its cell; null for a third one.

@@ -111,11 +111,11 @@ class WatchedStages : public DeviceBackend {
     for (std::size_t c = 0; c < made.means.size(); ++c) {
       expect_bits("rays", rows, made.means[c], twin.means[c]);
     }
-    ++rays_;
+    ++pictures;
     return made;
   }
 
-  int rays_ = 0;
+  int pictures = 0;  ///< Whose rays were compared.
 
  private:
   reference::TwinBackend twins_;
@@ -132,7 +132,7 @@ TEST_P(ChainStages, OfAPictureEqualTheirTwins) {
     whole.chain = ChainSettings{};
     WatchedStages stages(session());
     render(stages, s, whole);
-    EXPECT_GT(stages.rays_, 0);
+    EXPECT_GT(stages.pictures, 0);
   };
   expect_twins();
   const InBands copies(session(), default_memory_bytes);  // as with memory of their own
