@@ -46,10 +46,13 @@ foreach(readme ${readmes})
   if(readme STREQUAL ${PROJECT_SOURCE_DIR}/README.md)
     set(folder project)
   endif()
-  # That of perf, which takes minutes with --full, not at the end beside nothing.
+  # Those that take a minute, and that of perf, which takes minutes with --full, not at the end
+  # beside nothing.
   set(cost 20)
   if(folder STREQUAL perf)
     set(cost 105)
+  elseif(folder STREQUAL project OR folder STREQUAL cli)
+    set(cost 45)
   endif()
   add_check(readme_${folder} ${cost} both bash ${here}/readme_test.sh ${readme}
             $<TARGET_FILE:defray>)

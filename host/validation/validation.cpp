@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "device/device_backend.h"
-#include "reference/twin_backend.h"
+#include "validation/case_queue.h"
 #include "validation/oclgrind_log.h"
 #include "validation/worst_picture.h"
 
@@ -34,19 +35,20 @@ class CheckRun {
     result_.hash = 0xcbf29ce484222325u;
   }
 
-  void run(const Case& c) {
+  void run(const PreparedCase& prepared) {
+    const Case& c = prepared.values;
     const std::string text = to_string(c);
     session_.fill_buffers(0x00);
-    const Run done = run_case(session_, check_, c);
-    require_same_shape(done.kernel, done.twin);
+    const Outcome kernel = run_kernel(session_, check_, c, prepared.input);
+    require_same_shape(kernel, prepared.twin);
     const DeviceInfo& info = session_.info();
-    Verdict verdict = compare(check_, c, done.input, done.kernel, done.twin, info.keeps_denormals,
-                              info.rounds_divisions);
-    measure_rounding(c, done, verdict);
+    Verdict verdict = compare(check_, c, prepared.input, kernel, prepared.twin,
+                              info.keeps_denormals, info.rounds_divisions);
+    if (prepared.exact) measure_rounding(prepared, kernel, verdict);
     ++result_.cases;
-    const std::uint64_t hash = hash_of(done.kernel);
+    const std::uint64_t hash = hash_of(kernel);
     session_.fill_buffers(0xa5);  // other bits where a kernel reads what nobody wrote
-    if (hash_of(run_kernel(session_, check_, c, done.input)) != hash) ++result_.unstable;
+    if (hash_of(run_kernel(session_, check_, c, prepared.input)) != hash) ++result_.unstable;
     result_.hash = (result_.hash ^ hash) * 0x100000001b3u;
     if (verdict.wrong > 0 && result_.first_wrong.empty()) result_.first_wrong = text;
     if (result_.verdict.add(verdict)) result_.worst_case = text;
@@ -64,11 +66,9 @@ class CheckRun {
   }
 
  private:
-  void measure_rounding(const Case& c, const Run& done, Verdict& verdict) {
-    if (!check_.exact) return;
-    const Exact exact = check_.exact(c, done.input);
-    compare_exact(exact, done.input, done.kernel, verdict);
-    device_.exact.push_back({check_.name, exact.roundings, verdict.exact_share});
+  void measure_rounding(const PreparedCase& prepared, const Outcome& kernel, Verdict& verdict) {
+    compare_exact(*prepared.exact, prepared.input, kernel, verdict);
+    device_.exact.push_back({check_.name, prepared.exact->roundings, verdict.exact_share});
   }
 
   Session& session_;
@@ -117,9 +117,11 @@ KernelResult run_check(Session& session, const KernelCheck& check, const Setting
     c.group_y = c.group_x > 0 ? 1 : 0;
   }
   CheckRun run(session, check, device);
+  // One that fails soon is not worth the twins of the next.
+  CaseQueue queue(check, cases, settings.stops_at_first);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     try {
-      run.run(cases[i]);
+      run.run(queue.next());
       const std::string found = log.take();
       if (!found.empty()) fail(ErrorKind::device, "Oclgrind: {}", found);
     } catch (const Error& error) {
@@ -166,12 +168,9 @@ Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, co
 }
 
 Run run_case(Session& session, const KernelCheck& check, const Case& c) {
-  Run run;
-  run.input = make_input(c);
-  run.kernel = run_kernel(session, check, c, run.input);
-  reference::TwinBackend twins;
-  run.twin = check.run(twins, c, run.input);
-  return run;
+  PreparedCase prepared = prepare(check, c);
+  Outcome kernel = run_kernel(session, check, c, prepared.input);
+  return {std::move(prepared.input), std::move(kernel), std::move(prepared.twin)};
 }
 
 DeviceResult validate_device(const DeviceInfo& info, const Settings& settings,

@@ -134,7 +134,7 @@ TEST_F(ChainCommand, ReferenceGivesTheKernelsBits) {
 TEST_F(ChainCommand, SameBitsForEveryMemoryAndWorkGroup) {
   const std::uint64_t usual = rendered(bg);
   EXPECT_EQ(rendered(bg + "--memory 0.5"), usual);
-  EXPECT_EQ(rendered(bg + "--work-group 7x3"), usual);
+  if (takes_long_tests()) EXPECT_EQ(rendered(bg + "--work-group 7x3"), usual);
 }
 
 TEST_F(ChainCommand, WrongUseIsSaid) {

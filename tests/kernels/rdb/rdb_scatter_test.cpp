@@ -95,6 +95,7 @@ void expect_no_differing_winners(Session& s, bool jitter) {
       const bool is_largest = pixels > 25000;
       if (jitter && pixels > 10000 && radius > (is_largest ? 1.7 : 8)) continue;
       if (jitter && is_slow_device() && (is_largest || radius > 8)) continue;
+      if (!takes_long_tests() && pixels > 10000 && radius > 2) continue;
       RdbSettings settings;
       settings.cells_per_side = cells_per_side(size);
       settings.jitter = jitter;
