@@ -46,6 +46,20 @@ Colour best_behind(const Colour& c, const Colour& f, Colour best,
   return best;
 }
 
+/// What is in front: the nearest surface, unless the next one around, before the farthest, explains
+/// C better.
+Front best_front(const Splitter& splitter, Place at, const Colour& c, const Colour& behind) {
+  const std::set<int> radii = splitter.radii(at);
+  const int nearest = *radii.begin(), farthest = *radii.rbegin();
+  const Front front = splitter.front(at, nearest, farthest, behind);
+  const auto second = radii.upper_bound(nearest + DEFRAY_JUMP_QUANTA);
+  if (second == radii.end() || *second >= farthest - DEFRAY_JUMP_QUANTA) return front;
+  const Front other = splitter.front(at, *second, farthest, behind);
+  if (!front.surface || !other.surface) return front;
+  const auto misfit2 = [&](const Front& f) { return Fit(c, f.surface->colour, behind).misfit2; };
+  return misfit2(other) < misfit2(front) ? other : front;
+}
+
 /// C without the other surface's part, never below 0 where C is not.
 Colour rest_of(const Colour& c, const Colour& other, float others_share) {
   Colour rest;
@@ -134,16 +148,11 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     if (!mixed[pixel] || behind.inverse[pixel] < 0) return;
     const Colour c = colour_at(f.channels, pixel);
     Colour b = colour_at(behind.before, pixel);
-    const auto [nearest, farthest] = splitter.range(at);
-    const int middle = nearest + (farthest - nearest) / 2;
+    auto [found, nearest, middle, is_thin] = best_front(splitter, at, c, b);
     bool saw_front = frame.coc(at) < middle;
     std::size_t saw = pixel;  // whose surface
     std::optional<std::size_t> lamp;
-    auto found = splitter.pure(at, -DEFRAY_TAME_QUANTA, middle - 1);
-    if (!found) {
-      found = splitter.thin_front(at, middle, b);
-      if (saw_front) lamp = splitter.lamp_of(at, middle);
-    }
+    if (is_thin && saw_front) lamp = splitter.lamp_of(at, middle);
     const int own = frame.coc(at);
     auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     const bool is_third = std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 
 #include "reference/stage_frame.h"
 
@@ -33,6 +34,13 @@ struct Nearby {
   float variance;      ///< theirs, all channels together.
 };
 
+/// What is in front in a mixed pixel.
+struct Front {
+  std::optional<Nearby> surface;
+  int nearest, middle;  ///< Its CoC; from `middle` on surfaces lie behind it.
+  bool is_thin;         ///< No pixel of it is pure.
+};
+
 /// a . b, added in channel order.
 inline float inner_product(const Colour& a, const Colour& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -53,14 +61,18 @@ class Splitter {
   Splitter(const Frame& f, const Words& mixed)
       : frame_(f), channels_(f.channels), mixed_(mixed.host()) {}
 
-  /// CoC of the nearest and the farthest pixel around.
-  std::pair<int, int> range(Place at) const {
-    int nearest = frame_.coc(at), farthest = nearest;
-    for_each_around(at, 1, [&](Place q) {
-      nearest = std::min(nearest, frame_.coc(q));
-      farthest = std::max(farthest, frame_.coc(q));
-    });
-    return {nearest, farthest};
+  /// CoC of the pixels around, from the nearest on, each once.
+  std::set<int> radii(Place at) const {
+    std::set<int> all;
+    for_each_around(at, 1, [&](Place q) { all.insert(frame_.coc(q)); });
+    return all;
+  }
+
+  /// The surface with the CoC `nearest`, before that with the CoC `farthest`.
+  Front front(Place at, int nearest, int farthest, const Colour& behind) const {
+    const int least = nearest - DEFRAY_JUMP_QUANTA, middle = nearest + (farthest - nearest) / 2;
+    if (const auto found = pure(at, least, middle - 1)) return {found, nearest, middle, false};
+    return {thin_front(at, least, middle, behind), nearest, middle, true};
   }
 
   /// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
@@ -92,15 +104,16 @@ class Splitter {
     return found;
   }
 
-  /// Of what is too thin for pure pixels, the one least like the surface behind; none that a lamp
-  /// lights.
-  std::optional<Nearby> thin_front(Place at, int middle, const Colour& behind) const {
+  /// Of what is too thin for pure pixels, with a CoC from `least` to `middle`, the one least like
+  /// the surface behind; none that a lamp lights.
+  std::optional<Nearby> thin_front(Place at, int least, int middle, const Colour& behind) const {
     std::optional<Nearby> front;
     float farthest = -1;
     const float limit = brightest_front(at, middle);
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
-      if (frame_.coc(q) >= middle || lamp_of(place, middle, limit)) return;
+      if (frame_.coc(q) < least || frame_.coc(q) >= middle) return;
+      if (lamp_of(place, middle, limit)) return;
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(inner_product(d, d) > farthest)) return;
       farthest = inner_product(d, d);

@@ -110,6 +110,34 @@ float4 plausible(const Nearby seen, const float4 b, const float4 c, const float4
   return rest < low ? low : rest > high ? high : rest;
 }
 
+// What is in front of `behind` in a pixel of colour C: the nearest surface around, unless one
+// between that and the farthest explains C better: something thin before what a pixel beside it
+// shows. (At 640x400 garden grass +0.08 dB, lines +0.03; ratios of 1/4, 1/2 and 1 are as good, and
+// so are surfaces beyond the second.)
+Front best_front(const DefraySplitParams p, __global const int* restrict coc_quanta,
+                 __global const uint* restrict mixed, CHANNEL_PARAMETERS(channel), const int2 at,
+                 const float4 c, const float4 behind) {
+  int nearest = INT_MAX, farthest = INT_MIN, second = INT_MAX;
+  for (int i = 0; i < 9; ++i) {
+    const int coc = coc_around(p, coc_quanta, at, i);
+    nearest = min(nearest, coc);
+    farthest = max(farthest, coc);
+  }
+  for (int i = 0; i < 9; ++i) {
+    const int coc = coc_around(p, coc_quanta, at, i);
+    if (coc > nearest + DEFRAY_JUMP_QUANTA) second = min(second, coc);
+  }
+  const Front front =
+      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, nearest, farthest, behind);
+  if (second >= farthest - DEFRAY_JUMP_QUANTA || !front.surface.is_found) return front;
+  const Front other =
+      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, second, farthest, behind);
+  const bool is_better =
+      other.surface.is_found && fit_of(c, other.surface.colour, behind).misfit2 <
+                                    fit_of(c, front.surface.colour, behind).misfit2;
+  return is_better ? other : front;
+}
+
 // A mixed pixel: both surfaces with their shares of it, where it can be taken apart.
 void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
           __global const float* restrict inverse, __global const uint* restrict mixed,
@@ -117,23 +145,12 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const uint pixel = pixel_at(p.width, p.height, at);
   const float4 c = front->colour;
   const int own = coc_of(coc_quanta, pixel);
-  int nearest = own, farthest = own;
-  for (int i = 0; i < 9; ++i) {
-    const int coc =
-        coc_of(coc_quanta, pixel_at(p.width, p.height, at + (int2)(i % 3 - 1, i / 3 - 1)));
-    nearest = min(nearest, coc);
-    farthest = max(farthest, coc);
-  }
-  const int middle = nearest + (farthest - nearest) / 2;
-  bool saw_front = own < middle, is_lit = false;
   float4 b = behind->colour;
-  Nearby f =
-      pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, -DEFRAY_TAME_QUANTA, middle - 1);
-  if (!f.is_found) {
-    const float brightest = brightest_front(p, coc_quanta, CHANNELS(channel), at, middle);
-    f = thin_front(p, coc_quanta, CHANNELS(channel), at, middle, b, brightest);
-    const bool is_bright = saw_front && brightness_of(c) > brightest;
-    const uint lamp = is_bright ? lamp_beside(p, coc_quanta, CHANNELS(channel), at, middle) : pixel;
+  const Front best = best_front(p, coc_quanta, mixed, CHANNELS(channel), at, c, b);
+  Nearby f = best.surface;
+  bool saw_front = own < best.middle, is_lit = false;
+  if (best.is_thin && saw_front && brightness_of(c) > best.brightest) {
+    const uint lamp = lamp_beside(p, coc_quanta, CHANNELS(channel), at, best.middle);
     is_lit = lamp != pixel;
     if (is_lit) {  // as if the depth sample had seen the lamp
       saw_front = false;
@@ -159,7 +176,7 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, variance, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
-    if (abs(nearest) < DEFRAY_SMALL_QUANTA) return;
+    if (abs(best.nearest) < DEFRAY_SMALL_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     front->coverage = stored(fmax(share, LEAST_OF_FRONT));
     front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);

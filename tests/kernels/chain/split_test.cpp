@@ -149,6 +149,45 @@ TEST(Split, ABladeBeforeALampHasNoneOfItsLight) {
   EXPECT_GT(bright.parted().front.channels[0][bright.at(20, 9)], 50);
 }
 
+/// A bar from column 30 on, and a blade of half a pixel's width, `gap` px beside it and farther
+/// than it: depth sees the blade in every second row.
+Canvas blade_beside_a_bar(int gap) {
+  Canvas f(50, 20);
+  f.add_bar(30, 50, bar_coc);
+  f.each([&](int x, int y) {
+    if (x == 29 - gap) f.paint(x, y, 0.5f, 0.9f, 0.45f);
+    if (x < 29 - gap || (x > 29 - gap && x < 30)) f.paint(x, y, 0.8f, 0.8f, 0.7f);
+    if (x == 29 - gap && y % 2 == 1) f.coc[f.at(x, y)] = 512, f.inverse[f.at(x, y)] = 0.3f;
+  });
+  return f;
+}
+
+TEST(Split, AThinThingBesideAnotherEdgeIsTakenForItself) {
+  // The bar reaches only into the pixels beside it; and what has the blade's colour is not the bar.
+  for (const int gap : {0, 1, 2}) {
+    const Canvas f = blade_beside_a_bar(gap);
+    const auto [front, behind] = f.parted();
+    for (int y = 3; y < f.height - 3; ++y) {
+      EXPECT_EQ(front.coc_quanta[f.at(29 - gap, y)], 512) << gap << " " << y;
+      EXPECT_GT(front.channels[1][f.at(29 - gap, y)], 0.8f) << gap << " " << y;
+    }
+  }
+}
+
+TEST(Split, WhatHasTheNearestColourIsNotTheThinThingBesideIt) {
+  Canvas f = blade_beside_a_bar(1);
+  const float bar = 0.1f, plane = 0.8f, half = (bar + plane) / 2;
+  for (int y = 0; y < f.height; ++y) {
+    for (int x = 30; x < f.width; ++x) f.paint(x, y, bar, bar, bar);
+    f.paint(29, y, half, half, half);
+  }
+  const auto [front, behind] = f.parted();
+  for (int y = 3; y < f.height - 3; ++y) {
+    EXPECT_EQ(front.coc_quanta[f.at(29, y)], bar_coc) << y;
+    EXPECT_NEAR(front.coverage[f.at(29, y)] / 65536.0, 0.5, 0.1) << y;
+  }
+}
+
 TEST(Split, WhatIsNotFiniteStaysWhole) {
   for (const float odd : {infinite, -infinite, nan}) {
     Canvas f = bar_with_mixed_edges(0.5f, true);
@@ -171,7 +210,7 @@ const FaultRows faults{
     {"split", "the darkest of all", {"LAMP * darkest", "0.0f"}},
     {"split", "lamps are in front", {"brightest > front ? LAMP", "brightest < front ? LAMP"}},
     {"split", "any farther pixel is a lamp", {"0.5f * brightness_of", "0.0f * brightness_of"}},
-    {"split", "lit pixels are in front", {"is_bright = saw_front && b", "is_bright = false && b"}},
+    {"split", "lit pixels are in front", {"best.is_thin && saw_front && b", "false && b"}},
     {"split",
      "lit colours are in front",
      {"if (is_bright && lamp_beside(", "if (false && lamp_beside("}},
@@ -181,6 +220,23 @@ const FaultRows faults{
     {"split",
      "behind it what was made up",
      {"      b = colour_at(CHANNELS(channel), lamp);\n", ""}},
+    {"split", "the nearest anywhere", {"least = nearest - DEFRAY_JUMP_QUANTA", "least = INT_MIN"}},
+    {"split", "thin things nearer than those around", {"coc_of(coc_quanta, q) < least ||", ""}},
+    {"split", "the nearest alone", {"return is_better ? other : front;", "return front;"}},
+    {"split", "the second always", {"return is_better ? other : front;", "return other;"}},
+    {"split",
+     "the farthest is in front of itself",
+     {"second >= farthest - DEFRAY_JUMP_QUANTA ||", ""}},
+    {"split",
+     "any CoC is a second one",
+     {"coc > nearest + DEFRAY_JUMP_QUANTA) second", "coc > nearest) second"}},
+    {"split",
+     "any second one",
+     {"if (coc > nearest + DEFRAY_JUMP_QUANTA) second = min(second, coc)",
+      "if (coc > nearest + DEFRAY_JUMP_QUANTA) second = coc"}},
+    {"split",
+     "thin things' middle of others",
+     {"front.middle = nearest + (farthest - nearest) / 2", "front.middle = farthest"}},
     {"split", "what is in front behind too", {"set_layer(behind, is", "set_layer(front, is"}},
     {"split",
      "made-up colours where those nearby explain the pixel",
@@ -198,7 +254,7 @@ const FaultRows faults{
      "margin without its last column",
      {"x + p.margin >= p.width", "x + p.margin > p.width"}},
     {"split", "margin of a band, not of the frame", {"y = p.first_row + at.y", "y = at.y"}},
-    {"split", "middle counts as front", {"own < middle", "own <= middle"}},
+    {"split", "middle counts as front", {"own < best.middle", "own <= best.middle"}},
     {"split",
      "whole pixels as seen behind",
      {"DEFRAY_WHOLE | DEFRAY_SYNTHESISED,", "DEFRAY_WHOLE,"}},
