@@ -70,9 +70,11 @@ class Splitter {
 
   /// The surface with the CoC `nearest`, before that with the CoC `farthest`.
   Front front(Place at, int nearest, int farthest, const Colour& behind) const {
-    const int least = nearest - DEFRAY_JUMP_QUANTA, middle = nearest + (farthest - nearest) / 2;
-    if (const auto found = pure(at, least, middle - 1)) return {found, nearest, middle, false};
-    return {thin_front(at, least, middle, behind), nearest, middle, true};
+    const int middle = nearest + (farthest - nearest) / 2;
+    const int least = nearest - DEFRAY_JUMP_QUANTA;
+    const int most = std::min(middle - 1, nearest + DEFRAY_JUMP_QUANTA);
+    if (const auto found = pure(at, least, most)) return {found, nearest, middle, false};
+    return {thin_front(at, least, most, middle, behind), nearest, middle, true};
   }
 
   /// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
@@ -104,15 +106,16 @@ class Splitter {
     return found;
   }
 
-  /// Of what is too thin for pure pixels, with a CoC from `least` to `middle`, the one least like
-  /// the surface behind; none that a lamp lights.
-  std::optional<Nearby> thin_front(Place at, int least, int middle, const Colour& behind) const {
+  /// Of what is too thin for pure pixels, with a CoC from `least` to `most`, the one least like
+  /// the surface behind; none that a lamp, from `middle` on, lights.
+  std::optional<Nearby> thin_front(Place at, int least, int most, int middle,
+                                   const Colour& behind) const {
     std::optional<Nearby> front;
     float farthest = -1;
     const float limit = brightest_front(at, middle);
     for_each_around(at, 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
-      if (frame_.coc(q) < least || frame_.coc(q) >= middle) return;
+      if (frame_.coc(q) < least || frame_.coc(q) > most) return;
       if (lamp_of(place, middle, limit)) return;
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
       if (!(inner_product(d, d) > farthest)) return;
