@@ -73,6 +73,9 @@
 #define DEFRAY_FILL_DIRECTIONS 16
 /// So far `split` takes surfaces from: squares of 7 px.
 #define DEFRAY_SPLIT_PX 3
+/// So far along a thin thing it looks for more of its colour (5, 8 and 12 px at 640x400: garden
+/// grass 35.84, 35.87, 35.86 dB).
+#define DEFRAY_SPLIT_THIN_PX 8
 /// So far `feather` takes colours from, weighed by DEFRAY_FEATHER_WEIGHT less the squared distance.
 /// Of 1, 2 and 3 px (640x400) `cutout` far loses 0.10, 0.18 and 0.42 dB; plate1 gains up to 0.06.
 #define DEFRAY_FEATHER_PX 2

@@ -6,11 +6,11 @@
 namespace defray {
 namespace {
 
-// A square of 7 px around, and what is beside its pixels. Two layers are written, the frame and
+// A square around, and what is beside its pixels. Two layers are written, the frame and
 // what lies behind read.
 const LaunchRow split_launch({.kernel = "split",
                               .group = {64, 1},
-                              .reach_px = DEFRAY_SPLIT_PX + 1,
+                              .reach_px = DEFRAY_SPLIT_THIN_PX + 1,
                               .bytes_a_surface = 3 * Launch::plane + Launch::colour +
                                                  (5 * Launch::plane + 2 * Launch::colour) / 2});
 

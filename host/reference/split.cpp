@@ -174,7 +174,7 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     float share = saw_front ? 1 : 0;
     if (found) share = coverage_of(c, found->colour, b, variance, saw_front);
     if (saw_front) {
-      if (std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
+      if (!is_thin && std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
       if (share > 1 - 0.03f) return;
       front.coverage[pixel] = stored(std::max(share, 0.25f));
       set_colour(front.channels, pixel, rest_of(c, b, 1 - share_of(front.coverage[pixel])));

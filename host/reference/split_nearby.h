@@ -74,7 +74,7 @@ class Splitter {
     const int least = nearest - DEFRAY_JUMP_QUANTA;
     const int most = std::min(middle - 1, nearest + DEFRAY_JUMP_QUANTA);
     if (const auto found = pure(at, least, most)) return {found, nearest, middle, false};
-    return {thin_front(at, least, most, middle, behind), nearest, middle, true};
+    return {thin_front(at, {least, most}, middle, behind), nearest, middle, true};
   }
 
   /// Pure pixels with a CoC from `low` to `high`, weighed by 1 / distance^4; the nearest lends its
@@ -106,20 +106,27 @@ class Splitter {
     return found;
   }
 
-  /// Of what is too thin for pure pixels, with a CoC from `least` to `most`, the one least like
-  /// the surface behind; none that a lamp, from `middle` on, lights.
-  std::optional<Nearby> thin_front(Place at, int least, int most, int middle,
+  /// Of what is too thin for pure pixels, with such a CoC, the one least like the surface behind;
+  /// none that a lamp, from `middle` on, lights. Where `at` saw it, not lit: one that goes on
+  /// as `at` does.
+  std::optional<Nearby> thin_front(Place at, std::pair<int, int> range, int middle,
                                    const Colour& behind) const {
     std::optional<Nearby> front;
     float farthest = -1;
     const float limit = brightest_front(at, middle);
-    for_each_around(at, 3, [&](Place place) {
+    const std::size_t pixel = frame_.index(at);
+    const bool is_part = frame_.coc(at) < middle && !(bright(pixel) > limit);
+    const Colour own = minus(colour_at(channels_, pixel), behind);
+    for_each_around(at, is_part ? DEFRAY_SPLIT_THIN_PX : 3, [&](Place place) {
       const std::size_t q = frame_.index(place);
-      if (frame_.coc(q) < least || frame_.coc(q) > most) return;
+      if (frame_.coc(q) < range.first || frame_.coc(q) > range.second) return;
       if (lamp_of(place, middle, limit)) return;
       const Colour colour = colour_at(channels_, q), d = minus(colour, behind);
-      if (!(inner_product(d, d) > farthest)) return;
-      farthest = inner_product(d, d);
+      const float far = inner_product(d, d), along = inner_product(d, own);
+      if (!(far > farthest)) return;
+      const bool goes_on = along > 0 && along * along > 0.98f * far * inner_product(own, own);
+      if (is_part && !goes_on) return;
+      farthest = far;
       front = {colour, q, {}, 0};
     });
     return front;

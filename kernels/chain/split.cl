@@ -6,9 +6,10 @@
 // the pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha
 // counts like a colour). What the two colours do not explain goes to the surface that the depth
 // sample saw, so that both together still give C; but what lies behind gets no colour beyond C, B
-// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are. Where
-// something thin crosses a lamp its own colours are those that the lamp does not light, and a pixel
-// whose depth is its has the lamp behind it.
+// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are, but
+// for thin things: before a lamp they would be dark dots. Where something thin crosses a lamp its
+// own colours are those that the lamp does not light, and a pixel whose depth is its has the lamp
+// behind it.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -52,13 +53,12 @@ typedef struct {
 
 Fit fit_of(const float4 c, const float4 f, const float4 b) {
   const float4 from_b = c - b, all = f - b;
-  const float4 products = from_b * all, squares = all * all;
   Fit fit;
-  fit.along = products.x + products.y + products.z + products.w;
-  fit.length2 = squares.x + squares.y + squares.z + squares.w;
+  fit.along = product_of(from_b, all);
+  fit.length2 = product_of(all, all);
   fit.share = fit.length2 > 0.0f ? clamp(fit.along / fit.length2, 0.0f, 1.0f) : 0.0f;
-  const float4 left = from_b - fit.share * all, misfits = left * left;
-  fit.misfit2 = misfits.x + misfits.y + misfits.z + misfits.w;
+  const float4 left = from_b - fit.share * all;
+  fit.misfit2 = product_of(left, left);
   return fit;
 }
 
@@ -128,10 +128,10 @@ Front best_front(const DefraySplitParams p, __global const int* restrict coc_qua
     if (coc > nearest + DEFRAY_JUMP_QUANTA) second = min(second, coc);
   }
   const Front front =
-      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, nearest, farthest, behind);
+      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, nearest, farthest, c, behind);
   if (second >= farthest - DEFRAY_JUMP_QUANTA || !front.surface.is_found) return front;
   const Front other =
-      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, second, farthest, behind);
+      front_of(p, coc_quanta, mixed, CHANNELS(channel), at, second, farthest, c, behind);
   const bool is_better =
       other.surface.is_found && fit_of(c, other.surface.colour, behind).misfit2 <
                                     fit_of(c, front.surface.colour, behind).misfit2;
@@ -176,7 +176,7 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, variance, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
-    if (abs(best.nearest) < DEFRAY_SMALL_QUANTA) return;
+    if (!best.is_thin && abs(best.nearest) < DEFRAY_SMALL_QUANTA) return;
     if (share > 1.0f - LEAST_COVERAGE) return;
     front->coverage = stored(fmax(share, LEAST_OF_FRONT));
     front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);

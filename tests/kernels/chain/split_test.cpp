@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 
-#include "faults/fault.h"
 #include "numbers.h"
 #include "stages_support.h"
 
@@ -188,6 +187,35 @@ TEST(Split, WhatHasTheNearestColourIsNotTheThinThingBesideIt) {
   }
 }
 
+TEST(Split, AThinThingInFocusCoversWhatItsColourSaysAlongIt) {
+  // A blade that grows wider from a sixteenth to the whole of a pixel, in focus; as depth saw it
+  // everywhere, no pixel of it is pure.
+  Canvas f(40, 17);
+  const float blade = 1.5f, plane = 0.1f;
+  const auto share = [&](int y) { return static_cast<float>(y + 1) / 16; };
+  for (int y = 0; y < 16; ++y) {
+    const float c = share(y) * blade + (1 - share(y)) * plane;
+    f.each([&](int x, int row) {
+      if (row == y) f.paint(x, y, plane, plane, plane);
+    });
+    f.paint(20, y, c, c, c);
+    f.coc[f.at(20, y)] = 0, f.inverse[f.at(20, y)] = 0.4f;
+  }
+  f.each([&](int x, int y) {
+    if (y == 16) f.paint(x, y, plane, plane, plane);
+  });
+  const auto [front, behind] = f.parted();
+  for (int y = 8; y < 14; ++y) {  // whose full width is 8 px away at most
+    const std::size_t i = f.at(20, y);
+    EXPECT_EQ(front.coc_quanta[i], 0);
+    EXPECT_NEAR(front.coverage[i] / 65536.0, share(y), 0.05) << y;
+    EXPECT_NEAR(front.channels[0][i], blade, 0.05) << y;
+  }
+  EXPECT_EQ(front.coverage[f.at(20, 15)], DEFRAY_WHOLE);
+  // Nothing that is wider is near: as much as the widest within 8 px shows.
+  EXPECT_NEAR(front.coverage[f.at(20, 5)] / 65536.0, share(5) / share(13), 0.05);
+}
+
 TEST(Split, WhatIsNotFiniteStaysWhole) {
   for (const float odd : {infinite, -infinite, nan}) {
     Canvas f = bar_with_mixed_edges(0.5f, true);
@@ -204,126 +232,6 @@ TEST(Split, WhatIsNotFiniteStaysWhole) {
     }
   }
 }
-
-const FaultRows faults{
-    {"split", "no lamp is bright enough", {"LAMP * darkest", "INFINITY"}},
-    {"split", "the darkest of all", {"LAMP * darkest", "0.0f"}},
-    {"split", "lamps are in front", {"brightest > front ? LAMP", "brightest < front ? LAMP"}},
-    {"split", "any farther pixel is a lamp", {"0.5f * brightness_of", "0.0f * brightness_of"}},
-    {"split", "lit pixels are in front", {"best.is_thin && saw_front && b", "false && b"}},
-    {"split",
-     "lit colours are in front",
-     {"if (is_bright && lamp_beside(", "if (false && lamp_beside("}},
-    {"split", "a lit pixel keeps its depth", {"front->inverse = inverse[lamp];", ""}},
-    {"split", "a lit pixel keeps its radius", {"front->coc = coc_quanta[lamp];", ""}},
-    {"split", "a blade's depth beside it", {"      f.source = pixel;\n", ""}},
-    {"split",
-     "behind it what was made up",
-     {"      b = colour_at(CHANNELS(channel), lamp);\n", ""}},
-    {"split", "the nearest anywhere", {"least = nearest - DEFRAY_JUMP_QUANTA", "least = INT_MIN"}},
-    {"split", "thin things nearer than those around", {"coc_of(coc_quanta, q) < least ||", ""}},
-    {"split",
-     "farther surfaces' pixels in front",
-     {"min(front.middle - 1, nearest + DEFRAY_JUMP_QUANTA)", "front.middle - 1"}},
-    {"split",
-     "surfaces behind in front",
-     {"min(front.middle - 1, nearest + DEFRAY_JUMP_QUANTA)", "nearest + DEFRAY_JUMP_QUANTA"}},
-    {"split", "the nearest alone", {"return is_better ? other : front;", "return front;"}},
-    {"split", "the second always", {"return is_better ? other : front;", "return other;"}},
-    {"split",
-     "the farthest is in front of itself",
-     {"second >= farthest - DEFRAY_JUMP_QUANTA ||", ""}},
-    {"split",
-     "any CoC is a second one",
-     {"coc > nearest + DEFRAY_JUMP_QUANTA) second", "coc > nearest) second"}},
-    {"split",
-     "any second one",
-     {"if (coc > nearest + DEFRAY_JUMP_QUANTA) second = min(second, coc)",
-      "if (coc > nearest + DEFRAY_JUMP_QUANTA) second = coc"}},
-    {"split",
-     "thin things' middle of others",
-     {"front.middle = nearest + (farthest - nearest) / 2", "front.middle = farthest"}},
-    {"split", "what is in front behind too", {"set_layer(behind, is", "set_layer(front, is"}},
-    {"split",
-     "made-up colours where those nearby explain the pixel",
-     {"} else if (seen.is_found && f.is_found) {", "} else if (false) {"}},
-    {"split",
-     "the mean of those nearby forgotten",
-     {"misfit2) best = mean;", "misfit2) best = made_up;"}},
-    {"split",
-     "background at a depth",
-     {"s.inverse == 0.0f ? INFINITY", "s.inverse == 0.0f ? 1e9f"}},
-    {"split", "depth where there is nothing", {"is_nothing ? as_float(DEFRAY_EMPTY) : z", "z"}},
-    {"split", "coverage where there is nothing", {"is_nothing ? 0u : s.coverage", "s.coverage"}},
-    {"split", "the margin was seen", {"is_in_margin ? DEFRAY_SYNTHESISED : 0u", "0u"}},
-    {"split",
-     "margin without its last column",
-     {"x + p.margin >= p.width", "x + p.margin > p.width"}},
-    {"split", "margin of a band, not of the frame", {"y = p.first_row + at.y", "y = at.y"}},
-    {"split", "middle counts as front", {"own < best.middle", "own <= best.middle"}},
-    {"split",
-     "whole pixels as seen behind",
-     {"DEFRAY_WHOLE | DEFRAY_SYNTHESISED,", "DEFRAY_WHOLE,"}},
-    {"split",
-     "far surface taken for the front",
-     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc < low"}},
-    {"split",
-     "mixed pixels taken for pure",
-     {"mixed[q] || coc < low || coc > high", "(d.x == 0 && d.y == 0) || coc < low || coc > high"}},
-    {"split",
-     "nearer surface taken for the one that was seen",
-     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc > high"}},
-    {"split",
-     "three surfaces taken for two",
-     {"abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA", "false"}},
-    {"split",
-     "own pixel taken for the surface that was seen",
-     {"own + DEFRAY_JUMP_QUANTA", "own - 1"}},
-    {"split",
-     "last row of the neighbourhood",
-     {"for (int i = 0; i < 49; ++i) {\n    const int2 d",
-      "for (int i = 0; i < 42; ++i) {\n    const int2 d"}},
-    {"split",
-     "ties to the last in front",
-     {"if (weight > nearest) found.source", "if (weight >= nearest) found.source"}},
-    {"split",
-     "thin things: the first for the least like",
-     {"if (!(far > farthest_colour)) continue;", "if (front.is_found) continue;"}},
-    {"split",
-     "alpha forgotten",
-     {"products.x + products.y + products.z + products.w", "products.x + products.y + products.z"}},
-    {"split",
-     "coverage beyond one",
-     {"clamp(fit.along / fit.length2, 0.0f, 1.0f)", "fit.along / fit.length2"}},
-    {"split",
-     "depth sample's side forgotten",
-     {"likely = saw_front ? LIKELY_COVERAGE : 1.0f - LIKELY_COVERAGE;",
-      "likely = LIKELY_COVERAGE;"}},
-    {"split", "any variance", {"fmin(LEAST_NOISE", "fmax(LEAST_NOISE"}},
-    {"split", "variance behind forgotten", {"f.variance + seen.variance", "f.variance"}},
-    {"split",
-     "variance of the last colour",
-     {"squares += weight * (colour * colour);", "squares = weights * (colour * colour);"}},
-    {"split", "colours below 0", {"return rest < least ? least : rest;", "return rest;"}},
-    {"split",
-     "Inf and NaN taken apart",
-     {"if (!isfinite(fit.along) || !isfinite(all2)) return saw_front ? 1.0f : 0.0f;", ""}},
-    {"split",
-     "seen fragment behind marked as made up",
-     {"front->inverse, DEFRAY_WHOLE,", "front->inverse, behind->coverage,"}},
-    {"split", "front keeps the far CoC", {"{coc_quanta[f.source], inverse", "{own, inverse"}},
-    {"split",
-     "any colour is plausible",
-     {"return rest < low ? low : rest > high ? high : rest;", "return rest;"}},
-    {"split",
-     "pixels nearby say nothing of plausible colours",
-     {"lower_of(seen.low, lower_of(b, c))", "lower_of(b, c)"}},
-    {"split", "as high as the lowest", {"higher_of(colour, found.high)", "found.high"}},
-    {"split", "stale fragment behind a pure pixel", {"behind->inverse = -1.0f;", ""}},
-    {"split",
-     "coverage rounded down",
-     {"convert_uint_rte(share * 65536.0f)", "convert_uint_rtz(share * 65536.0f)"}},
-};
 
 }  // namespace
 }  // namespace defray::test::split_test
