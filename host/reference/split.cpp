@@ -56,8 +56,10 @@ Front best_front(const Splitter& splitter, Place at, const Colour& c, const Colo
   if (second == radii.end() || *second >= farthest - DEFRAY_JUMP_QUANTA) return front;
   const Front other = splitter.front(at, *second, farthest, behind);
   if (!front.surface || !other.surface) return front;
-  const auto misfit2 = [&](const Front& f) { return Fit(c, f.surface->colour, behind).misfit2; };
-  return misfit2(other) < misfit2(front) ? other : front;
+  const Colour &f1 = front.surface->colour, &f2 = other.surface->colour, d = minus(f2, behind);
+  // Not where it is a mixture of the nearest and B, as anti-aliased depth makes it.
+  if (!(Fit(f2, f1, behind).misfit2 > (1 - 0.98f) * inner_product(d, d))) return front;
+  return Fit(c, f2, behind).misfit2 < Fit(c, f1, behind).misfit2 ? other : front;
 }
 
 /// C without the other surface's part, never below 0 where C is not.

@@ -44,6 +44,7 @@ const FaultRows faults{
     {"split",
      "thin things are short",
      {"? DEFRAY_SPLIT_THIN_PX : ", "? DEFRAY_SPLIT_THIN_PX - 1 : "}},
+    {"split", "mixtures are surfaces", {"!is_mixture(f2, f1, behind) &&", ""}},
     {"split", "the nearest alone", {"return is_better ? other : front;", "return front;"}},
     {"split", "the second always", {"return is_better ? other : front;", "return other;"}},
     {"split",

@@ -187,6 +187,25 @@ TEST(Split, WhatHasTheNearestColourIsNotTheThinThingBesideIt) {
   }
 }
 
+TEST(Split, AntialiasedDepthBetweenTwoSurfacesIsNoThird) {
+  // A ramp of two pixels between a bar and the plane, in depth as in colour, or nearly so.
+  Canvas f(50, 20);
+  f.add_bar(30, 50, bar_coc);
+  f.each([&](int x, int y) {
+    const float a = x < 28 ? 0 : x == 28 ? 0.25f : x == 29 ? 0.7f : 1;
+    f.paint(x, y, 0.8f - 0.6f * a + (x == 28 ? 0.01f : 0), 0.7f - 0.2f * a, 0.1f + 0.5f * a);
+    if (a > 0 && a < 1) {
+      f.coc[f.at(x, y)] = 1536 - static_cast<std::int32_t>(a * (1536 - bar_coc));
+      f.inverse[f.at(x, y)] = 0.2f + 0.3f * a;
+    }
+  });
+  const auto [front, behind] = f.parted();
+  for (int y = 3; y < f.height - 3; ++y) {
+    EXPECT_EQ(front.coc_quanta[f.at(28, y)], f.coc[f.at(29, y)]) << y;
+    EXPECT_NEAR(front.coverage[f.at(28, y)] / 65536.0, 0.25 / 0.7, 0.03) << y;
+  }
+}
+
 TEST(Split, AThinThingInFocusCoversWhatItsColourSaysAlongIt) {
   // A blade that grows wider from a sixteenth to the whole of a pixel, in focus; as depth saw it
   // everywhere, no pixel of it is pure.
