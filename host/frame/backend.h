@@ -7,6 +7,7 @@
 
 #include "defray/report.h"
 #include "frame/frame.h"
+#include "kernels/methods_params.h"
 #include "kernels/patterns_params.h"
 #include "kernels/splat_params.h"
 

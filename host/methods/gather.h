@@ -6,7 +6,7 @@
 
 #include "defray/options.h"
 #include "frame/frame.h"
-#include "kernels/params.h"
+#include "kernels/methods_params.h"
 
 namespace defray {
 

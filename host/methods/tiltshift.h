@@ -2,7 +2,7 @@
 // The tilt-shift baseline: a vertical blur gradient that knows no depth (Glatzel & Wilhelm, fig.
 // 2).
 #include "defray/options.h"
-#include "kernels/params.h"
+#include "kernels/methods_params.h"
 
 namespace defray {
 

@@ -10,7 +10,7 @@
 // gather_reach runs twice, along x and then, on its own result, along y: squares dilate one axis at
 // a time, and of the tiles of a row that reach a column the largest reaches farthest along it.
 // Global size of both: (tiles_x, tiles_y). Integers only: the same on every device.
-#include "params.h"
+#include "methods_params.h"
 
 __kernel void gather_tiles(const DefrayTileParams p, __global const int* restrict coc_quanta,
                            __global int* restrict largest) {

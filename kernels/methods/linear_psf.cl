@@ -14,6 +14,7 @@
 // Global size: (runs of DEFRAY_RUN pixels of a row, band_rows).
 #include "base/colour.clh"
 #include "base/run.clh"
+#include "methods_params.h"
 
 // Adds light where there is any: 0 * inf must not reach pixels that the disc does not.
 float16 lit(const float16 weight, const float16 colour) {

@@ -4,7 +4,7 @@
 //
 // coc_quanta  [rows][width]  radius, 1/256 px, rounded to nearest even
 // Global size: (width, rows).
-#include "params.h"
+#include "methods_params.h"
 
 __kernel void tiltshift(const DefrayTiltshiftParams p, __global int* restrict coc_quanta) {
   const uint x = get_global_id(0);
