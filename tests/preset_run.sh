@@ -21,7 +21,7 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # run in processes of their own, one after the other. Long
 # tests run where DEFRAY_TEST_LONG is set: for coverage.
 unset DEFRAY_TEST_LONG
-left_out=*SharedDamaged*:KernelCache.*:Show.Opens*:*PictureFloor*:HighlightDisc*
+left_out=*SharedDamaged*:KernelCache.*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
 left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup
 perf=PerfCommand.*:ReportCommand.*

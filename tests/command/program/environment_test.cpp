@@ -11,11 +11,6 @@
 namespace defray::test::environment_test {
 namespace {
 
-bool has_program(const std::string& name) {
-  const Folder folder;
-  return shell(folder, "command -v " + name).code == 0;
-}
-
 TEST(Devices, ListsInTextAndJson) {
   const Folder folder;
   const Result text = defray(folder, "devices");
@@ -128,34 +123,6 @@ TEST(Show, IsSkippedWithoutADisplay) {
                              "env -u WAYLAND_DISPLAY DISPLAY=:397");
   EXPECT_EQ(dead.code, 0);
   EXPECT_NE(dead.err.find("no X server answers"), std::string::npos) << dead.err;
-}
-
-TEST(Show, KeysInARealWindowChangeTheLensUntilOneEndsIt) {
-  if (!has_program("Xvfb") || !has_program("xdotool")) GTEST_SKIP() << "needs Xvfb and xdotool";
-  const Folder folder;
-  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
-  const std::string display = ":" + std::to_string(100 + getpid() % 800);
-  const Result result =
-      shell(folder,
-            "export DISPLAY=" + display +
-                "; unset WAYLAND_DISPLAY; Xvfb $DISPLAY -screen 0 800x600x24 "
-                ">/dev/null 2>&1 & server=$!; n=0; until xdotool getdisplaygeometry >/dev/null "
-                "2>&1 || [ $n -gt 100 ]; "
-                "do sleep 0.1; n=$((n+1)); done; " +
-                program() + " render in.exr -o out.exr --show" + lens +
-                "& job=$!; window=$(timeout 20 xdotool search --sync --onlyvisible --name defray | "
-                "head -1); "
-                "echo window $window; sleep 1; key() { xdotool windowfocus $window key --window "
-                "$window $1; }; titled() { n=0; until xdotool getwindowname $window | grep -qF -- "
-                "\"$1\" || [ $n -gt 200 ]; do sleep 0.05; n=$((n+1)); done; }; "
-                "key space; titled before; key bracketleft; titled 'focus 2.941,'; "
-                "key plus; titled f/0.5612; key bracketright; titled 'focus 3,'; "
-                "key bracketright; titled 'focus 3.06,'; key minus; titled f/0.5; key q; "
-                "wait $job; code=$?; kill $server; wait $server; exit $code");
-  EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find(" --focus 3.06 --fstop 0.5\n"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("window "), std::string::npos);
-  EXPECT_EQ(result.out.find("window \n"), std::string::npos) << "no window appeared";
 }
 
 TEST(Output, FullDiskLeavesTheOldFile) {
