@@ -16,6 +16,19 @@ struct RayWindow {
   std::array<cl::Buffer, 4> channels;
 };
 
+/// Targets that a work-item of the kernels on lanes.clh takes at once.
+struct Lanes {
+  std::size_t across, down;
+
+  explicit Lanes(const Session& session)
+      : across(session.uses_vectors() ? DEFRAY_RAY_RUN : 1),
+        down(session.uses_vectors() ? DEFRAY_RAY_ROWS : 1) {}
+
+  /// Work-items along so many targets.
+  std::size_t over_columns(std::size_t count) const { return (count + across - 1) / across; }
+  std::size_t over_rows(std::size_t count) const { return (count + down - 1) / down; }
+};
+
 /// A buffer that is used again where it is large enough: new memory costs as much as what kernels
 /// do in it.
 class KeptBuffer {

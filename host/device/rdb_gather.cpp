@@ -114,10 +114,9 @@ void RdbGather::gather_pass(int first_cell) {
   p.cell_count = word(table_->cell_count());
   p.is_first_pass = first_cell == 0;
   p.is_last_pass = p.first_cell + p.cell_count == lens_.points.size();
-  const std::size_t across = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
-  const std::size_t down = session_.uses_vectors() ? DEFRAY_RAY_ROWS : 1;
-  const std::size_t strips_x = (p.band_end - p.band_x + across - 1) / across;
-  session_.launch("rdb_gather", {strips_x, (p.band_rows + down - 1) / down}, p, window_.keys,
+  const Lanes lanes(session_);
+  const std::size_t strips_x = lanes.over_columns(p.band_end - p.band_x);
+  session_.launch("rdb_gather", {strips_x, lanes.over_rows(p.band_rows)}, p, window_.keys,
                   window_.largest, window_.sending, window_.coverage, window_.channels, segments_,
                   first_, window_.reach, sharp_on_device_, window_.special_rows, window_.sparsity,
                   buffers_.lens, buffers_.rim_x, buffers_.rim_y, buffers_.light_first,

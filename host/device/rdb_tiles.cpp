@@ -77,9 +77,9 @@ void RayTileWindow::prepare(const BandRows& rows) {
   sending = plane(params.has_coverage);
   coverage = plane(params.has_coverage);
   channels = four_channels(params.channels, [&](std::size_t) { return plane(true); });
-  const std::size_t lanes = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
-  session_.launch("rdb_pad", {params.stride / lanes, lines()}, params, planes.coc, planes.depth,
-                  planes.coverage, planes.channels, keys, largest, sending, coverage, channels);
+  session_.launch("rdb_pad", {Lanes(session_).over_columns(params.stride), lines()}, params,
+                  planes.coc, planes.depth, planes.coverage, planes.channels, keys, largest,
+                  sending, coverage, channels);
 
   const std::size_t bytes = std::size_t{params.tiles_x} * params.tiles_y * sizeof(TileBins);
   tiles_ = session_.buffer(bytes);
