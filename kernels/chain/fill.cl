@@ -148,8 +148,9 @@ typedef struct {
 
 // The mean of what was found on one surface alone: others' colours say nothing about its
 // highlights.
-Filled fill_run(const Found* found, const uint directions, const int16 own,
-                const float16 own_inverse, const int16 left_out) {
+Filled fill_run(const DefrayFillParams p, const Window* w, const int2 start, Found* found,
+                const int16 own, const float16 own_inverse, const int16 left_out) {
+  const uint directions = p.directions;
   Filled behind;
   const float16 own_coc = convert_float16(own);
   float16 surface;
@@ -157,6 +158,7 @@ Filled fill_run(const Found* found, const uint directions, const int16 own,
   int16 counts[DEFRAY_FILL_DIRECTIONS];
   for (uint i = 0; i < directions; ++i) {
     counts[i] = (found[i].distance != 0.0f) & is_of(found[i].coc, surface, own_coc);
+    if (any_lane(counts[i])) note_colours(w, start, direction_of(p, i), counts[i], found + i);
   }
   const float16 brightest = 10.0f * median_of(found, counts, directions), none = 0.0f;
   float16 weights = 0.0f, coc = 0.0f, inverse = 0.0f, colour_weights = 0.0f;
@@ -220,7 +222,7 @@ __kernel void fill(const DefrayFillParams p, __global const int* restrict coc_qu
       look_behind(&w, start, direction_of(p, i), own, farthest[tile], found + i);
     }
     const int16 left_out = leave_barred_out(found, p.directions);
-    behind = fill_run(found, p.directions, own, own_inverse_of_run(&w, start), left_out);
+    behind = fill_run(p, &w, start, found, own, own_inverse_of_run(&w, start), left_out);
   }
   write_behind(&w, start, &behind, behind_coc, behind_inverse, CHANNELS(behind));
 }

@@ -85,11 +85,11 @@ void add_sample(const DefrayGatherParams p, const Discs d, const uint i, const f
   const int16 away_x = nearest_of(offset.x), away_y = nearest_of(offset.y);
   const int16 at_x = clamp((int)run.x + RUN_LANES + away_x, (int16)(0), (int16)((int)p.width - 1));
   const int16 at_y = clamp((int)run.row + away_y, (int16)(0), (int16)((int)p.window_rows - 1));
+  const uint16 from = as_uint16(at_y) * p.width + as_uint16(at_x);
+  const float16 coc =
+      convert_float16(GATHERED(int16, coc_quanta, from)) * (1.0f / 256.0f * p.radius_scale);
   uint source[RUN];
-  vstore16(as_uint16(at_y) * p.width + as_uint16(at_x), 0, source);
-  int lanes[RUN];
-  for (int k = 0; k < RUN; ++k) lanes[k] = coc_quanta[source[k]];
-  const float16 coc = convert_float16(vload16(0, lanes)) * (1.0f / 256.0f * p.radius_scale);
+  vstore16(from, 0, source);
   const float16 dx = convert_float16(away_x), dy = convert_float16(away_y);
   const float16 distance = sqrt(dx * dx + dy * dy);
   const float16 nearer = clamp(d.own_coc - coc - 0.5f, (float16)(0.0f), (float16)(1.0f));

@@ -83,13 +83,13 @@ const FaultRows faults{
      {"DEFRAY_WHOLE | DEFRAY_SYNTHESISED,", "DEFRAY_WHOLE,"}},
     {"split",
      "far surface taken for the front",
-     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc < low"}},
+     {"coc < low || coc > high || mixed[q]", "coc < low || mixed[q]"}},
     {"split",
      "mixed pixels taken for pure",
-     {"mixed[q] || coc < low || coc > high", "(d.x == 0 && d.y == 0) || coc < low || coc > high"}},
+     {"coc < low || coc > high || mixed[q]", "(x == 0 && y == 0) || coc < low || coc > high"}},
     {"split",
      "nearer surface taken for the one that was seen",
-     {"mixed[q] || coc < low || coc > high", "mixed[q] || coc > high"}},
+     {"coc < low || coc > high || mixed[q]", "coc > high || mixed[q]"}},
     {"split",
      "three surfaces taken for two",
      {"abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA", "false"}},
@@ -98,8 +98,12 @@ const FaultRows faults{
      {"own + DEFRAY_JUMP_QUANTA", "own - 1"}},
     {"split",
      "last row of the neighbourhood",
-     {"for (int i = 0; i < 49; ++i) {\n    const int2 d",
-      "for (int i = 0; i < 42; ++i) {\n    const int2 d"}},
+     {"for (int y = -DEFRAY_SPLIT_PX; y <= DEFRAY_SPLIT_PX; ++y) {\n    for (int x = "
+      "-DEFRAY_SPLIT_PX; x <= DEFRAY_SPLIT_PX; ++x) {\n      const uint q = pixel_at(p.width, "
+      "p.height, at + (int2)(x, y));\n      const int coc",
+      "for (int y = -DEFRAY_SPLIT_PX; y < DEFRAY_SPLIT_PX; ++y) {\n    for (int x = "
+      "-DEFRAY_SPLIT_PX; x <= DEFRAY_SPLIT_PX; ++x) {\n      const uint q = pixel_at(p.width, "
+      "p.height, at + (int2)(x, y));\n      const int coc"}},
     {"split",
      "ties to the last in front",
      {"if (weight > nearest) found.source", "if (weight >= nearest) found.source"}},
