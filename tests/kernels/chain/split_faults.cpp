@@ -5,9 +5,11 @@ namespace defray::test::split_faults {
 namespace {
 
 const FaultRows faults{
-    {"split", "no lamp is bright enough", {"LAMP * darkest", "INFINITY"}},
-    {"split", "the darkest of all", {"LAMP * darkest", "0.0f"}},
-    {"split", "lamps are in front", {"brightest > front ? LAMP", "brightest < front ? LAMP"}},
+    {"split", "no lamp is bright enough", {"LAMP * least_of(darkest)", "INFINITY"}},
+    {"split", "the darkest of all", {"LAMP * least_of(darkest)", "0.0f"}},
+    {"split",
+     "lamps are in front",
+     {"largest_of(brightest) > largest_of(front)", "largest_of(brightest) < largest_of(front)"}},
     {"split", "any farther pixel is a lamp", {"0.5f * brightness_of", "0.0f * brightness_of"}},
     {"split", "lit pixels are in front", {"best.is_thin && saw_front && b", "false && b"}},
     {"split",
@@ -22,7 +24,7 @@ const FaultRows faults{
     {"split", "the nearest anywhere", {"least = nearest - DEFRAY_JUMP_QUANTA", "least = INT_MIN"}},
     {"split",
      "thin things nearer than those around",
-     {"coc < in->least || coc > in->most", "coc > in->most"}},
+     {"first, in->least, in->most", "first, -INT_MAX, in->most"}},
     {"split",
      "farther surfaces' pixels in front",
      {"min(front.middle - 1, nearest + DEFRAY_JUMP_QUANTA)", "front.middle - 1"}},
@@ -83,13 +85,14 @@ const FaultRows faults{
      {"DEFRAY_WHOLE | DEFRAY_SYNTHESISED,", "DEFRAY_WHOLE,"}},
     {"split",
      "far surface taken for the front",
-     {"coc < low || coc > high || mixed[q]", "coc < low || mixed[q]"}},
+     {"coc_quanta, first, low, high)", "coc_quanta, first, low, INT_MAX)"}},
     {"split",
      "mixed pixels taken for pure",
-     {"coc < low || coc > high || mixed[q]", "(x == 0 && y == 0) || coc < low || coc > high"}},
+     {"(marks == (int16)(0)) &",
+      "((int16)(y) != (int16)(0) | RUN_LANES != (int16)(DEFRAY_SPLIT_PX)) &"}},
     {"split",
      "nearer surface taken for the one that was seen",
-     {"coc < low || coc > high || mixed[q]", "coc > high || mixed[q]"}},
+     {"coc_quanta, first, low, high)", "coc_quanta, first, -INT_MAX, high)"}},
     {"split",
      "three surfaces taken for two",
      {"abs(tame(behind->coc) - own) > DEFRAY_JUMP_QUANTA", "false"}},
@@ -98,12 +101,17 @@ const FaultRows faults{
      {"own + DEFRAY_JUMP_QUANTA", "own - 1"}},
     {"split",
      "last row of the neighbourhood",
-     {"for (int y = -DEFRAY_SPLIT_PX; y <= DEFRAY_SPLIT_PX; ++y) {\n    for (int x = "
-      "-DEFRAY_SPLIT_PX; x <= DEFRAY_SPLIT_PX; ++x) {\n      const uint q = pixel_at(p.width, "
-      "p.height, at + (int2)(x, y));\n      const int coc",
-      "for (int y = -DEFRAY_SPLIT_PX; y < DEFRAY_SPLIT_PX; ++y) {\n    for (int x = "
-      "-DEFRAY_SPLIT_PX; x <= DEFRAY_SPLIT_PX; ++x) {\n      const uint q = pixel_at(p.width, "
-      "p.height, at + (int2)(x, y));\n      const int coc"}},
+     {"y <= DEFRAY_SPLIT_PX; ++y) {\n    const int2 first = at + (int2)(-DEFRAY_SPLIT_PX, y);\n    "
+      "const int16 marks",
+      "y < DEFRAY_SPLIT_PX; ++y) {\n    const int2 first = at + (int2)(-DEFRAY_SPLIT_PX, y);\n    "
+      "const int16 marks"}},
+    {"split",
+     "lamps a column too far",
+     {"RUN_LANES <= (int16)(2 * DEFRAY_SPLIT_PX)",
+      "RUN_LANES <= (int16)(2 * DEFRAY_SPLIT_PX + 1)"}},
+    {"split",
+     "thin things in a run's first columns alone",
+     {"left + x <= reach; ++x)", "left + x < reach; ++x)"}},
     {"split",
      "ties to the last in front",
      {"if (weight > nearest) found.source", "if (weight >= nearest) found.source"}},
