@@ -25,7 +25,7 @@ std::vector<std::string> string_list(const ImageSpec& spec, const std::string& n
 
 std::int64_t pixel_count(const ImageSpec& spec) { return std::int64_t{spec.width} * spec.height; }
 
-/// Bytes of one channel in a native pixel, and where it starts.
+/// Where a channel starts in a pixel, bytes.
 std::size_t channel_offset(const ImageSpec& spec, int channel) {
   return spec.pixel_bytes(0, channel, true);
 }
@@ -79,43 +79,9 @@ void ImageFile::refresh_info() {
   }
 }
 
-Plane ImageFile::plane(int part, int channel) const {
-  const Part& p = parts_.at(static_cast<std::size_t>(part));
-  Plane out(static_cast<std::size_t>(pixel_count(p.spec)));
-  OIIO::convert_image(
-      1, p.spec.width, p.spec.height, 1, p.pixels.data() + channel_offset(p.spec, channel),
-      p.spec.channelformat(channel), static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)),
-      OIIO::AutoStride, OIIO::AutoStride, out.data(), TypeDesc::FLOAT, sizeof(float),
-      OIIO::AutoStride, OIIO::AutoStride);
-  return out;
-}
-
-void ImageFile::set_plane(int part, int channel, const Plane& plane) {
-  Part& p = parts_.at(static_cast<std::size_t>(part));
-  OIIO::convert_image(
-      1, p.spec.width, p.spec.height, 1, plane.data(), TypeDesc::FLOAT, sizeof(float),
-      OIIO::AutoStride, OIIO::AutoStride, p.pixels.data() + channel_offset(p.spec, channel),
-      p.spec.channelformat(channel), static_cast<OIIO::stride_t>(p.spec.pixel_bytes(true)),
-      OIIO::AutoStride, OIIO::AutoStride);
-}
-
 bool ImageFile::holds_integers(int part, int channel) const {
   const auto format = parts_.at(static_cast<std::size_t>(part)).spec.channelformat(channel);
   return format == TypeDesc::UINT || format == TypeDesc::INT;
-}
-
-void ImageFile::move_values(int part, int channel, const std::vector<std::uint32_t>& from) {
-  Part& p = parts_.at(static_cast<std::size_t>(part));
-  const std::size_t stride = p.spec.pixel_bytes(true), offset = channel_offset(p.spec, channel);
-  const std::size_t bytes = p.spec.channel_bytes(channel, true);
-  std::vector<std::byte> values;
-  for (const std::uint32_t source : from) {
-    const auto first = p.pixels.begin() + static_cast<std::ptrdiff_t>(source * stride + offset);
-    values.insert(values.end(), first, first + static_cast<std::ptrdiff_t>(bytes));
-  }
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::copy_n(&values[i * bytes], bytes, &p.pixels[i * stride + offset]);
-  }
 }
 
 void ImageFile::grow(int part, const Window& data) {

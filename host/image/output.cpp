@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "image/ldr.h"
 #include "image/safe_output.h"
@@ -49,11 +50,9 @@ void write_display_encoded(const std::string& path, const PartInfo& part,
 
 /// Values that are finite, but not as the file's channel stores them.
 std::size_t count_lost(const Plane& values, const Plane& stored) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    count += std::isfinite(values[i]) && !std::isfinite(stored[i]);
-  }
-  return count;
+  return parallel_count(values.size(), [&](std::size_t i) {
+    return std::isfinite(values[i]) && !std::isfinite(stored[i]);
+  });
 }
 
 /// Grey with an alpha as R G B A: OpenCV writes no such PNG; a JPEG has no alpha.

@@ -47,6 +47,7 @@ Window grown_window(const Window& data, const Window& display, const Plane* alph
                     const Plane& depth, const Lens& lens, int lens_width,
                     std::optional<Grow> grow) {
   if (!is_wanted(alpha, grow)) return data;
+  if (grow != Grow::full && hull(data, display) == data) return data;  // it holds all that is seen
   const Blur blur(lens, lens_width);
   // Light that has left the frame and its own size around it is seen by no one.
   const double farthest = std::max(display.width, display.height);

@@ -31,7 +31,7 @@ class Strip {
 
   std::size_t channels() const { return pinhole.size(); }
 
-  /// The rows that begin at `y0`.
+  /// The rows that begin at `y0`; sooner where they follow those that were loaded last.
   void load(int y0);
 
   std::vector<StripRows> pinhole, result;  ///< Shown values, a channel each.
@@ -39,7 +39,11 @@ class Strip {
   StripRows brightest;                     ///< Of the result's channels, linear.
 
  private:
+  void load_row(int y, int j);
+  void copy_row(int from, int to);
+
   int width_, height_;
+  int next_ = -1;  ///< Where the rows end that are loaded.
   std::span<const std::int32_t> coc_quanta_;
   std::vector<std::span<const float>> pinhole_light_, result_light_;
 };
