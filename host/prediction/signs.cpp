@@ -8,77 +8,95 @@
 namespace defray {
 namespace {
 
-/// Blocks of 4 px, of 8, and so on, with the largest reach of each.
-std::vector<Plane> reach_pyramid(const PixelBlocks& blocks, int levels) {
-  std::vector<Plane> pyramid{Plane(blocks.blocks.size())};
-  for (std::size_t i = 0; i < blocks.blocks.size(); ++i) pyramid[0][i] = blocks.blocks[i].reach;
-  int across = blocks.across, down = blocks.down;
-  while (static_cast<int>(pyramid.size()) < levels) {
-    const int wide = (across + 1) / 2, high = (down + 1) / 2;
-    Plane next(size(wide) * size(high));
-    for (int y = 0; y < down; ++y) {
-      for (int x = 0; x < across; ++x) {
-        float& most = next[size(y / 2) * size(wide) + size(x / 2)];
-        most = std::max(most, pyramid.back()[size(y) * size(across) + size(x)]);
-      }
+constexpr int levels = 5;  ///< Of windows: 3, 5, 9, 17 and 33 blocks across; 132 px.
+
+/// Values of blocks of 4 px, of 8, and so on.
+struct Level {
+  int across, down;
+  Plane values;
+
+  float& at(int x, int y) { return values[size(y) * size(across) + size(x)]; }
+  float at(int x, int y) const { return values[size(y) * size(across) + size(x)]; }
+};
+
+/// The largest of each four.
+Level next_level(const Level& below) {
+  Level next{(below.across + 1) / 2, (below.down + 1) / 2, {}};
+  next.values.resize(size(next.across) * size(next.down));
+  for (int y = 0; y < below.down; ++y) {
+    for (int x = 0; x < below.across; ++x) {
+      float& most = next.at(x / 2, y / 2);
+      most = std::max(most, below.at(x, y));
     }
-    pyramid.push_back(std::move(next));
-    across = wide;
-    down = high;
   }
-  return pyramid;
+  return next;
 }
 
-constexpr int levels = 5;  ///< Of windows: 3, 5, 9, 17 and 33 blocks across; 132 px.
+/// The largest of 3x3 each.
+Level largest_around(const Level& level) {
+  Level rows = level, out = level;
+  for (int y = 0; y < level.down; ++y) {
+    for (int x = 0; x < level.across; ++x) {
+      rows.at(x, y) = std::max({level.at(std::max(0, x - 1), y), level.at(x, y),
+                                level.at(std::min(level.across - 1, x + 1), y)});
+    }
+  }
+  for (int y = 0; y < level.down; ++y) {
+    for (int x = 0; x < level.across; ++x) {
+      out.at(x, y) = std::max({rows.at(x, std::max(0, y - 1)), rows.at(x, y),
+                               rows.at(x, std::min(level.down - 1, y + 1))});
+    }
+  }
+  return out;
+}
 
 /// How far away blur is that arrives at a block, px, as far as windows go.
 class Reaches {
  public:
-  explicit Reaches(const PixelBlocks& blocks)
-      : across_(blocks.across), down_(blocks.down), pyramid_(reach_pyramid(blocks, levels)) {}
+  explicit Reaches(const PixelBlocks& blocks) : blocks_(blocks), around_(size(levels)) {
+    Level level{blocks.across, blocks.down, {}};
+    for (const PixelBlock& b : blocks.blocks) level.values.push_back(b.reach);
+    for (Level& around : around_) {
+      around = largest_around(level);
+      level = next_level(level);
+    }
+  }
 
   float at(int x, int y) const {
-    float reach = pyramid_[0][size(y) * size(across_) + size(x)];
-    int across = across_, down = down_;
+    float reach = blocks_.at(x, y).reach;
     for (int level = 0; level < levels; ++level) {
-      float most = 0;
-      const int i = x >> level, j = y >> level;
-      for (int k = std::max(0, j - 1); k <= std::min(down - 1, j + 1); ++k) {
-        for (int l = std::max(0, i - 1); l <= std::min(across - 1, i + 1); ++l) {
-          most = std::max(most, pyramid_[size(level)][size(k) * size(across) + size(l)]);
-        }
-      }
+      const float most = around_[size(level)].at(x >> level, y >> level);
       const float distance = static_cast<float>(block_px << level);
       if (most >= distance / 2) reach = std::max(reach, std::min(most, 2 * distance));
-      across = (across + 1) / 2;
-      down = (down + 1) / 2;
     }
     return reach;
   }
 
  private:
-  int across_, down_;
-  std::vector<Plane> pyramid_;
+  const PixelBlocks& blocks_;
+  std::vector<Level> around_;
 };
 
-/// Sums of weighted moments.
+/// Sums of moments.
 class MomentSum {
  public:
-  void add(const ShownMoments& m, float weight) {
-    for (std::size_t c = 0; c < 3; ++c) mean_[c] += weight * m.mean[c];
-    square_ += weight * m.square;
-    weight_ += weight;
+  void add(const ShownMoments& m) {
+    for (std::size_t c = 0; c < 3; ++c) mean_[c] += m.mean[c];
+    square_ += m.square;
+    ++count_;
   }
   float variance(std::size_t channels) const {
-    if (weight_ == 0) return 0;
+    if (count_ == 0) return 0;
+    const auto count = static_cast<float>(count_);
     float means = 0;
-    for (const float mean : mean_) means += mean / weight_ * (mean / weight_);
-    return std::max(square_ / weight_ - means / static_cast<float>(channels), 0.0f);
+    for (const float mean : mean_) means += mean / count * (mean / count);
+    return std::max(square_ / count - means / static_cast<float>(channels), 0.0f);
   }
 
  private:
   std::array<float, 3> mean_{};
-  float square_ = 0, weight_ = 0;
+  float square_ = 0;
+  int count_ = 0;
 };
 
 /// Variances of shown values in a window: of the pinhole picture, of what lies at the back of it
@@ -96,19 +114,17 @@ class Windows {
     int level = 0;
     while (level + 1 < levels && reach > static_cast<float>(block_px << level)) ++level;
     const int radius = 1 << level, step = std::max(1, radius / 2);
-    float least = 0, most = 0;
-    bool is_first = true;
+    float least = blocks_.at(x, y).least_coc, most = blocks_.at(x, y).largest_coc;
     for_each(x, y, radius, step, [&](const PixelBlock& b) {
-      least = is_first ? b.least_coc : std::min(least, b.least_coc);
-      most = is_first ? b.largest_coc : std::max(most, b.largest_coc);
-      is_first = false;
+      least = std::min(least, b.least_coc);
+      most = std::max(most, b.largest_coc);
     });
     const float middle = (least + most) / 2;
     MomentSum pinhole, back, result;
     for_each(x, y, radius, step, [&](const PixelBlock& b) {
-      pinhole.add(b.pinhole, 1);
-      result.add(b.result, 1);
-      if (b.mean_coc >= middle) back.add(b.pinhole, 1);
+      pinhole.add(b.pinhole);
+      result.add(b.result);
+      if (b.mean_coc >= middle) back.add(b.pinhole);
     });
     return {pinhole.variance(channels_), back.variance(channels_), result.variance(channels_)};
   }

@@ -97,9 +97,8 @@ void Strip::load_row(int y, int j) {
     for (int x = 0; x < width_; ++x) row[x] = value_at(first + size(x));
     extend(row, width_);
   };
-  load(coc, [&](std::size_t i) {
-    return static_cast<float>(tame(coc_quanta_[i])) * px_per_quantum;
-  });
+  load(coc,
+       [&](std::size_t i) { return static_cast<float>(tame(coc_quanta_[i])) * px_per_quantum; });
   load(brightest, [&](std::size_t i) {
     float most = 0;
     for (const auto& light : result_light_) most = light[i] > most ? light[i] : most;
@@ -112,14 +111,18 @@ void Strip::load_row(int y, int j) {
   }
 }
 
+// In these loops nothing else lies where they write: compilers make vectors of them.
+
 void find_gradient(const std::vector<StripRows>& shown, int j, Plane& out) {
   std::fill(out.begin(), out.end(), 0.0f);
   const float share = 0.25f / static_cast<float>(shown.size());
+  float* const __restrict to = out.data();
   for (const StripRows& channel : shown) {
     const float *above = channel.row(j - 1), *row = channel.row(j), *below = channel.row(j + 1);
-    for (std::size_t x = 0; x < out.size(); ++x) {
-      const float dx = row[x + 1] - (row + x)[-1], dy = below[x] - above[x];
-      out[x] += (dx * dx + dy * dy) * share;
+    const float* const left = row - 1;
+    for (std::size_t x = 0, width = out.size(); x < width; ++x) {
+      const float dx = row[x + 1] - left[x], dy = below[x] - above[x];
+      to[x] += (dx * dx + dy * dy) * share;
     }
   }
 }
@@ -128,14 +131,16 @@ void find_grain(const std::vector<StripRows>& shown, int j, Plane& out) {
   std::fill(out.begin(), out.end(), 0.0f);
   const float share = 1 / static_cast<float>(shown.size());
   Plane columns(out.size() + 2);
+  float* const __restrict to = out.data(), * const __restrict sums = columns.data();
   for (const StripRows& channel : shown) {
-    const float *above = channel.row(j - 1), *row = channel.row(j), *below = channel.row(j + 1);
-    for (std::size_t x = 0; x < columns.size(); ++x) {
-      columns[x] = (above - 1)[x] + (row - 1)[x] + (below - 1)[x];
+    const float *above = channel.row(j - 1) - 1, *row = channel.row(j) - 1;
+    const float* const below = channel.row(j + 1) - 1;
+    for (std::size_t x = 0, width = columns.size(); x < width; ++x) {
+      sums[x] = above[x] + row[x] + below[x];
     }
-    for (std::size_t x = 0; x < out.size(); ++x) {
-      const float off = (columns[x] + columns[x + 1] + columns[x + 2]) / 9 - row[x];
-      out[x] += off * off * share;
+    for (std::size_t x = 0, width = out.size(); x < width; ++x) {
+      const float off = (sums[x] + sums[x + 1] + sums[x + 2]) / 9 - row[x + 1];
+      to[x] += off * off * share;
     }
   }
 }
@@ -145,13 +150,15 @@ namespace {
 /// Joins 3x3 values by `join`, row by row.
 template <typename Join>
 void join_around(const StripRows& values, int j, Plane& out, const Join& join) {
-  const float *above = values.row(j - 1), *row = values.row(j), *below = values.row(j + 1);
+  const float *above = values.row(j - 1) - 1, *row = values.row(j) - 1;
+  const float* const below = values.row(j + 1) - 1;
   Plane columns(out.size() + 2);
-  for (std::size_t x = 0; x < columns.size(); ++x) {
-    columns[x] = join(join((above - 1)[x], (row - 1)[x]), (below - 1)[x]);
+  float* const __restrict to = out.data(), * const __restrict joined = columns.data();
+  for (std::size_t x = 0, width = columns.size(); x < width; ++x) {
+    joined[x] = join(join(above[x], row[x]), below[x]);
   }
-  for (std::size_t x = 0; x < out.size(); ++x) {
-    out[x] = join(join(columns[x], columns[x + 1]), columns[x + 2]);
+  for (std::size_t x = 0, width = out.size(); x < width; ++x) {
+    to[x] = join(join(joined[x], joined[x + 1]), joined[x + 2]);
   }
 }
 
@@ -164,7 +171,8 @@ void find_range(const StripRows& values, int j, Plane& out) {
   Plane least(out.size());
   join_around(values, j, out, larger);
   join_around(values, j, least, smaller);
-  for (std::size_t x = 0; x < out.size(); ++x) out[x] -= least[x];
+  float* const __restrict to = out.data();
+  for (std::size_t x = 0, width = out.size(); x < width; ++x) to[x] -= least[x];
 }
 
 void find_largest(const StripRows& values, int j, Plane& out) {
