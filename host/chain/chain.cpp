@@ -1,7 +1,7 @@
 #include "chain/chain.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "chain/plan/ray_plan.h"
@@ -27,9 +27,7 @@ class Picture {
       parallel_for(static_cast<int>(result.means.size()),
                    [&](int c) { append(rows, result.means[size(c)], out_.colour[size(c)]); });
     }
-    std::vector<std::uint32_t> seen;
-    append(rows, result.seen, seen);
-    add_confidence(rows, seen);
+    add_confidence(rows, result.seen);
     if (work_.plan.wants_nearest) append(rows, result.nearest, out_.nearest);
   }
 
@@ -79,27 +77,31 @@ class Picture {
     const Rows own = of_picture(rows);
     if (out_.confidence.empty()) out_.confidence.resize(width * size(f_.height - 2 * f_.margin));
     float* const confidence = &out_.confidence[width * (size(own.y) - margin)];
+    std::vector<double> sums(size(own.count()));
     parallel_for(own.count(), [&](int row) {
+      const int y = own.y + row;
+      const std::uint32_t* const seen_in_row = &seen[size(y - rows.y) * size(f_.width) + margin];
       for (std::size_t x = 0; x < width; ++x) {
-        const std::size_t i = size(row) * width + x;
-        const std::size_t open = open_cells(work_.plan, x + margin, size(own.y + row));
-        const std::size_t known = std::min<std::size_t>(seen[i], open);  // between rows
-        confidence[i] = open == 0 ? 0.0f : static_cast<float>(known) / static_cast<float>(open);
+        const std::size_t open = open_cells(work_.plan, x + margin, size(y));
+        const std::size_t known = std::min<std::size_t>(seen_in_row[x], open);  // between rows
+        float& share = confidence[size(row) * width + x];
+        share = open == 0 ? 0.0f : static_cast<float>(known) / static_cast<float>(open);
+        sums[size(row)] += double{share};
       }
     });
-    for (std::size_t i = 0; i < seen.size(); ++i) confidence_ += confidence[i];
+    confidence_ = std::accumulate(sums.begin(), sums.end(), confidence_);
   }
 
   /// Discs and rays of one surface meet along other borders than pixels do: a little more than all
   /// of it can come together. Light and alpha give way alike, so that colour stays premultiplied.
   static void limit_alpha(const Values<float>& pinhole, std::vector<Plane>& colour) {
     float most = 0;
-    for (const float a : pinhole) most = std::fmax(most, a);
-    for (std::size_t i = 0; i < pinhole.size(); ++i) {
+    for (const float a : pinhole) most = a > most ? a : most;
+    parallel_for_each(pinhole.size(), [&](std::size_t i) {
       const float alpha = colour.back()[i];
-      if (!(alpha > most * 1.000001f)) continue;
+      if (!(alpha > most * 1.000001f)) return;
       for (Plane& plane : colour) plane[i] *= most / alpha;
-    }
+    });
   }
 
   const Frame& f_;

@@ -46,7 +46,7 @@ double Iris::radius_at(double angle) const {
 }
 
 double Iris::beyond_edge(double u, double v) const {
-  const double beyond_disc = std::hypot(u, v) - 1;
+  const double beyond_disc = std::sqrt(u * u + v * v) - 1;  // hypot takes five times as long
   if (blades_ == 0) return beyond_disc;
   const double blade_angle = 2 * pi / blades_;
   const long turned = std::lround((std::atan2(v, u) - rotation_) / blade_angle) + 2 * blades_;

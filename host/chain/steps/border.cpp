@@ -94,14 +94,15 @@ void continue_colours(Frame& f) {
   };
   const Rows wanted = f.wanted_rows();
   const int top = m, bottom = f.height - m;  // of the picture
-  for (int y = std::max(wanted.y, top); y < std::min(wanted.end, bottom); ++y) {
-    go_on(m, y, 1, 0, f.width - 2 * m);
-    go_on(f.width - m - 1, y, -1, 0, f.width - 2 * m);
-  }
-  for (int x = 0; x < f.width && wanted.y == 0; ++x) go_on(x, top, 0, 1, bottom - top);
-  for (int x = 0; x < f.width && wanted.end == f.height; ++x) {
-    go_on(x, bottom - 1, 0, -1, bottom - top);
-  }
+  const int first = std::max(wanted.y, top), end = std::min(wanted.end, bottom);
+  parallel_for(end - first, [&](int row) {
+    go_on(m, first + row, 1, 0, f.width - 2 * m);
+    go_on(f.width - m - 1, first + row, -1, 0, f.width - 2 * m);
+  });
+  parallel_for(f.width, [&](int x) {  // their margins, too
+    if (wanted.y == 0) go_on(x, top, 0, 1, bottom - top);
+    if (wanted.end == f.height) go_on(x, bottom - 1, 0, -1, bottom - top);
+  });
 }
 
 int rows_to_continue(const Frame& f) { return std::min(2 * f.margin, f.height - f.margin); }

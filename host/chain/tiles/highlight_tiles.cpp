@@ -1,5 +1,7 @@
 #include "chain/tiles/highlight_tiles.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -19,6 +21,7 @@ struct LightTile {
 
 /// A tile that sees farther takes the darkest of the whole frame.
 constexpr int farthest_tiles = 16;
+constexpr int side = DEFRAY_HIGHLIGHT_TILE;
 
 }  // namespace
 
@@ -32,20 +35,33 @@ Values<float> darkest_around(const Frame& f, int light_channels) {
   const auto coverage = f.coverage.host();
   std::vector<std::span<const float>> lights;
   for (std::size_t c = 0; c < size(light_channels); ++c) lights.push_back(f.channels[c].host());
+  // A NaN counts as the darkest there is: such tiles are looked at.
   const auto look = [&](LightTile& tile, int x0, int y0, int x1, int y1) {
+    const std::size_t count = size(x1 - x0);
+    std::array<float, side> darkest{};
+    darkest.fill(HUGE_VALF);
     for (int row = y0 * f.layers; row < y1 * f.layers; ++row) {
-      for (int x = x0; x < x1; ++x) {
-        const std::size_t i = size(row) * size(f.width) + size(x);
-        tile.largest_coc = std::max(tile.largest_coc, std::abs(tame(coc_quanta[i])));
-        const bool is_seen = row % f.layers == 0 && coverage[i] < DEFRAY_SYNTHESISED;
-        if (!is_seen) continue;
-        float light = lights[0][i];
-        for (const auto& channel : lights) light = std::fmax(light, channel[i]);
-        tile.darkest = std::fmin(tile.darkest, light);
+      const std::size_t first = size(row) * size(f.width) + size(x0);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::int32_t radius = std::abs(tame(coc_quanta[first + k]));
+        tile.largest_coc = radius > tile.largest_coc ? radius : tile.largest_coc;
+      }
+      if (row % f.layers != 0) continue;  // not seen
+      std::array<float, side> brightest{};
+      brightest.fill(-HUGE_VALF);
+      for (const auto& light : lights) {
+        const float* const values = &light[first];
+        for (std::size_t k = 0; k < count; ++k) {
+          brightest[k] = values[k] > brightest[k] ? values[k] : brightest[k];
+        }
+      }
+      for (std::size_t k = 0; k < count; ++k) {
+        const float seen = coverage[first + k] < DEFRAY_SYNTHESISED ? brightest[k] : HUGE_VALF;
+        darkest[k] = seen < darkest[k] ? seen : darkest[k];
       }
     }
+    tile.darkest = *std::ranges::min_element(darkest);
   };
-  constexpr int side = DEFRAY_HIGHLIGHT_TILE;
   const Rows wanted = f.wanted_rows();
   const Rows known = wanted.with(highlight_reach(f.coc_range().largest_radius()), f.height);
   const Tiles<LightTile> tiles(f.width, f.height, known, side, look);
