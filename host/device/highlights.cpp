@@ -9,8 +9,9 @@ namespace defray {
 namespace {
 
 const LaunchRow highlights_launch({.kernel = "highlights",
-                                   .group = {64, 1},
-                                   .bytes_a_surface = 3 * Launch::plane + Launch::colour});
+                                   .group = {8, 1},
+                                   .bytes_a_surface = 3 * Launch::plane + Launch::colour,
+                                   .run_px = DEFRAY_RUN});
 
 }  // namespace
 

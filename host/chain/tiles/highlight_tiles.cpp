@@ -40,11 +40,12 @@ Values<float> darkest_around(const Frame& f, int light_channels) {
     const std::size_t count = size(x1 - x0);
     std::array<float, side> darkest{};
     darkest.fill(HUGE_VALF);
+    std::int32_t largest = 0;
     for (int row = y0 * f.layers; row < y1 * f.layers; ++row) {
       const std::size_t first = size(row) * size(f.width) + size(x0);
       for (std::size_t k = 0; k < count; ++k) {
         const std::int32_t radius = std::abs(tame(coc_quanta[first + k]));
-        tile.largest_coc = radius > tile.largest_coc ? radius : tile.largest_coc;
+        largest = radius > largest ? radius : largest;
       }
       if (row % f.layers != 0) continue;  // not seen
       std::array<float, side> brightest{};
@@ -60,7 +61,7 @@ Values<float> darkest_around(const Frame& f, int light_channels) {
         darkest[k] = seen < darkest[k] ? seen : darkest[k];
       }
     }
-    tile.darkest = *std::ranges::min_element(darkest);
+    tile = {largest, *std::ranges::min_element(darkest)};
   };
   const Rows wanted = f.wanted_rows();
   const Rows known = wanted.with(highlight_reach(f.coc_range().largest_radius()), f.height);
