@@ -48,6 +48,7 @@ class Shown {
     if (!(linear > 0)) return 0;
     const std::uint32_t bits = std::min(std::bit_cast<std::uint32_t>(linear), one);
     std::uint32_t value = half_[bits >> 16];
+    value += begin_[value + 1] <= bits ? 1 : 0;  // no jump: mostly one step at most is left
     while (begin_[value + 1] <= bits) ++value;
     return value;
   }

@@ -59,14 +59,19 @@ Words patterns_pixels(const Frame& f, const Frame& behind, const Words& mixed, W
     rgb[c] = f.channels[std::min(c, f.channels.size() - 1)].host();
   }
   const PatternFlags flags(f.channels);
-  const std::size_t first = f.index(0, f.wanted_rows().y);
-  parallel_for_each(f.index(0, f.wanted_rows().end) - first, [&](std::size_t k) {
-    const std::size_t i = first + k;
-    const bool hides = is_mixed[i] || inverse[i] >= 0 || f.is_in_margin(i);
-    const std::uint32_t known = hides ? 0 : DEFRAY_PATTERN_KNOWN;
-    const std::uint32_t word =
-        known | shown_8_bit(rgb[0][i]) | shown_8_bit(rgb[1][i]) << 8 | shown_8_bit(rgb[2][i]) << 16;
-    words[i] = flags.flagged(word, i, inverse[i] >= 0);
+  const Rows wanted = f.wanted_rows();
+  parallel_for(wanted.count(), [&](int row) {
+    const int y = wanted.y + row;
+    const bool is_in_rows = y >= f.margin && y < f.height - f.margin;
+    for (int x = 0; x < f.width; ++x) {
+      const std::size_t i = f.index(x, y);
+      const bool is_in_margin = !is_in_rows || x < f.margin || x >= f.width - f.margin;
+      const bool hides = is_mixed[i] || inverse[i] >= 0 || is_in_margin;
+      const std::uint32_t known = hides ? 0 : DEFRAY_PATTERN_KNOWN;
+      const std::uint32_t word = known | shown_8_bit(rgb[0][i]) | shown_8_bit(rgb[1][i]) << 8 |
+                                 shown_8_bit(rgb[2][i]) << 16;
+      words[i] = flags.flagged(word, i, inverse[i] >= 0);
+    }
   });
   return into;
 }

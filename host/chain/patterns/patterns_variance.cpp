@@ -78,7 +78,8 @@ class Pixels {
 
   std::size_t count() const { return words_.size(); }
 
-  void add_to(Cell& cell, std::size_t i) const {
+  /// The one of index i, `right` pixels before its row's end.
+  void add_to(Cell& cell, std::size_t i, std::size_t right) const {
     const std::uint32_t v = words_[i], r = v & 255, g = v >> 8 & 255, b = v >> 16 & 255;
     if (v & DEFRAY_PATTERN_BEHIND && !cell.behind_coc) cell.behind_coc = behind_coc_[i];
     if (!(v & DEFRAY_PATTERN_KNOWN)) return;
@@ -87,7 +88,7 @@ class Pixels {
     add(own->sums, {1, r * r + g * g + b * b, r, g, b}, 1);
     for (std::size_t k = 0; k < lags_px.size(); ++k) {
       const std::size_t lag = size(lags_px[k]);
-      if (i % width_ + lag < width_) add_pair(own->lags[k], i, i + lag);
+      if (lag < right) add_pair(own->lags[k], i, i + lag);
       if (i + lag * width_ < count()) add_pair(own->lags[k], i, i + lag * width_);
     }
   }
@@ -129,13 +130,14 @@ Cells cells_of(const Frame& f, const Frame& behind, const Words& pixels, int aro
   const Words needed = needed_units(f, pixels, settings.window_cells);
   const auto is_needed = needed.host();
   parallel_for(cells.end - cells.first, [&](int row) {
-    const std::size_t pixel = size(cells.first + row) * DEFRAY_PATTERN_CELL * size(f.width);
-    const std::size_t end = std::min(pixel + DEFRAY_PATTERN_CELL * size(f.width), all.count());
+    const int y0 = (cells.first + row) * DEFRAY_PATTERN_CELL;
     const std::size_t first_unit = size(cells.first + row) * size(pattern_units(f.width));
-    for (std::size_t i = pixel; i < end; ++i) {
-      if (!is_needed[first_unit + i % size(f.width) / DEFRAY_RUN]) continue;
-      const std::size_t column = i % size(f.width) / DEFRAY_PATTERN_CELL;
-      all.add_to(cells.cells[size(row) * size(cells.columns) + column], i);
+    Cell* const own = &cells.cells[size(row) * size(cells.columns)];
+    for (int y = y0; y < std::min(y0 + DEFRAY_PATTERN_CELL, f.height); ++y) {
+      for (int x = 0; x < f.width; ++x) {
+        if (!is_needed[first_unit + size(x / DEFRAY_RUN)]) continue;
+        all.add_to(own[x / DEFRAY_PATTERN_CELL], f.index(x, y), size(f.width - x));
+      }
     }
   });
   return cells;
@@ -153,25 +155,37 @@ float variance_of(const Sums& s) {
 
 std::uint32_t weight(int n, int j) { return static_cast<std::uint32_t>(n - std::abs(j)); }
 
-/// Of the surface that a cell hides.
-float variance_around(const Cells& cells, int column, int row, const PatternSettings& settings) {
+/// Calls visit(surface, weight, distance) for all that a cell's window holds of the surface that it
+/// hides.
+template <typename Visit>
+void for_each_alike(const Cells& cells, int column, int row, const PatternSettings& settings,
+                    const Visit& visit) {
   const int n = settings.window_cells, rows = cells.end - cells.first;
   const std::int32_t coc = *cells.at(column, row).behind_coc;
-  Sums sum{};
-  Lags lags{};
-  int cells_away = n;
   for (int j = std::max(1 - n, -row); j < std::min(n, rows - row); ++j) {
     for (int i = std::max(1 - n, -column); i < std::min(n, cells.columns - column); ++i) {
       for (const CellSurface& surface : cells.at(column + i, row + j).surfaces) {
         if (surface.sums[0] == 0 || !are_close(surface.coc, coc, settings)) continue;
-        const std::uint32_t w = weight(n, i) * weight(n, j);
-        add(sum, surface.sums, w);
-        for (std::size_t k = 0; k < lags.size(); ++k) lags[k].add(surface.lags[k], w);
-        cells_away = std::min(cells_away, std::max(std::abs(i), std::abs(j)));
+        visit(surface, weight(n, i) * weight(n, j), std::max(std::abs(i), std::abs(j)));
       }
     }
   }
-  const Pairs& pairs = lags[lag_at(cells_away)];
+}
+
+/// Of the surface that a cell hides.
+float variance_around(const Cells& cells, int column, int row, const PatternSettings& settings) {
+  Sums sum{};
+  int cells_away = settings.window_cells;
+  for_each_alike(cells, column, row, settings,
+                 [&](const CellSurface& surface, std::uint32_t w, int distance) {
+                   add(sum, surface.sums, w);
+                   cells_away = std::min(cells_away, distance);
+                 });
+  Pairs pairs;
+  const std::size_t lag = lag_at(cells_away);
+  for_each_alike(
+      cells, column, row, settings,
+      [&](const CellSurface& surface, std::uint32_t w, int) { pairs.add(surface.lags[lag], w); });
   if (pairs.count == 0) return variance_of(sum);
   const double apart = static_cast<double>(pairs.squares) / static_cast<double>(pairs.count);
   return std::min(variance_of(sum), static_cast<float>(most_of_apart * apart));
