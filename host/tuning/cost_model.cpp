@@ -28,15 +28,12 @@ Cost built_in_cost(Quality quality) {
 
 // Of what was expected, a budget is kept to a tenth: below that rungs do not change.
 constexpr double near_enough = 0.95;
-/// Of what a quality is expected to take that was never measured in this class of frames while
-/// others were: worth a try, after which it is known.
-constexpr double hope = 0.75;
 constexpr std::size_t most_rise = 2;
 constexpr double share_of_new = 0.5, share_of_healing = 0.02;
 /// Times are believed up to so many times what was expected, or down to that part: something else
 /// may have run meanwhile. The first picture of a quality waits for kernels that are compiled or
 /// loaded.
-constexpr double most_surprise = 3, most_at_first = 1.25;
+constexpr double most_surprise = 3, most_at_first = 2;
 /// Costs beyond so many times the built-in ones are no computer's.
 constexpr double most_ratio = 100;
 
@@ -70,19 +67,15 @@ double CostModel::seconds(const std::string& frame_class, const Rung& rung,
 
 std::size_t CostModel::choose(const std::string& frame_class, double megapixels, double budget_s,
                               std::optional<std::size_t> last) const {
-  const bool is_known = std::any_of(costs_.begin(), costs_.end(), [&](const auto& known) {
-    return known.first.first == frame_class;
-  });
+  const std::size_t highest =
+      last ? std::min(*last + most_rise, rungs().size() - 1) : rungs().size() - 1;
   std::size_t best = 0;
-  for (std::size_t i = 0; i < rungs().size(); ++i) {
-    const bool is_new = is_known && !costs_.contains({frame_class, rungs()[i].quality});
-    const double expected_s = seconds(frame_class, rungs()[i], megapixels);
-    if ((is_new ? hope : 1) * expected_s <= budget_s) best = i;
+  for (std::size_t i = 0; i <= highest; ++i) {
+    if (seconds(frame_class, rungs()[i], megapixels) <= budget_s) best = i;
   }
   if (!last || best <= *last) return best;
   const double of_last = seconds(frame_class, rungs()[*last], megapixels);
-  if (of_last >= near_enough * budget_s && of_last <= budget_s) return *last;
-  return std::min(best, *last + most_rise);
+  return of_last >= near_enough * budget_s && of_last <= budget_s ? *last : best;
 }
 
 void CostModel::refine(const std::string& frame_class, const Rung& rung, double megapixels,
