@@ -10,6 +10,15 @@
 namespace defray {
 namespace {
 
+/// A disc of this radius leaves nothing of the finest detail.
+constexpr float nothing_left_px = 1.75f;
+constexpr auto nothing_left_quanta =
+    static_cast<std::int32_t>(nothing_left_px * (1 << DEFRAY_COC_FRACTION_BITS));
+
+/// Not nearer than the focus and blurred beyond all detail: through that shows what lies behind,
+/// but the pinhole picture has its sharp edges there, which show nowhere.
+bool is_clear(std::int32_t coc_quanta) { return coc_quanta > -nothing_left_quanta; }
+
 /// Its pixels, by index.
 using Block = std::array<std::size_t, 4>;
 
@@ -89,6 +98,7 @@ void set_surfaces(const Frame& f, HalfFrame& half) {
   const std::size_t count = half.frame.pixels();
   half.source.resize(count);
   half.detail.resize(count);
+  half.clear.resize(count);
   std::vector<std::int32_t> coc(count);
   Plane z(count);
   for_each_block(f, half.frame, [&](const Block& block, std::size_t i) {
@@ -96,7 +106,10 @@ void set_surfaces(const Frame& f, HalfFrame& half) {
     half.source[i] = static_cast<std::uint32_t>(source);
     coc[i] = half_size_coc(coc_quanta[source]);
     z[i] = depth[source];
-    for (const std::size_t pixel : block) half.detail[i] += detail_left(coc_quanta[pixel]) / 4;
+    for (const std::size_t pixel : block) {
+      half.detail[i] += detail_left(coc_quanta[pixel]) / 4;
+      half.clear[i] += is_clear(coc_quanta[pixel]) ? 0.25f : 0.0f;
+    }
   });
   half.frame.coc_quanta = std::move(coc);
   half.frame.depth = std::move(z);
@@ -112,14 +125,13 @@ std::int32_t half_size_coc(std::int32_t coc_quanta) {
 }
 
 float detail_left(std::int32_t coc_quanta) {
-  constexpr float nothing_left_px = 1.75f;
   const float share = static_cast<float>(tame(coc_quanta)) * px_per_quantum / nothing_left_px;
   const float left = std::fmax(1 - share * share, 0.0f);
   return left * left;
 }
 
 HalfFrame at_half_size(const Frame& f) {
-  HalfFrame half{f.without_planes(), {}, {}};
+  HalfFrame half{f.without_planes(), {}, {}, {}, {}};
   Frame& h = half.frame;
   h.width = (f.width + 1) / 2;
   h.height = (f.height + 1) / 2;
@@ -128,13 +140,22 @@ HalfFrame at_half_size(const Frame& f) {
   h.display_width = (f.display_width + 1) / 2;
   h.display_height = (f.display_height + 1) / 2;
   set_surfaces(f, half);
+  const auto coc = f.coc_quanta.host();
   for (const Values<float>& channel : f.channels) {
     const auto values = channel.host();
-    Plane means(h.pixels());
+    Plane means(h.pixels()), clear(h.pixels());
     for_each_block(f, h, [&](const Block& b, std::size_t i) {
       means[i] = (values[b[0]] + values[b[1]] + values[b[2]] + values[b[3]]) / 4;
+      if (half.clear[i] == 1) {
+        clear[i] = means[i];
+        return;
+      }
+      for (const std::size_t pixel : b) {
+        if (is_clear(coc[pixel])) clear[i] += values[pixel] / 4;
+      }
     });
     h.channels.emplace_back(std::move(means));
+    half.clear_colour.push_back(std::move(clear));
   }
   return half;
 }
@@ -150,20 +171,26 @@ Plane at_full_size(const Plane& half, int width, int height) {
   return out;
 }
 
-Plane with_detail(const Values<float>& pinhole, const Values<float>& half_pinhole,
-                  const Plane& half_result, const Plane& half_visible, int width, int height) {
-  const FullRows bases(half_pinhole.host(), width, height), results(half_result, width, height);
-  const FullRows shares(half_visible, width, height);
-  const auto sharp = pinhole.host();
+Plane with_detail(const Frame& f, const HalfFrame& half, std::size_t channel,
+                  const Plane& half_result, const Plane& half_visible) {
+  const int width = f.width;
+  const FullRows colours(half.clear_colour[channel], width, f.height);
+  const FullRows clears(half.clear, width, f.height);
+  const FullRows results(half_result, width, f.height), shares(half_visible, width, f.height);
+  const auto sharp = f.channels[channel].host();
+  const auto coc = f.coc_quanta.host();
   Plane out(sharp.size());
-  parallel_for(height, [&](int y) {
-    Plane base = bases.room(), result = bases.room(), visible = bases.room();
-    bases.row(y, base);
+  parallel_for(f.height, [&](int y) {
+    Plane colour = colours.room(), clear = clears.room();
+    Plane result = results.room(), visible = shares.room();
+    colours.row(y, colour);
+    clears.row(y, clear);
     results.row(y, result);
     shares.row(y, visible);
     const std::size_t first = size(y) * size(width);
     for (std::size_t x = 0; x < size(width); ++x) {
-      const float own = sharp[first + x], change = visible[x] * (own - base[x]);
+      const float seen = visible[x], share = is_clear(coc[first + x]) ? seen : 0.0f;
+      const float own = sharp[first + x], change = share * (own - colour[x] / clear[x]);
       const float detailed = std::max(result[x] + change, std::min(own, 0.0f));
       out[first + x] = std::isfinite(change) ? detailed : result[x];
     }

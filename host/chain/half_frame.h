@@ -23,6 +23,10 @@ struct HalfFrame {
   Frame frame;  ///< As any other; the rest is only for the way back to full size.
   std::vector<std::uint32_t> source;  ///< The pixel that CoC and depth are of.
   Plane detail;                       ///< Mean share of detail_left.
+  /// Share of the pixels whose detail may show, and their part of the mean colours: all but those
+  /// that are nearer than the focus and blurred beyond all detail.
+  Plane clear;
+  std::vector<Plane> clear_colour;
 };
 HalfFrame at_half_size(const Frame& frame);
 
@@ -30,9 +34,10 @@ HalfFrame at_half_size(const Frame& frame);
 /// middles of blocks.
 Plane at_full_size(const Plane& half, int width, int height);
 
-/// `half_result` at full size, with the detail of `pinhole` that `half_pinhole` lacks, by
-/// `half_visible` of it; but nothing darker than black, and nothing that is not a number.
-Plane with_detail(const Values<float>& pinhole, const Values<float>& half_pinhole,
-                  const Plane& half_result, const Plane& half_visible, int width, int height);
+/// `half_result` of a channel at full size, with the detail that the frame has beside the clear
+/// pixels of the half frame, by `half_visible` of it; nothing darker than black, and nothing that
+/// is not a number.
+Plane with_detail(const Frame& frame, const HalfFrame& half, std::size_t channel,
+                  const Plane& half_result, const Plane& half_visible);
 
 }  // namespace defray

@@ -74,8 +74,7 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Backen
   for (std::size_t c = 0; c < out.colour.size(); ++c) {
     const bool is_constant = opaque && c + 1 == out.colour.size();
     out.colour[c] = is_constant ? Plane(f.pixels(), 1.0f)
-                                : with_detail(f.channels[c], half.frame.channels[c], out.colour[c],
-                                              made.visible, f.width, f.height);
+                                : with_detail(f, half, c, out.colour[c], made.visible);
   }
   out.confidence = at_full_size(out.confidence, f.width, f.height);
   out.tiles.double_size(f.width, f.height);

@@ -96,7 +96,7 @@ TEST(CostModel, LearnsHalfTheWayWithinLimits) {
   EXPECT_NEAR(learnt(1, false), 1, 1e-12);
   EXPECT_NEAR(learnt(2, false), 1.5, 1e-12);
   EXPECT_NEAR(learnt(0.5, false), 0.75, 1e-12);
-  EXPECT_NEAR(learnt(50, false), 2, 1e-12);     // at most three times
+  EXPECT_NEAR(learnt(50, false), 2, 1e-12);   // at most three times
   EXPECT_NEAR(learnt(50, true), 1.5, 1e-12);  // kernels were compiled
   EXPECT_NEAR(learnt(0.01, true), 2.0 / 3, 1e-12);
 }

@@ -51,6 +51,9 @@ TEST(HalfSize, BlocksAreMeansAndHaveASurfacesOwnDepth) {
   }
   EXPECT_FLOAT_EQ(half.detail[0], 0.5f);  // two of four are in focus
   EXPECT_EQ(half.detail[1], 0);
+  // Of 8 and -8 px, which count twice, with colours 3 and 6, one is clear.
+  EXPECT_EQ(half.clear, (Plane{1, 0.5f, 1, 1}));
+  EXPECT_EQ(half.clear_colour[0], (Plane{3, 1.5f, 7.5f, 9}));
 }
 
 TEST(HalfSize, ALampIsItsBlocksSurface) {
@@ -126,6 +129,24 @@ Frame post(std::vector<Plane>* channels = nullptr) {
 }
 
 Plane wall_of(const Frame& f) { return {f.channels[0].begin(), f.channels[0].end()}; }
+
+TEST(HalfSize, SharpEdgesOfWhatIsNearAndBlurredDoNotShow) {
+  // A bar of 6 px before a white wall in focus, blurred by 12 px: a faint shadow.
+  for (const int left : {20, 21}) {
+    std::vector<std::int32_t> coc;
+    Plane colour;
+    for (int i = 0; i < static_cast<int>(pixels); ++i) {
+      const bool is_bar = i % size.width >= left && i % size.width < left + 6;
+      coc.push_back(is_bar ? -12 * 256 : 0);
+      colour.push_back(is_bar ? 0.0f : 1.0f);
+    }
+    const Plane seen = previewed(frame_of(coc, {colour})).colour[0];
+    for (std::size_t x = 0; x + 1 < size.width; ++x) {
+      const std::size_t at = 16 * size.width + x;
+      EXPECT_LT(std::fabs(seen[at] - seen[at + 1]), 0.2f) << left << " " << x;
+    }
+  }
+}
 
 TEST(HalfSize, DetailShowsAsFarAsItsSurfaceDoes) {
   const Plane seen = previewed(post()).colour[0];
