@@ -65,7 +65,7 @@ void print_json(const Found& found, std::optional<int> frame) {
   const Comparison& c = found.comparison;
   Json line;
   if (frame) line["frame"] = *frame;
-  line.update({{"equal", c.worst == 0},
+  line.update({{"equal", c.worst == 0 && found.alpha_difference.value_or(0) == 0},
                {"psnr_srgb_db", c.psnr_srgb_db},
                {"psnr_linear_db", c.psnr_linear_db},
                {"rms", c.rms},
@@ -76,6 +76,7 @@ void print_json(const Found& found, std::optional<int> frame) {
                {"worst_b", c.worst_b},
                {"ssim", c.ssim},
                {"energy_ratio", c.energy_ratio}});
+  if (found.alpha_difference) line["alpha_difference"] = *found.alpha_difference;
   if (found.band) {
     line["edge_band"] = errors_json(found.band->inside);
     line["outside_edge_band"] = errors_json(found.band->outside);
@@ -96,6 +97,10 @@ void print_text(const Found& found, std::optional<int> frame) {
              fmt::join(c.worst_b, " "));
   fmt::print("SSIM {:.4f} (sRGB-encoded, mean of R G B), energy ratio {:.6g}\n", c.ssim,
              c.energy_ratio);
+  if (found.alpha_difference.value_or(0) > 0) {
+    fmt::print("alpha differs by up to {:.6g}: none of these figures counts it\n",
+               *found.alpha_difference);
+  }
   if (found.band) {
     print_errors("edge band", found.band->inside);
     print_errors("outside it", found.band->outside);

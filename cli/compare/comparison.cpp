@@ -1,6 +1,7 @@
 #include "compare/comparison.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "image/channels.h"
@@ -62,6 +63,20 @@ Pair masked(Pair pair, const Mask& mask) {
   return pair;
 }
 
+/// Of the mask's pixels, if there is one. NaNs differ from all but each other.
+std::optional<double> alpha_difference(const Pair& pair, const Mask& mask) {
+  if (pair.a.planes.size() != 4 || pair.b.planes.size() != 4) return {};
+  const Plane &a = pair.a.planes[3], &b = pair.b.planes[3];
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!mask.empty() && !mask[i]) continue;
+    const double difference = std::fabs(double{a[i]} - double{b[i]});
+    if (std::isnan(a[i]) != std::isnan(b[i])) return HUGE_VAL;
+    most = std::fmax(most, difference);
+  }
+  return most;
+}
+
 /// Of the mask's pixels, if there is one; the place is of the pair's pictures.
 Excess changes_since(const CompareOptions& o, Pair before, Pair pair) {
   const Window data = pair.a.data;
@@ -102,6 +117,7 @@ Found compare_pair(const CompareOptions& o, const Pair& pair, const Pair* before
   const Mask mask = o.mask.empty() ? Mask() : read_mask(o, a);
   Found found;
   found.comparison = compare(a.planes, pair.b.planes, width, mask);
+  found.alpha_difference = alpha_difference(pair, mask);
   if (o.false_edges) {
     const Pair seen = mask.empty() ? pair : masked(pair, mask);
     found.false_edges = false_edges(seen.a.planes, seen.b.planes, width);

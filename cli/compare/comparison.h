@@ -39,6 +39,7 @@ struct BandErrors {
 /// What is said of two pictures.
 struct Found {
   Comparison comparison;
+  std::optional<double> alpha_difference;  ///< The largest, where both have alpha.
   std::optional<BandErrors> band;
   std::optional<Excess> false_edges;
   std::optional<Excess> false_changes;  ///< Since the frame before.

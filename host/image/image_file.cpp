@@ -147,6 +147,12 @@ bool ImageFile::is_lossy() const {
   });
 }
 
+bool ImageFile::has_smaller_levels() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
+    return !part.spec.get_string_attribute("textureformat").empty();
+  });
+}
+
 void ImageFile::set_compression(const std::string& name) {
   for (Part& part : parts_) part.spec.attribute("compression", name);
 }
@@ -191,8 +197,12 @@ void ImageFile::write(const std::string& path) const {
   std::vector<ImageSpec> specs;
   for (const Part& part : parts_) {
     specs.push_back(part.spec);
-    specs.back().erase_attribute("openexr:levelmode");   // the base level alone was read
-    specs.back().erase_attribute("openexr:chunkCount");  // the new file counts its own
+    // The largest level alone was read, and other colours are written; the new file counts its own
+    // chunks.
+    for (const char* stale : {"openexr:levelmode", "textureformat", "openexr:chunkCount",
+                              "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor"}) {
+      specs.back().erase_attribute(stale);
+    }
   }
   if (specs.size() == 1) {
     check(output->open(path, specs.front()));

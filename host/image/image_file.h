@@ -76,6 +76,9 @@ class ImageFile {
   /// values.
   bool is_lossy() const;
 
+  /// Of a texture: its MIP levels but the largest are not read.
+  bool has_smaller_levels() const;
+
   /// Gives a part this data window, which holds its own: 0 where nothing was.
   void grow(int part, const Window& data);
 

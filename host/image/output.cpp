@@ -156,6 +156,9 @@ void write_picture(const std::string& path, ImageFile& file, const ColourChoice&
     notes.push_back(
         "the file's compression is lossy: channels not rendered may change a little too");
   }
+  if (file.has_smaller_levels()) {
+    notes.push_back("is a texture: its largest MIP level alone is read and written");
+  }
   if (keeps_all)
     file.set_bits(choice.part, is_tiff(path) ? std::vector<int>{} : choice.channels, bits);
   std::size_t overflowed = 0;

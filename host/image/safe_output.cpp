@@ -105,6 +105,13 @@ void sync_path(const std::string& what, const std::string& path) {
   if (!ok) fail(ErrorKind::output, "{}: cannot sync it to disk: {}", what, std::strerror(code));
 }
 
+/// Who may read and write a file stays so when another takes its place.
+void keep_permissions(const std::string& before, const std::string& after) {
+  std::error_code is_new;
+  const fs::file_status status = fs::status(before, is_new);
+  if (fs::is_regular_file(status)) fs::permissions(after, status.permissions(), is_new);
+}
+
 }  // namespace
 
 void create_folder(const std::string& path) {
@@ -119,6 +126,9 @@ void check_can_write(const std::string& path, const std::string& hint) {
   std::error_code names_nothing;  // what is wrong with it then, opening tells
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
+  }
+  if (fs::exists(path, names_nothing) && !fs::is_regular_file(path, names_nothing)) {
+    fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", path);
   }
   remove_stale_files(folder_of(path));
   const std::string probe = temporary_name(path, '+');
@@ -157,6 +167,7 @@ void write_safely(const std::string& to, const std::function<void(const std::str
     }
     throw Error(error.kind(), message + why_not_written(path, message));
   }
+  keep_permissions(path, name);
   sync_path(path, name);
   if (std::rename(name.c_str(), path.c_str()) != 0) {
     fail(ErrorKind::output, "{}: cannot rename the finished file to it: {}", path,

@@ -32,6 +32,34 @@ TEST_F(Compare, JsonHoldsEveryMetric) {
   EXPECT_TRUE(compared("a.exr a.exr")["equal"]);
 }
 
+TEST_F(Compare, SaysWhetherAlphaDiffers) {
+  const ImageFile file = ImageFile::read(folder_ / "alpha.exr");
+  std::vector<Plane> planes;
+  for (int c = 0; c < 4; ++c) planes.push_back(file.plane(0, c));
+  const auto write = [&](const std::string& name, float by, std::size_t at) {
+    std::vector<Plane> changed = planes;
+    changed[3][at] += by;
+    ImageFile::from_planes({"R", "G", "B", "A"}, changed, 48, 32, Sample::single_float)
+        .write(folder_ / name);
+  };
+  write("same.exr", 0, 0);
+  write("other.exr", -0.25f, 7);
+  EXPECT_EQ(compared("same.exr same.exr")["alpha_difference"], 0.0);
+  EXPECT_TRUE(compared("same.exr same.exr")["equal"]);
+  EXPECT_NEAR(compared("same.exr other.exr")["alpha_difference"], 0.25, 1e-6);
+  EXPECT_FALSE(compared("same.exr other.exr")["equal"]);
+  EXPECT_FALSE(compared("a.exr same.exr").contains("alpha_difference"));
+  const std::string words = "alpha differs by up to 0.25: none of these figures counts it\n";
+  EXPECT_NE(defray(folder_, "compare same.exr other.exr").out.find(words), std::string::npos);
+  EXPECT_EQ(defray(folder_, "compare same.exr same.exr").out.find("alpha"), std::string::npos);
+  ImageFile::from_planes({"Y"}, {Plane(48 * 32, 1.0f)}, 48, 32).write(folder_ / "mask.exr");
+  EXPECT_FALSE(compared("same.exr other.exr --mask mask.exr")["equal"]);
+  Plane elsewhere(48 * 32, 1.0f);
+  elsewhere[7] = 0;
+  ImageFile::from_planes({"Y"}, {elsewhere}, 48, 32).write(folder_ / "mask.exr");
+  EXPECT_TRUE(compared("same.exr other.exr --mask mask.exr")["equal"]);
+}
+
 TEST_F(Compare, TextSaysTheSame) {
   const std::string text =
       defray(folder_, "compare a.exr b.exr --depth z.exr --camera camera.json").out;
