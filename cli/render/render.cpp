@@ -59,6 +59,10 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   }
   const std::vector<int> numbers =
       job.frames.empty() ? find_frames(p.input) : parse_frames(job.frames);
+  const std::string gaps = job.frames.empty() ? gaps_between(numbers) : "";
+  if (!gaps.empty() && !job.quiet) {
+    print_error(fmt::format("defray: note: {}: no frame {}", p.input, gaps));
+  }
   for (const std::string& name : outputs_of(p)) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
       fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,

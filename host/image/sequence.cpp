@@ -199,6 +199,21 @@ std::vector<int> find_frames(const std::string& pattern) {
   return frames;
 }
 
+std::string gaps_between(const std::vector<int>& frames) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> gaps;
+  bool is_even = true;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    is_even &= std::int64_t{frames[i]} - frames[i - 1] == std::int64_t{frames[1]} - frames[0];
+    const int first = frames[i - 1] + 1, last = frames[i] - 1;
+    if (first > last || gaps.size() > most) continue;
+    gaps.push_back(gaps.size() == most ? "..."
+                   : first == last     ? fmt::format("{}", first)
+                                       : fmt::format("{}-{}", first, last));
+  }
+  return is_even ? "" : join(gaps, " ");
+}
+
 std::string frame_path(const std::string& pattern, int frame) {
   const std::optional<Pattern> found = find_pattern(pattern);
   return found ? folder_prefix(pattern) + found->name(frame) : pattern;

@@ -16,6 +16,10 @@ std::vector<int> parse_frames(const std::string& text);
 /// Numbers of the files that match a pattern, ascending. Throws Error(input) when none does.
 std::vector<int> find_frames(const std::string& pattern);
 
+/// What lies between ascending numbers that are not equally far apart, as "3 5-9"; at most five
+/// gaps and "...".
+std::string gaps_between(const std::vector<int>& frames);
+
 /// The name of one frame; a name without a pattern stays as it is.
 std::string frame_path(const std::string& pattern, int frame);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -28,6 +29,24 @@ std::optional<double> number(const std::string& path, const json& object, const 
   return object[key].get<double>();
 }
 
+/// A number that makes no sense as 0 or less.
+std::optional<double> positive(const std::string& path, const json& object, const char* key) {
+  const std::optional<double> value = number(path, object, key);
+  if (value && !(*value > 0)) {
+    fail(ErrorKind::input, "{}: '{}' is {}: it must be above 0", path, key, *value);
+  }
+  return value;
+}
+
+/// Of the focus: "inf", too, which JSON has no number for.
+std::optional<double> distance(const std::string& path, const json& object, const char* key) {
+  if (object.is_object() && object.contains(key) && object[key].is_string() &&
+      lower_case(object[key].get<std::string>()) == "inf") {
+    return std::numeric_limits<double>::infinity();
+  }
+  return positive(path, object, key);
+}
+
 /// The focus setting asked for, or the only one there is. No copy: the JSON library copies one call
 /// deep a level, and a file may have more levels than the stack.
 const json& choose_setting(const std::string& path, const json& root, const std::string& setting) {
@@ -35,7 +54,11 @@ const json& choose_setting(const std::string& path, const json& root, const std:
   const json& settings = root.contains("focus_settings") ? root["focus_settings"] : none;
   if (!settings.is_object()) fail(ErrorKind::input, "{}: 'focus_settings' is no object", path);
   std::vector<std::string> names;
-  for (const auto& item : settings.items()) names.push_back(item.key());
+  for (const auto& item : settings.items()) {
+    names.push_back(item.key());
+    if (item.value().is_object()) continue;
+    fail(ErrorKind::input, "{}: focus setting '{}' is no object", path, item.key());
+  }
   if (!setting.empty()) {
     if (settings.contains(setting)) return settings[setting];
     if (names.empty()) {
@@ -155,15 +178,16 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   const json& focus = choose_setting(path, root, setting);
   CameraValues values;
   values.source = values.sensor_source = path;
-  values.focal_length_mm = number(path, root, "focal_length_mm");
-  values.sensor_width_mm = number(path, root, "sensor_width_mm");
-  values.sensor_height_mm = number(path, root, "sensor_height_mm");
-  values.fov_deg = number(path, root, "fov_deg");
+  values.focal_length_mm = positive(path, root, "focal_length_mm");
+  values.sensor_width_mm = positive(path, root, "sensor_width_mm");
+  values.sensor_height_mm = positive(path, root, "sensor_height_mm");
+  values.fov_deg = positive(path, root, "fov_deg");
   values.fit = sensor_fit(path, root);
-  values.focus_distance_units = times(number(path, focus, "focus_distance_m"), 1 / metres_per_unit);
+  values.focus_distance_units =
+      times(distance(path, focus, "focus_distance_m"), 1 / metres_per_unit);
   // Renderers trace with the diameter; an f-number beside it is rounded or derived.
   values.aperture_diameter_mm = times(number(path, focus, "aperture_diameter_m"), 1000);
-  if (!values.aperture_diameter_mm) values.fstop = number(path, focus, "f_stop");
+  if (!values.aperture_diameter_mm) values.fstop = positive(path, focus, "f_stop");
   values.sought = {{"focal_length_mm", "focal_length_mm"},
                    {"focus_distance_units", "focus_distance_m"},
                    {"fstop", "f_stop or aperture_diameter_m"}};

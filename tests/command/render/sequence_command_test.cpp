@@ -34,6 +34,9 @@ TEST(Sequence, RendersFindsSkipsAndReports) {
   for (const char* name : {"a.0001.exr", "a.0002.exr", "a.0005.exr"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
+  const Result gap = defray(folder, "render s.%04d.exr -o g.%04d.exr" + lens);
+  EXPECT_EQ(gap.code, 0);
+  EXPECT_EQ(gap.err, "defray: note: s.%04d.exr: no frame 3-4\n");
   std::filesystem::remove(folder / "a.0002.exr");
   const Result skip =
       defray(folder, "render s.%04d.exr -o a.%04d.exr --skip-existing --frames 1,2,5" + lens);

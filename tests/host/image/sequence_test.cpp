@@ -88,6 +88,16 @@ TEST(Sequence, Patterns) {
   expect_error(ErrorKind::usage, {"2 frame patterns"}, [] { frame_path("s_%04d.####.exr", 1); });
 }
 
+TEST(Sequence, GapsAreWhatIsMissingBetweenFrames) {
+  EXPECT_EQ(gaps_between({7}), "");
+  EXPECT_EQ(gaps_between({-1, 0, 1, 2}), "");
+  EXPECT_EQ(gaps_between({1, 3, 5}), "");  // on twos
+  EXPECT_EQ(gaps_between({1, 2, 4, 10}), "3 5-9");
+  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11}), "2 4 6 8 10");
+  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11, 13, 15}), "2 4 6 8 10 ...");
+  EXPECT_EQ(gaps_between({-2147483647, 0, 2147483647}), "");
+}
+
 TEST(Sequence, FoldersAndLiteralNamesAreNoPatterns) {
   const Folder folder;
   for (const char* name : {"me@home", "job_%d#2"}) {

@@ -45,6 +45,14 @@ TEST(Camera, BadFiles) {
       {"[1]", "camera.json: not a JSON object"},
       {"3", "camera.json: not a JSON object"},
       {R"({"focal_length_mm": "x"})", "camera.json: 'focal_length_mm' is not a number"},
+      {R"({"focal_length_mm": 0})", "camera.json: 'focal_length_mm' is 0: it must be above 0"},
+      {R"({"sensor_width_mm": -1})", "camera.json: 'sensor_width_mm' is -1: it must be above 0"},
+      {R"({"sensor_height_mm": -1})", "camera.json: 'sensor_height_mm' is -1"},
+      {R"({"fov_deg": -4})", "camera.json: 'fov_deg' is -4: it must be above 0"},
+      {R"({"focus_distance_m": -3})", "camera.json: 'focus_distance_m' is -3"},
+      {R"({"focus_distance_m": "far"})", "camera.json: 'focus_distance_m' is not a number"},
+      {R"({"f_stop": 0})", "camera.json: 'f_stop' is 0: it must be above 0"},
+      {R"({"focus_settings": {"a": 5}})", "camera.json: focus setting 'a' is no object"},
       {R"({"focus_settings": 3})", "camera.json: 'focus_settings' is no object"}};
   for (const auto& mistake : mistakes) {
     expect_error(ErrorKind::input, {mistake.second},
@@ -58,10 +66,15 @@ TEST(Camera, BadFiles) {
                [&] { make_lens(half, 1, LensModel::cg, 0); });
 }
 
+TEST(Camera, AFocusMayBeAtInfinity) {
+  const CameraValues far = parse_camera_json(R"({"focus_distance_m": "Inf"})", "c.json", "", 0.01);
+  EXPECT_TRUE(std::isinf(*far.focus_distance_units));
+}
+
 TEST(Camera, AJsonFileOfManyLevelsIsRead) {
   const std::string deep = std::string(200000, '[') + std::string(200000, ']');
-  for (const std::string key : {"focus_settings\": {\"a", "notes"}) {
-    const std::string close = key == "notes" ? "}" : "}}";
+  for (const std::string key : {"focus_settings\": {\"a\": {\"b", "notes"}) {
+    const std::string close = key == "notes" ? "}" : "}}}";
     const std::string text = "{\"focal_length_mm\": 50, \"" + key + "\": " + deep + close;
     EXPECT_EQ(parse_camera_json(text, "camera.json", "", 1).focal_length_mm, 50);
   }
