@@ -88,6 +88,7 @@ TEST(Blocks, HaveTheGrainAndGradientOfTheirPixels) {
   scene.set_coc([](int, int) { return 2.0; });
   EXPECT_EQ(scene.blocks().at(1, 1).slight_gradient, slight.slight_gradient);
   EXPECT_EQ(scene.blocks().at(1, 1).slight_grain, 0.0f);
+  EXPECT_EQ(scene.blocks().at(1, 1).soft_grain, 0.0f);
   scene.set_coc([](int, int) { return -4.0; });
   const PixelBlock soft = scene.blocks().at(1, 1);
   EXPECT_EQ(soft.soft_grain, sharp.sharp_grain);

@@ -64,6 +64,22 @@ TEST(Signs, ReachIsThatOfWhatIsNear) {
   EXPECT_TRUE(reaching(20, 100));
 }
 
+TEST(Signs, BlurReachesFromEverySide) {
+  const std::size_t sampling = index_of("contrast in reach / lens points");
+  PixelBlocks even = dark(17, 17);
+  for (int x = 0; x < 17; x += 2) {
+    for (int y = 0; y < 17; ++y) at(even, x, y).pinhole = grey(1);
+  }
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      PixelBlocks blocks = even;
+      at(blocks, 8 + i, 8 + j).reach = 3;
+      EXPECT_GT(signs_at(blocks, 8, 8)[sampling], 0.0f) << i << " " << j;
+      EXPECT_EQ(signs_at(blocks, 8 - 8 * (i < 0 ? -1 : 1), 8)[sampling], 0.0f) << i << " " << j;
+    }
+  }
+}
+
 TEST(Signs, HiddenColoursAreLikeThoseAtTheBack) {
   const std::size_t hidden = index_of("unseen^2 contrast behind");
   PixelBlocks blocks = dark(9, 9);
