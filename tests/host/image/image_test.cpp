@@ -1,8 +1,6 @@
 // Image files: what is read is written back; what is damaged is refused.
 #include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
-#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -32,43 +30,6 @@ TEST(ImageFile, RoundTripKeepsHalfAndFloat) {
     const double tolerance = sample == Sample::half_float ? 1e-3 : 0;
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(read.plane(0, 0)[i], r[i], tolerance);
   }
-}
-
-TEST(ImageFile, OfATextureTheLargestLevelIsReadAndWritten) {
-  const Folder folder;
-  const std::vector<Plane> planes{random_plane({96, 80}, 1), random_plane({96, 80}, 2)};
-  ImageFile::from_planes({"R", "Z"}, planes, 96, 80, Sample::single_float).write(folder / "in.exr");
-  EXPECT_FALSE(ImageFile::read(folder / "in.exr").has_smaller_levels());
-  ASSERT_TRUE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture,
-                                               OIIO::ImageBuf(folder / "in.exr"),
-                                               folder / "texture.exr", OIIO::ImageSpec()));
-  ImageFile texture = ImageFile::read(folder / "texture.exr");
-  std::vector<std::string> notes;
-  write_picture(folder / "out.exr", texture, {0, "", "", {0}}, {planes[1]}, Bits::as_input, notes);
-  EXPECT_EQ(
-      notes,
-      (std::vector<std::string>{"is a texture: its largest MIP level alone is read and written"}));
-  const auto out = OIIO::ImageInput::open(folder / "out.exr");
-  EXPECT_FALSE(out->seek_subimage(0, 1));
-  for (const char* stale : {"oiio:SHA-1", "oiio:AverageColor", "textureformat"}) {
-    EXPECT_EQ(out->spec(0).find_attribute(stale), nullptr) << stale;
-  }
-  EXPECT_EQ(ImageFile::read(folder / "out.exr").plane(0, 0), planes[1]);
-}
-
-TEST(SafeOutput, KeepsPermissionsAndReplacesNoPipe) {
-  namespace fs = std::filesystem;
-  const Folder folder;
-  write_text(folder / "a.txt", "before");
-  const auto own = fs::perms::owner_read | fs::perms::owner_write;
-  fs::permissions(folder / "a.txt", own);
-  write_text(folder / "a.txt", "after");
-  EXPECT_EQ(fs::status(folder / "a.txt").permissions(), own);
-  EXPECT_EQ(bytes_of(folder / "a.txt"), "after");
-  ASSERT_EQ(mkfifo((folder / "pipe.exr").c_str(), 0600), 0);
-  expect_error(ErrorKind::output, {"pipe.exr: is a pipe or a device", "name a file"},
-               [&] { check_can_write(folder / "pipe.exr"); });
-  EXPECT_TRUE(fs::is_fifo(folder / "pipe.exr"));
 }
 
 TEST(ImageFile, SharedMultiPartFileSurvivesUntouched) {
