@@ -44,8 +44,7 @@ CocRange Frame::coc_range() const {
 }
 
 bool Frame::is_in_margin(std::size_t pixel) const {
-  const int x = static_cast<int>(pixel % size(width)), y = static_cast<int>(pixel / size(width));
-  return x < margin || y < margin || x >= width - margin || y >= height - margin;
+  return is_in_margin(static_cast<int>(pixel % size(width)), static_cast<int>(pixel / size(width)));
 }
 
 std::uint32_t Frame::data_pixel(std::size_t surface) const {

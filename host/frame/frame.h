@@ -93,6 +93,9 @@ struct Frame {
   }
 
   bool is_in_margin(std::size_t pixel) const;
+  bool is_in_margin(int x, int y) const {
+    return x < margin || y < margin || x >= width - margin || y >= height - margin;
+  }
 
   /// The picture's pixel whose data a surface has.
   std::uint32_t data_pixel(std::size_t surface) const;

@@ -149,7 +149,8 @@ bool ImageFile::is_lossy() const {
 
 bool ImageFile::has_smaller_levels() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
-    return !part.spec.get_string_attribute("textureformat").empty();
+    return part.spec.tile_width > 0 && !part.spec.get_string_attribute("textureformat").empty() &&
+           part.spec.get_int_attribute("openexr:levelmode", 1) != 0;
   });
 }
 
@@ -197,12 +198,18 @@ void ImageFile::write(const std::string& path) const {
   std::vector<ImageSpec> specs;
   for (const Part& part : parts_) {
     specs.push_back(part.spec);
-    // The largest level alone was read, and other colours are written; the new file counts its own
-    // chunks.
-    for (const char* stale : {"openexr:levelmode", "textureformat", "openexr:chunkCount",
-                              "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor"}) {
+    // Other colours are written; the new file counts its own chunks.
+    for (const char* stale :
+         {"openexr:chunkCount", "oiio:SHA-1", "oiio:AverageColor", "oiio:ConstantColor"}) {
       specs.back().erase_attribute(stale);
     }
+    // The largest level alone was read. An environment stays one, of that level.
+    specs.back().erase_attribute("openexr:levelmode");
+    const std::string texture = specs.back().get_string_attribute("textureformat");
+    if (texture == "Plain Texture")
+      specs.back().erase_attribute("textureformat");
+    else if (!texture.empty())
+      specs.back().attribute("openexr:levelmode", 0);
   }
   if (specs.size() == 1) {
     check(output->open(path, specs.front()));

@@ -62,11 +62,9 @@ Words patterns_pixels(const Frame& f, const Frame& behind, const Words& mixed, W
   const Rows wanted = f.wanted_rows();
   parallel_for(wanted.count(), [&](int row) {
     const int y = wanted.y + row;
-    const bool is_in_rows = y >= f.margin && y < f.height - f.margin;
     for (int x = 0; x < f.width; ++x) {
       const std::size_t i = f.index(x, y);
-      const bool is_in_margin = !is_in_rows || x < f.margin || x >= f.width - f.margin;
-      const bool hides = is_mixed[i] || inverse[i] >= 0 || is_in_margin;
+      const bool hides = is_mixed[i] || inverse[i] >= 0 || f.is_in_margin(x, y);
       const std::uint32_t known = hides ? 0 : DEFRAY_PATTERN_KNOWN;
       const std::uint32_t word = known | shown_8_bit(rgb[0][i]) | shown_8_bit(rgb[1][i]) << 8 |
                                  shown_8_bit(rgb[2][i]) << 16;

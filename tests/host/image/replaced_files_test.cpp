@@ -37,6 +37,19 @@ TEST(ImageFile, OfATextureTheLargestLevelIsReadAndWritten) {
   EXPECT_EQ(ImageFile::read(folder / "out.exr").plane(0, 0), planes[1]);
 }
 
+TEST(ImageFile, AnEnvironmentStaysOne) {
+  const Folder folder;
+  OIIO::ImageSpec spec(64, 32, 1, OIIO::TypeDesc::HALF);
+  spec.channelnames = {"R"};
+  spec.attribute("textureformat", "LatLong Environment");
+  ASSERT_TRUE(OIIO::ImageBuf(spec).write(folder / "in.exr"));
+  const ImageFile in = ImageFile::read(folder / "in.exr");
+  EXPECT_FALSE(in.has_smaller_levels());
+  in.write(folder / "out.exr");
+  const auto out = OIIO::ImageInput::open(folder / "out.exr");
+  EXPECT_EQ(out->spec().get_string_attribute("textureformat"), "LatLong Environment");
+}
+
 TEST(SafeOutput, KeepsPermissionsAndReplacesNoPipe) {
   namespace fs = std::filesystem;
   const Folder folder;
