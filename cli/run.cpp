@@ -48,8 +48,8 @@ std::vector<std::string> known_words(const CLI::App& app) {
   return words;
 }
 
-/// " There are --aperture-diameter, --aperture-image." for words that go on like this one; an
-/// aperture can be an f-number too.
+/// " There are --aperture-diameter, --aperture-image." for words that go on like this one, or
+/// " Did you mean '--rays'?"; an aperture can be an f-number too.
 std::string continued(const std::string& word, const std::vector<std::string>& known) {
   if (!word.starts_with("--") || word.size() < 4) return "";
   std::vector<std::string> longer;
@@ -57,6 +57,7 @@ std::string continued(const std::string& word, const std::vector<std::string>& k
     if (name.starts_with(word)) longer.push_back(name);
   }
   if (word == "--aperture") longer.insert(longer.begin(), "--fstop");
+  if (longer.size() == 1) return " Did you mean '" + longer.front() + "'?";
   return longer.empty() ? "" : " There are " + join(longer, ", ") + ".";
 }
 
@@ -78,8 +79,8 @@ std::string explain_extras(const CLI::App& app) {
   const char* kind = word.rfind('-', 0) == 0 ? "option" : chosen.empty() ? "command" : "argument";
   const std::string help =
       chosen.empty() ? "defray --help" : "defray " + scope.get_name() + " --help";
-  std::string hint = did_you_mean(word, known_words(scope));
-  if (hint.empty()) hint = continued(word, known_words(scope));
+  std::string hint = continued(word, known_words(scope));
+  if (hint.empty()) hint = did_you_mean(word, known_words(scope));
   if (is_picture(word)) {
     hint =
         " Several pictures? A sequence is one name with #### for its numbers, in quotes: "

@@ -25,7 +25,7 @@ ColourFile read_colour_file(const std::string& path, const ChannelRequest& reque
 
 void set_region(Region& region, const std::string& windows, const std::string& crop) {
   region.overlap_only = choice<bool>("--windows", windows, {{"union", false}, {"overlap", true}});
-  if (!crop.empty()) region.crop = parse_window("--crop", crop);
+  if (!crop.empty()) region.crop = parse_window("--crop", crop, true);
 }
 
 void require_same_display(const ColourFile& a, const ColourFile& b) {

@@ -54,7 +54,8 @@ void print_text(const FileInfo& info) {
   if (info.colour) {
     fmt::print("  colour {}\n", join(colour_names(info), " "));
   } else {
-    fmt::print("  no colour: {}\n", with_field_names(info.no_colour, option_of_field));
+    const std::string why = with_field_names(info.no_colour, option_of_field);
+    fmt::print("  {}\n", why.substr(why.starts_with(info.path + ": ") ? info.path.size() + 2 : 0));
   }
   if (info.depth.empty()) fmt::print("  no depth: give it with --depth FILE\n");
   for (const DepthCandidate& d : info.depth) print_depth(d);

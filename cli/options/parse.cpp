@@ -59,10 +59,11 @@ double parse_background(const std::string& text) {
   return number;
 }
 
-Window parse_window(const std::string& option, const std::string& text) {
-  static const std::regex form(R"(([1-9]\d{0,5})x([1-9]\d{0,5})\+(\d{1,6})\+(\d{1,6}))");
+Window parse_window(const std::string& option, const std::string& text, bool may_be_left_of_0) {
+  static const std::regex form(R"(([1-9]\d{0,5})x([1-9]\d{0,5})([+-]\d{1,6})([+-]\d{1,6}))");
   std::smatch match;
-  if (!std::regex_match(text, match, form)) {
+  const bool has_form = std::regex_match(text, match, form);
+  if (!has_form || (!may_be_left_of_0 && text.find('-') != std::string::npos)) {
     fail(ErrorKind::usage,
          "{} '{}': write it as 3840x2160+100+50, width and height, then x and y of the left upper "
          "pixel",

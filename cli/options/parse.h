@@ -20,7 +20,8 @@ std::string unit_of(double metres);
 double parse_background(const std::string& text);
 
 /// "3840x2160+100+50" -> width, height, x and y. Throws Error(usage).
-Window parse_window(const std::string& option, const std::string& text);
+Window parse_window(const std::string& option, const std::string& text,
+                    bool may_be_left_of_0 = false);
 
 /// "512x512" -> width and height. Throws Error(usage).
 Window parse_size(const std::string& option, const std::string& text);

@@ -65,8 +65,9 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   }
   for (const std::string& name : outputs_of(p)) {
     if (numbers.size() > 1 && !name.empty() && !has_frame_pattern(name)) {
-      fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", name,
-           numbers.size());
+      fail(ErrorKind::usage,
+           "{}: {} frames would go to one file; give a name with ####, or one of them: --frames {}",
+           name, numbers.size(), numbers.front());
     }
   }
   return {numbers.begin(), numbers.end()};

@@ -81,6 +81,12 @@ void print_chosen(const RenderCommand& job, const FrameOutcome& outcome) {
   fmt::print("  the same again: {}\n", line);
 }
 
+/// Of a frame among others.
+Error with_remedy(const Error& error, std::size_t frames) {
+  if (frames == 1 || error.kind() != ErrorKind::input) return error;
+  return Error(error.kind(), error.marked() + "; --skip-bad-frames leaves such frames out");
+}
+
 }  // namespace
 
 SequenceRun::SequenceRun(const RenderCommand& job, std::vector<std::optional<int>> frames)
@@ -153,7 +159,8 @@ void SequenceRun::finish(Work work) {
     work.outcome.error = job_.named(message_of(*work.error));
     if (job_.json) report(work.outcome);
     bar_.clear();
-    if (!job_.skip_bad_frames || work.error->kind() == ErrorKind::device) throw *work.error;
+    if (work.error->kind() == ErrorKind::device) throw *work.error;
+    if (!job_.skip_bad_frames) throw with_remedy(*work.error, frames_.size());
     fmt::print(stderr, "defray: error: {}\n", work.outcome.error);
     ++failed_;
     return;

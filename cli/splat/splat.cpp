@@ -76,6 +76,33 @@ void show(const std::vector<Plane>& colour, const SplatSettings& s, const std::s
   }
 }
 
+/// What to know about a picture; `written` about its file.
+std::vector<std::string> notes_of(const SplatReport& report, std::vector<std::string> written) {
+  std::vector<std::string> notes = std::move(written);
+  if (report.from_behind > mostly_behind) {
+    notes.push_back(fmt::format(
+        "{:.0f} % of what is before the camera is seen from behind and not drawn: --two-sided "
+        "draws it; normals may point inwards",
+        100 * report.from_behind));
+  } else if (report.seen == 0) {
+    notes.push_back("nothing of the cloud is in the picture: see --from, --look-at");
+  }
+  return notes;
+}
+
+void report(const SplatCommand& job, const SplatShot& shot, const SplatOutcome& outcome) {
+  if (!job.quiet) {
+    for (const std::string& note : outcome.notes) {
+      print_error(fmt::format("defray: note: {}: {}", shot.output, note));
+    }
+  }
+  if (job.json) {
+    print_json(shot, outcome);
+  } else if (!job.quiet) {
+    print_text(shot, outcome);
+  }
+}
+
 int run(const SplatCommand& job) {
   check_output_format(job.output);
   const std::vector<SplatShot> shots = shots_of(job);
@@ -95,24 +122,11 @@ int run(const SplatCommand& job) {
     SplatResult result = splat(device, model, camera.pose, camera.lens, job.settings,
                                [&](double share) { bar.update(i, share); });
     const double seconds = watch.seconds();
-    const std::vector<std::string> notes = write(shot.output, job, result);
+    const std::vector<std::string> written = write(shot.output, job, result);
     bar.clear();
-    if (result.report.seen == 0 && !job.quiet) {
-      print_error("defray: note: " + shot.output +
-                  ": nothing of the cloud is in the picture: see --from, --look-at");
-    }
-    if (result.report.from_behind > mostly_behind && !job.quiet) {
-      print_error(fmt::format(
-          "defray: note: {:.0f} % of what is before the camera is seen from behind and not drawn: "
-          "--two-sided draws it; normals may point inwards",
-          100 * result.report.from_behind));
-    }
-    if (job.json) {
-      print_json(shot.output, camera.lens, camera.pose, result.report, seconds);
-    } else if (!job.quiet) {
-      print_text(shot.output, camera.lens, result.report, seconds, device);
-      for (const std::string& note : notes) fmt::print("  {}\n", note);
-    }
+    report(
+        job, shot,
+        {source, device.name(), camera, result.report, seconds, notes_of(result.report, written)});
     last = std::move(result.colour);
   }
   if (job.show) show(last, job.settings, "defray: " + shots.back().output);

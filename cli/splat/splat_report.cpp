@@ -2,39 +2,49 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace defray::cli {
 
-void print_json(const std::string& path, const Lens& lens, const CameraPose& pose,
-                const SplatReport& r, double seconds) {
+void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
+  const SplatReport& r = outcome.report;
+  const Lens& lens = outcome.camera.lens;
   nlohmann::ordered_json stages = nlohmann::ordered_json::object();
   for (const StageTime& s : r.stages) stages[s.stage] = s.seconds;
-  const nlohmann::ordered_json line{{"output", path},
-                                    {"points", r.points},
-                                    {"drawn", r.drawn},
-                                    {"seen", r.seen},
-                                    {"from_behind", r.from_behind},
-                                    {"fragments", r.fragments},
-                                    {"from", pose.from},
-                                    {"look_at", pose.look_at},
-                                    {"focal_length_mm", lens.focal_length_mm},
-                                    {"aperture_diameter_mm", lens.aperture_diameter_mm},
-                                    {"sensor_width_mm", lens.sensor_width_mm},
-                                    {"focus_distance_units", lens.focus_distance_units},
-                                    {"nearest_units", r.nearest_units},
-                                    {"farthest_units", r.farthest_units},
-                                    {"nearest_coc_px", r.nearest_coc_px},
-                                    {"farthest_coc_px", r.farthest_coc_px},
-                                    {"stages", stages},
-                                    {"tuned", r.tuned},
-                                    {"seconds", seconds}};
-  fmt::print("{}\n", line.dump());
+  nlohmann::ordered_json line;
+  if (shot.frame) line["frame"] = *shot.frame;
+  line.update({{"status", "ok"},
+               {"input", outcome.input},
+               {"output", shot.output},
+               {"device", outcome.device},
+               {"points", r.points},
+               {"drawn", r.drawn},
+               {"seen", r.seen},
+               {"from_behind", r.from_behind},
+               {"fragments", std::llround(r.fragments)},
+               {"from", outcome.camera.pose.from},
+               {"look_at", outcome.camera.pose.look_at},
+               {"focal_length_mm", lens.focal_length_mm},
+               {"aperture_diameter_mm", lens.aperture_diameter_mm},
+               {"sensor_width_mm", lens.sensor_width_mm},
+               {"focus_distance_units", lens.focus_distance_units},
+               {"nearest_units", r.nearest_units},
+               {"farthest_units", r.farthest_units},
+               {"nearest_coc_px", r.nearest_coc_px},
+               {"farthest_coc_px", r.farthest_coc_px},
+               {"stages_s", stages},
+               {"notes", outcome.notes},
+               {"tuned", r.tuned},
+               {"render_s", outcome.render_seconds}});
+  // Names come from files: bytes that are no UTF-8 are replaced, not fatal.
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-void print_text(const std::string& path, const Lens& lens, const SplatReport& r, double seconds,
-                const Device& device) {
-  fmt::print("{}\n", path);
+void print_text(const SplatShot& shot, const SplatOutcome& outcome) {
+  const SplatReport& r = outcome.report;
+  const Lens& lens = outcome.camera.lens;
+  fmt::print("{}\n", shot.output);
   fmt::print("  {} points drawn as {} splats, {} seen, {:.0f} fragments\n", r.points, r.drawn,
              r.seen, r.fragments);
   if (r.seen > 0) {
@@ -43,7 +53,7 @@ void print_text(const std::string& path, const Lens& lens, const SplatReport& r,
   }
   fmt::print("  lens {:.6g} mm, aperture {:.6g} mm, focus {:.6g} units\n", lens.focal_length_mm,
              lens.aperture_diameter_mm, lens.focus_distance_units);
-  fmt::print("  {:.3f} s on {}\n", seconds, device.name());
+  fmt::print("  {:.3f} s on {}\n", outcome.render_seconds, outcome.device);
 }
 
 }  // namespace defray::cli

@@ -1,16 +1,25 @@
 #pragma once
 // What defray splat prints about a picture.
 #include <string>
+#include <vector>
 
-#include "defray/splat.h"
+#include "splat/splat_shots.h"
 
 namespace defray::cli {
 
-/// One JSON line.
-void print_json(const std::string& path, const Lens& lens, const CameraPose& pose,
-                const SplatReport& r, double seconds);
+/// A picture that was made.
+struct SplatOutcome {
+  std::string input;  ///< The cloud's file, or "model figure".
+  std::string device;
+  SplatCamera camera;
+  SplatReport report;
+  double render_seconds = 0;
+  std::vector<std::string> notes;
+};
 
-void print_text(const std::string& path, const Lens& lens, const SplatReport& r, double seconds,
-                const Device& device);
+/// One JSON line.
+void print_json(const SplatShot& shot, const SplatOutcome& outcome);
+
+void print_text(const SplatShot& shot, const SplatOutcome& outcome);
 
 }  // namespace defray::cli

@@ -30,12 +30,25 @@ Table table_of(const Trade& trade) {
               "Decibels are PSNR of sRGB-encoded values. Expected ones are told from how the "
               "pictures look, and hold between the two others in nine of ten scenes.",
               {"picture", "time", "expected dB", "true dB", "command"},
+              {},
+              {"picture", "recommended", "seconds", "spread", "expected_db", "low_db", "high_db",
+               "true_db", "command"},
               {}};
+  const auto figure = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : ""; };
   for (std::size_t i = 0; i < trade.points.size(); ++i) {
     const TradePoint& p = trade.points[i];
     table.rows.push_back({p.name + (i == trade.recommended ? " (recommended)" : ""),
                           fmt::format("{:.3f} s ± {:.0f} %", p.seconds, 100 * p.spread),
                           range(p.expected), decibels(p.true_db), p.command});
+    std::vector<std::string> cells{p.name, i == trade.recommended ? "yes" : "no", figure(p.seconds),
+                                   figure(p.spread)};
+    for (double ExpectedError::*const value :
+         {&ExpectedError::psnr_db, &ExpectedError::low_db, &ExpectedError::high_db}) {
+      cells.push_back(p.expected ? figure((*p.expected).*value) : "");
+    }
+    cells.push_back(figure(p.true_db));
+    cells.push_back(p.command);
+    table.csv_rows.push_back(std::move(cells));
   }
   return table;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/stopwatch.h"
 #include "commands.h"
 #include "image/safe_output.h"
 #include "opencl/launch_table.h"
@@ -151,11 +152,13 @@ std::vector<tuning::Result> tune(const TuneCommand& job, Device& device, const s
   const double seconds = parse_seconds("--budget", job.budget);
   Tuner tuner(device, path, job.kernels);
   const std::vector<Workload> all = workloads(job, device);
-  const double each = seconds / static_cast<double>(all.size());
   ProgressBar bar(static_cast<std::size_t>(std::ceil(seconds)), "s", !job.quiet && !job.json);
+  const Stopwatch watch;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    tuner.run(all[i], each, [&](double done, const std::string& best) {
-      const double at = each * static_cast<double>(i) + std::min(done, each);
+    const double before = watch.seconds();
+    const double own = std::max(seconds - before, 0.0) / static_cast<double>(all.size() - i);
+    tuner.run(all[i], own, [&](double done, const std::string& best) {
+      const double at = std::min(before + done, seconds);
       bar.update(static_cast<std::size_t>(at), at - std::floor(at),
                  best.empty() ? all[i].about : all[i].about + ": " + best);
     });
@@ -213,6 +216,8 @@ int run(const OptionTable& options, TuneCommand& job) {
   if (!job.folder.empty()) write_report(job.folder, report);
   if (job.json) {
     print_json(report);
+  } else if (!job.export_to.empty() && !job.quiet) {
+    fmt::print("{}\n", job.export_to);
   } else if (!job.quiet) {
     print_text(report);
   }

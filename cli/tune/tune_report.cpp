@@ -77,12 +77,12 @@ void print_text(const TuneReport& report) {
   for (const Finding& f : all) {
     if (std::exchange(picture, f.place.picture) != f.place.picture) {
       fmt::print("  {}; for {} frames\n", picture, f.place.frame_class);
-      fmt::print("    {:<20} {:>8} {:>9} {:>8} {:>9}  {:<20} {:>5}\n", "kernel", "own", "ms",
-                 "best", "ms", "gain, quartiles", "tried");
+      fmt::print("    {:<20} {:>8} {:>9} {:>8} {:>9}  {:<20} {:>5} {:>5}\n", "kernel", "own", "ms",
+                 "best", "ms", "gain, quartiles", "tried", "used");
     }
-    fmt::print("    {:<20} {:>8} {:>9.3f} {:>8} {:>9.3f}  {:<20} {:>5}{}\n", f.place.kernel,
+    fmt::print("    {:<20} {:>8} {:>9.3f} {:>8} {:>9.3f}  {:<20} {:>5} {:>5}\n", f.place.kernel,
                to_string(f.own), f.own_ms, to_string(f.best), f.best_ms, gain_of(f), f.tried,
-               f.is_adopted ? "  used" : "");
+               f.is_adopted ? "best" : "own");
   }
   fmt::print("  {}\n", report.path);
 }

@@ -148,12 +148,13 @@ void Tuner::run(const Workload& workload, double seconds, const TuneProgress& pr
   }
   tuned_.insert(kernels.begin(), kernels.end());
   if (kernels.empty()) return;
-  double passed = watch.seconds();
+  double passed = watch.seconds(), step = 0;
   do {
     progress(passed, best_so_far());
     keep(tries(next_shapes(kernels, passed < share_to_explore * seconds)));
-    passed = watch.seconds();
-  } while (passed < seconds && !is_done(kernels));
+    step = watch.seconds() - passed;
+    passed += step;
+  } while (passed + step < seconds && !is_done(kernels));
   set({});
 }
 

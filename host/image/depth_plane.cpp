@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "image/output.h"
 #include "image/safe_output.h"
 
 namespace defray {
@@ -18,15 +19,25 @@ DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
   }
   const ChannelName name = choose_depth(file.path(), file.parts(), request, beside);
   const std::string channel = describe(name, file.parts());
-  const Window& data = file.parts()[static_cast<std::size_t>(name.part)].data;
-  const Window& colour_data = colour_file.parts()[static_cast<std::size_t>(colour.part)].data;
-  if (data != colour_data) {
-    fail(ErrorKind::input,
-         "{}: depth {} has data window {}, colour in {} has {}; both must be the same", file.path(),
-         channel, to_string(data), colour_file.path(), to_string(colour_data));
+  const PartInfo& part = file.parts()[static_cast<std::size_t>(name.part)];
+  const PartInfo& beside_part = colour_file.parts()[static_cast<std::size_t>(colour.part)];
+  DepthPlane depth{file.plane(name.part, name.channel), channel, part.integer_bits, is_mist(name)};
+  if (part.data == beside_part.data) return depth;
+  const std::string windows =
+      fmt::format("{}: depth {} has data window {}, display window {}, colour in {} has {}, {}",
+                  file.path(), channel, to_string(part.data), to_string(part.display),
+                  colour_file.path(), to_string(beside_part.data), to_string(beside_part.display));
+  if (part.display != beside_part.display) {
+    fail(ErrorKind::input, "{}: depth of another picture?", windows);
   }
-  return {file.plane(name.part, name.channel), channel,
-          file.parts()[static_cast<std::size_t>(name.part)].integer_bits, is_mist(name)};
+  if (intersection(part.data, beside_part.data) != beside_part.data) {
+    fail(ErrorKind::input,
+         "{}: depth must reach as far; if there is nothing but background outside, oiiotool "
+         "--crop {} fills it with 0, which says so",
+         windows, to_string(beside_part.data));
+  }
+  depth.values = to_display_window({depth.values}, part.data, beside_part.data).front();
+  return depth;
 }
 
 }  // namespace defray

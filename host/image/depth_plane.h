@@ -16,8 +16,8 @@ struct DepthPlane {
   bool is_smoothed = false;  ///< Between its steps.
 };
 
-/// From the colour's own file, or from `depth_path`, if given, which must have the same data
-/// window. Throws Error(input).
+/// From the colour's own file, or from `depth_path`, if given: the part in the colour's data
+/// window, all of which it must have. Throws Error(input).
 DepthPlane read_depth(const ImageFile& colour_file, const ColourChoice& colour,
                       const ChannelRequest& request, const std::string& depth_path);
 

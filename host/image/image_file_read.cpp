@@ -4,7 +4,9 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "image/image_file_part.h"
+#include "image/sequence.h"
 
 namespace defray {
 namespace {
@@ -53,20 +55,23 @@ bool is_movie(const std::string& path) {
   return reader && reader->format_name() == std::string("FFmpeg movie");
 }
 
+/// What a name of no file was meant to be.
+std::string about_missing(const std::string& path) {
+  if (path == "-") return "; standard input can be the picture that is rendered, nothing else";
+  if (path.find_first_of("*?") != std::string::npos) {
+    return "; #### stands for the numbers of a sequence";
+  }
+  return has_frame_pattern(path) ? "; here goes one picture, not a sequence" : "";
+}
+
 }  // namespace
 
 ImageFile ImageFile::read(const std::string& path, Content content) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    const bool is_glob = path.find_first_of("*?") != std::string::npos;
-    fail(ErrorKind::input, "{}: no such file{}", path,
-         path == "-" ? "; standard input can be the picture that is rendered, nothing else"
-         : is_glob   ? "; #### stands for the numbers of a sequence"
-                     : "");
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown) && !unknown) {
+    fail(ErrorKind::input, "{}: no such file{}", path, about_missing(path));
   }
-  if (std::filesystem::is_directory(path, error)) {
-    fail(ErrorKind::input, "{}: is a folder, not an image", path);
-  }
+  check_readable(path);
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path, content);
   const bool is_exact = content == Content::picture && picture.bits == 8;  // in half floats

@@ -184,6 +184,7 @@ std::vector<int> find_frames(const std::string& pattern) {
   const std::string folder = folder_prefix(pattern);
   const std::optional<Pattern> wanted = find_pattern(pattern);
   std::vector<int> frames;
+  std::string almost;
   std::error_code unreadable;
   for (const auto& entry :
        std::filesystem::directory_iterator(folder.empty() ? "." : folder, unreadable)) {
@@ -192,9 +193,17 @@ std::vector<int> find_frames(const std::string& pattern) {
     std::string_view rest = std::string_view(name).substr(wanted->before.size());
     rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
     const auto frame = take_number(rest);
-    if (frame && wanted->name(*frame) == name) frames.push_back(*frame);
+    if (!frame || rest != wanted->after) continue;
+    if (wanted->name(*frame) == name) {
+      frames.push_back(*frame);
+    } else {
+      almost = name;
+    }
   }
-  if (frames.empty()) fail(ErrorKind::input, "{}: no file matches this pattern", pattern);
+  if (frames.empty()) {
+    fail(ErrorKind::input, "{}: no file matches this pattern{}", pattern,
+         almost.empty() ? "" : fmt::format("; {}{} has another number of digits", folder, almost));
+  }
   std::sort(frames.begin(), frames.end());
   return frames;
 }

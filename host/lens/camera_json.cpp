@@ -1,11 +1,10 @@
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "lens/camera.h"
 
@@ -154,14 +153,6 @@ std::optional<std::array<double, 3>> point(const std::string& path, const json& 
     made[i] = values[i].get<double>() * factor;
   }
   return made;
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream || !std::filesystem::is_regular_file(path)) {
-    fail(ErrorKind::input, "{}: cannot open the camera file", path);
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::optional<double> times(std::optional<double> value, double factor) {

@@ -72,6 +72,16 @@ void refuse_wrong_sign(const DepthReport& r, const DepthSettings& s, std::size_t
        is_minus ? "positive" : "negative", pixels - r.background, remedy(s.kind));
 }
 
+/// What no zbuffer holds may be a distance.
+void refuse_outside_range(double stored, int x, int y, DepthKind kind, const std::string& path) {
+  if (!is_in_range(kind)) return;
+  fail(
+      ErrorKind::input,
+      "{}: stored depth {} at pixel ({}, {}) lies outside 0 to 1, and so far that it is behind the "
+      "camera; if the file holds distances, {} is z",
+      path, stored, x, y, field("depth.kind"));
+}
+
 }  // namespace
 
 bool is_background(double stored, const DepthSettings& s) {
@@ -133,6 +143,7 @@ DepthReport convert_depth(Plane& depth, const DepthSettings& settings, const Win
       }
       depth[i] = static_cast<float>(z);
       if (!(depth[i] > 0)) {
+        refuse_outside_range(stored, x, y, settings.kind, path);
         fail(ErrorKind::input,
              "{}: depth {} at pixel ({}, {}) is not in front of the camera (stored: {}); if it "
              "means background, say so with {} {}",

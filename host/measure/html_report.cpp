@@ -135,8 +135,9 @@ std::string data_address(const std::string& path) {
 void write_page(const std::string& folder, const Page& page) {
   for (const Section& section : page.sections) {
     for (const Table& table : section.tables) {
-      std::string csv = csv_line(table.columns);
-      for (const auto& row : table.rows) csv += csv_line(row);
+      const bool has_own = !table.csv_columns.empty();
+      std::string csv = csv_line(has_own ? table.csv_columns : table.columns);
+      for (const auto& row : has_own ? table.csv_rows : table.rows) csv += csv_line(row);
       write_text(folder + "/" + table.file + ".csv", csv);
     }
   }

@@ -11,6 +11,9 @@ struct Table {
   std::string caption;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  /// Of the CSV, where that has other ones than the page: bare numbers.
+  std::vector<std::string> csv_columns = {};
+  std::vector<std::vector<std::string>> csv_rows = {};
 };
 
 /// A picture or plot that lies in the report's folder.

@@ -37,7 +37,7 @@ constexpr std::array<Sign, sign_count> model{{
     {"gradient, 0.3 to 2.5 px", Cause::detail, 0.04867},
     {"grain lost by half size", Cause::detail, 0.04433, Of::half_size},
 }};
-constexpr double stretch = 1.123;  ///< Errors grow faster than their signs.
+constexpr double growth = 1.123;  ///< Errors grow faster than their signs.
 /// Of nine in ten cases, PSNR less expected PSNR, dB.
 constexpr double least_off_db = -4, most_off_db = 5.6;
 constexpr double nothing = 1e-9;  ///< The square of most_expected_db.
@@ -76,7 +76,7 @@ std::array<double, sign_count> weights_of(const Making& making) {
   return weights;
 }
 
-double frame_factor(double mean) { return std::pow(mean + nothing, stretch) / (mean + nothing); }
+double frame_factor(double mean) { return std::pow(mean + nothing, growth) / (mean + nothing); }
 
 ExpectedError expected_from(double mean_square) {
   const double psnr_db = -10 * std::log10(std::max(mean_square, nothing));

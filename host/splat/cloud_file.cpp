@@ -1,9 +1,7 @@
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "splat/cloud_columns.h"
 
@@ -16,12 +14,8 @@ PointCloud read_point_cloud(const std::string& path) {
       extension != ".pts") {
     fail(ErrorKind::input, "{}: point clouds are .ply, .xyz, .txt, .csv or .pts", path);
   }
+  std::ifstream file = open_input(path);
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    fail(ErrorKind::input, "{}: is a folder", path);
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(ErrorKind::input, "{}: cannot be read: {}", path, std::strerror(errno));
   const std::uint64_t bytes = std::filesystem::file_size(path, ignored);
   if (bytes == 0) fail(ErrorKind::input, "{}: is empty", path);
   return is_ply ? read_ply(file, bytes, path) : read_text_cloud(file, bytes, path);

@@ -34,8 +34,10 @@ Axes axes_of(const CameraPose& pose) {
   }
   const Vec3 forward = normalized(towards), right = cross(forward, vec(pose.up));
   if (!(length(right) > 1e-9 * length(vec(pose.up)))) {
-    fail(ErrorKind::usage, "{} is 0, or where the camera looks: it must lie beside that",
-         field("up"));
+    const auto& up = pose.up;
+    fail(ErrorKind::usage,
+         "{} {:g},{:g},{:g} is 0, or where the camera looks: it must lie beside that, as {} does",
+         field("up"), up[0], up[1], up[2], std::fabs(forward.z) < 0.9 ? "0,0,1" : "0,1,0");
   }
   const Vec3 unit = normalized(right);
   return {unit, cross(forward, unit), forward};

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/input_file.h"
 #include "base/temporary_folder.h"
 #include "base/text.h"
 #include "image/safe_output.h"
@@ -40,20 +40,10 @@ void check_known(const std::string& name, ErrorKind kind, const std::string& whe
        join(known, " "));
 }
 
-std::string read_text(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail(ErrorKind::input, "{}: no such file", path);
-  if (std::filesystem::is_directory(path, error)) fail(ErrorKind::input, "{}: is a folder", path);
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) fail(ErrorKind::input, "{}: cannot be read", path);
-  return text;
-}
-
 /// The tables to measure. Throws Error(usage, input) on names that are not there.
 std::vector<std::string> chosen_tables(const ReportOptions& o) {
   for (const std::string& name : o.tables) check_known(name, ErrorKind::usage, "");
-  const std::vector<std::string> marked = marked_names(read_text(o.file), o.file);
+  const std::vector<std::string> marked = marked_names(text_of(o.file), o.file);
   for (const std::string& name : marked) check_known(name, ErrorKind::input, o.file + ": ");
   if (marked.empty()) {
     fail(ErrorKind::input, "{}: has no markers like '<!-- accuracy:begin -->'. Tables: {}", o.file,
@@ -87,7 +77,7 @@ int run(const ReportOptions& o) {
                                         session.info().compute_units));
     if (o.is_quick) figures.notes.push_back("A rehearsal (`--quick`): these figures mean nothing.");
     // Read anew: measuring takes minutes, in which the file may have been edited.
-    write_text(o.file, with_marked(read_text(o.file), o.file, name, to_markdown(figures)));
+    write_text(o.file, with_marked(text_of(o.file), o.file, name, to_markdown(figures)));
     step("");
     fmt::print("{}: {}\n", o.file, name);
     if (std::fflush(stdout) != 0) fail(ErrorKind::output, "cannot write to standard output");

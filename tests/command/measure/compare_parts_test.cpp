@@ -28,6 +28,7 @@ TEST_F(CompareParts, APartOfThePictures) {
     refuse("a.exr b.exr --crop " + crop, 3,
            {"a.exr: --crop " + crop + " reaches outside: allowed is what lies in 48x32+0+0"});
   }
+  refuse("a.exr b.exr --crop 9x9-1+0", 3, {"--crop 9x9-1+0 reaches outside"});
   refuse("a.exr b.exr --crop 9x9", 2, {"--crop '9x9'", "3840x2160+100+50"});
   refuse("a.exr b.exr --windows both", 2, {"--windows 'both'", "union overlap"});
 }

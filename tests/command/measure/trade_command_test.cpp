@@ -70,6 +70,19 @@ TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
   for (const char* file : {"index.html", "trade.png", "trade.csv"}) {
     EXPECT_GT(std::filesystem::file_size(folder / ("t/" + std::string(file))), 100u) << file;
   }
+  std::ifstream csv(folder / "t/trade.csv");
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "picture,recommended,seconds,spread,expected_db,low_db,high_db,true_db,command");
+  for (const json& point : trade["points"]) {
+    std::getline(csv, line);
+    EXPECT_EQ(line,
+              fmt::format("{},{},{},{},{},{},{},,{}", point["picture"].get<std::string>(),
+                          point["picture"] == trade["recommended"] ? "yes" : "no",
+                          point["render_s"].get<double>(), point["spread"].get<double>(),
+                          point["expected_db"].get<double>(), point["low_db"].get<double>(),
+                          point["high_db"].get<double>(), point["command"].get<std::string>()));
+  }
 }
 
 /// The dial among what it chooses from: its picture, and the time of its search, too.

@@ -53,7 +53,7 @@ TEST_F(BadInput, Channels) {
                         {"no colour in view 'left'; ", "Leave --view out\n"});
   expect_render_refused("in.exr -o out.exr --depth-channel z" + lens, 3, {"'z'", "'Z'"});
   expect_render_refused("in.exr --depth small.exr -o out.exr" + lens, 3,
-                        {"20x10+0+0", "48x32+0+0"});
+                        {"20x10+0+0", "48x32+0+0", "depth of another picture?"});
 }
 
 TEST_F(BadInput, DepthValues) {
@@ -149,7 +149,8 @@ TEST_F(BadInput, Frames) {
   expect_render_refused("s.%04d.exr -o o.%04d.exr --frames ''" + lens, 2, {"--frames is empty"});
   expect_render_refused("s.%04d.exr -o o.%04d.exr --frames 1-9999999999" + lens, 2,
                         {"'1-9999999999'", "up to 999999999"});
-  expect_render_refused("s.%04d.exr -o out.exr" + lens, 2, {"2 frames would go to one file"});
+  expect_render_refused("s.%04d.exr -o out.exr" + lens, 2,
+                        {"2 frames would go to one file; give a name with ####", "--frames 1"});
   expect_render_refused("t.%04d.exr -o o.%04d.exr" + lens, 3, {"no file matches"});
   expect_render_refused("in.exr -o o.####.exr" + lens, 2, {"the input in.exr has none"});
   expect_render_refused("s.%04d.exr -o o_%04d.####.exr" + lens, 2, {"2 frame patterns"});
@@ -182,6 +183,8 @@ TEST_F(BadInput, Spelling) {
   refused("rendr", {"unknown command 'rendr'", "Did you mean 'render'?"});
   refused("render in.exr -o out.exr --focsu 3", {"'--focsu'", "Did you mean '--focus'?"});
   refused("render in.exr -o out.exr --fstpo=3", {"'--fstpo'", "Did you mean '--fstop'?"});
+  refused("render in.exr -o out.exr --foc 3", {"'--foc'. There are --focus, --focal-length, "});
+  refused("render in.exr -o out.exr --hidde off", {"'--hidde'. Did you mean '--hidden'?"});
   refused("render in.exr more.exr -o out.exr", {"unknown argument 'more.exr'"});
   refused("render -o out.exr", {"input"});
   refused("scene plat1 -o .", {"Did you mean 'plate1'?"});

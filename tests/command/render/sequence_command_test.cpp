@@ -84,6 +84,15 @@ TEST(Sequence, WithoutOverlapAFrameCanBeMadeOfTheLast) {
   for (const char* step : {"read_s", "render_s", "write_s"}) EXPECT_GT(first[step], 1e-6) << step;
 }
 
+TEST(Sequence, AFrameThatIsMissingCanBeLeftOut) {
+  const Folder folder;
+  write_picture_file(folder, "s.0001.exr", {"R", "G", "B", "Z"});
+  expect_refusal(defray(folder, "render s.####.exr -o a.####.exr --frames 1-2 -q" + lens), 3,
+                 {"s.0002.exr: no such file; --skip-bad-frames leaves such frames out\n"}, "two");
+  expect_refusal(defray(folder, "render s.####.exr -o a.####.exr --frames 2" + lens), 3,
+                 {"s.0002.exr: no such file\n"}, "one");
+}
+
 TEST(Sequence, AFrameThatCannotBeWrittenEndsTheRunAfterThoseBeforeIt) {
   const Folder folder;
   for (int i = 1; i <= 4; ++i) {

@@ -48,6 +48,30 @@ TEST_F(Windows, PlacesAreThoseOfTheDisplayWindow) {
                  {"17,20: cut.exr has pixels from 18,18 to 29,29"}, "left of it");
 }
 
+TEST_F(Windows, DepthOfALargerOneIsCutToTheColours) {
+  write("cut.exr", 1, at);
+  const std::string lens = " -o out.exr --fstop 0.25 --focal-length 50 --focus 3 ";
+  Plane depth(frame * frame);
+  for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = 2.0f + 0.01f * static_cast<float>(i);
+  ImageFile::from_planes({"Z"}, {depth}, frame, frame, Sample::single_float)
+      .write(folder_ / "depth.exr");
+  expect_ok(shell(folder_,
+                  "oiiotool depth.exr --cut 12x12+18+18 -o same.exr && oiiotool "
+                  "depth.exr --crop 12x12+18+19 -o less.exr"));
+  // Cut to its own origin; the picture at that origin has those depths too.
+  write("origin.exr", 1, 0);
+  expect_ok(defray(folder_, "render cut.exr --depth depth.exr --coc-out a.exr" + lens));
+  const Plane coc = ImageFile::read(folder_ / "a.exr").plane(0, 0);
+  expect_ok(defray(folder_, "render origin.exr --depth same.exr --coc-out b.exr" + lens));
+  EXPECT_EQ(coc, ImageFile::read(folder_ / "b.exr").plane(0, 0));
+  expect_refusal(defray(folder_, "render cut.exr --depth less.exr" + lens), 3,
+                 {"less.exr: depth Z has data window 12x12+18+19, display window 48x48+0+0",
+                  "cut.exr has 12x12+18+18, 48x48+0+0: depth must reach as far",
+                  "oiiotool --crop "
+                  "12x12+18+18"},
+                 "less");
+}
+
 TEST_F(Windows, ATightOneGrowsByTheBlur) {
   write("cut.exr", 0.75f, at);
   const ImageFile out = rendered("cut.exr");

@@ -85,6 +85,14 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
     expect_ok(away);
     EXPECT_NE(away.err.find("o.exr: nothing of the cloud is in the picture"), std::string::npos);
   }
+  const json away = render("--from 0,0,9 --look-at 0,0,20 " + wide_lens);
+  EXPECT_EQ(away["notes"][0], "nothing of the cloud is in the picture: see --from, --look-at");
+  EXPECT_EQ(away["status"], "ok");
+  EXPECT_EQ(away["input"], "model figure");
+  EXPECT_EQ(sharp["notes"], json::array());
+  EXPECT_TRUE(sharp["fragments"].is_number_integer());
+  EXPECT_GT(sharp["render_s"], 0.0);
+  EXPECT_GE(sharp["stages_s"]["resolve"], 0.0);
 }
 
 TEST_F(SplatCommand, ATurn) {
@@ -154,7 +162,7 @@ TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
   points.close();
   const Result result = defray(folder_, inside);
   expect_ok(result);
-  EXPECT_NE(result.err.find("note: 100 % of what is before the camera is seen from behind"),
+  EXPECT_NE(result.err.find("note: o.exr: 100 % of what is before the camera is seen from behind"),
             std::string::npos)
       << result.err;
   EXPECT_EQ(defray(folder_, inside + "--two-sided").err, "");
@@ -255,7 +263,7 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat far.xyz -o o.exr " + wide_lens, 3,
           {"far.xyz: point 1 lies 1e+20 0 0 units from the first one: allowed are 1e+15"});
   refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
-  refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "No such file"});
+  refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "no such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,
           {"no model 'figur'", "Did you mean 'figure'?"});
   refused("splat --model figure --model-points 1000000000000 -o o.exr " + wide_lens, 3,
@@ -268,8 +276,10 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused(figure + "-o o.exr --from 1,2,x " + wide_lens, 2, {"--from '1,2,x'"});
   refused(figure + "-o o.exr --from 1,1,1 --look-at 1,1,1 " + wide_lens, 2,
           {"--from and --look-at are the same place"});
-  refused(figure + "-o o.exr --up 0,0,0 " + wide_lens, 2, {"--up is 0, or where"});
-  refused(figure + "-o o.exr --up 0,0,1 " + wide_lens, 2, {"--up is 0, or where the camera looks"});
+  refused(figure + "-o o.exr --up 0,0,0 " + wide_lens, 2,
+          {"--up 0,0,0 is 0, or where", "as 0,1,0 does"});
+  refused(figure + "-o o.exr --up 0,0,1 " + wide_lens, 2,
+          {"--up 0,0,1 is 0, or where the camera looks"});
   refused("splat --model figure --size 3 -o o.exr " + wide_lens, 2, {"--size '3'", "1920x1080"});
   refused("splat --model figure --size 0x4 -o o.exr " + wide_lens, 2, {"0x4", "1 to 16384"});
   refused(figure + "-o o.exr --cutoff 9 " + wide_lens, 2, {"--cutoff is 9"});

@@ -65,7 +65,8 @@ TEST_F(TuneCommand, FindsKeepsShowsExportsAndForgets) {
   const json shown = parsed("tune --show");
   EXPECT_EQ(shown, found);
   EXPECT_NE(run("tune --show").out.find("linear_psf"), std::string::npos);
-  expect_ok(run("tune --export t4.json -q"));
+  EXPECT_NE(run("tune --show").out.find("  used\n"), std::string::npos);
+  EXPECT_EQ(run("tune --export t4.json").out, "t4.json\n");
   const json exported = json::parse(std::ifstream(folder / "t4.json"));
   EXPECT_EQ(exported["results"].size(), one["tried"].get<std::size_t>());
 

@@ -135,6 +135,8 @@ TEST(ImageFile, MissingFilesAndFolders) {
   expect_error(ErrorKind::input, {"none.exr", "no such file"},
                [&] { ImageFile::read(folder / "none.exr"); });
   expect_error(ErrorKind::input, {"is a folder"}, [&] { ImageFile::read(folder.path()); });
+  expect_error(ErrorKind::input, {"s.####.exr: no such file; here goes one picture"},
+               [&] { ImageFile::read(folder / "s.####.exr"); });
 }
 
 TEST(Ldr, EncodesAndDecodesSrgb) {

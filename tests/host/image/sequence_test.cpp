@@ -79,6 +79,8 @@ TEST(Sequence, Patterns) {
   }
   EXPECT_EQ(find_frames(folder / "s.####.exr"), (std::vector<int>{1, 3}));
   expect_error(ErrorKind::input, {"no file matches"}, [&] { find_frames(folder / "u.####.exr"); });
+  expect_error(ErrorKind::input, {"t.%d.exr: no file", "t.0002.exr has another number of digits"},
+               [&] { find_frames(folder / "t.%d.exr"); });
   EXPECT_EQ(find_frames(folder / "s.###.exr"), (std::vector<int>{1}));
   for (const std::string wide : {"%0999d", "%099999999999999999999d"}) {
     expect_error(ErrorKind::usage, {"too many digits"}, [&] { frame_path(wide + ".exr", 1); });

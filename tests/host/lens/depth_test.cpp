@@ -177,6 +177,7 @@ TEST(Depth, ABufferOfAGpuIsLinearInOneOverDepth) {
   settings.kind = DepthKind::zbuffer;
   settings.near_units = 0.5;
   settings.far_units = 100;
+  const DepthSettings forward = settings;
   const Plane stored{0, 0.25f, 0.5f, 0.75f, 1};
   for (const bool reversed : {false, true}) {
     settings.invert = reversed;
@@ -194,6 +195,11 @@ TEST(Depth, ABufferOfAGpuIsLinearInOneOverDepth) {
   DepthReport report;
   converted({0, 0.25f, 1.5f, 0.125f, 1}, settings, &report);
   EXPECT_EQ(report.outside_range, 1u);
+  expect_error(ErrorKind::input,
+               {"z.exr: stored depth 6 at pixel (2, 0) lies outside 0 to 1", "depth.kind is z"},
+               [&] {
+                 converted({0, 0.25f, 6, 0.125f, 1}, forward);
+               });
   settings.near_units = 0;
   expect_error(ErrorKind::usage, {"zbuffer needs 0 < near_units < far_units", "inf is allowed"},
                [&] { validate(settings); });

@@ -195,7 +195,7 @@ TEST_F(CloudFile, WhatIsWrongIsSaid) {
     read_point_cloud(folder_ / "none.ply");
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("no such file"), std::string::npos) << error.what();
   }
 }
 

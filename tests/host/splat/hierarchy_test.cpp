@@ -224,7 +224,7 @@ TEST(View, WhatItRefuses) {
     }
   };
   refused([](auto& pose, auto&, auto&) { pose.look_at = pose.from; }, "looks nowhere");
-  refused([](auto& pose, auto&, auto&) { pose.up = {0, 0, 3}; }, "up is 0, or where");
+  refused([](auto& pose, auto&, auto&) { pose.up = {0, 0, 3}; }, "up 0,0,3 is 0, or where");
   refused([](auto& pose, auto&, auto&) { pose.from[1] = NAN; }, "must be finite");
   refused([](auto&, auto& lens, auto&) { lens.focus_end_units = 4; }, "one plane of focus");
   refused([](auto&, auto&, auto& s) { s.width = 0; }, "allowed are 1 to 16384");
