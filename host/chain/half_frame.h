@@ -1,9 +1,10 @@
 #pragma once
-// Frames and planes at half the size and back: what halving loses, and what of it can come back.
+// Frames at half the size.
 #include <cstdint>
 #include <vector>
 
 #include "frame/frame.h"
+#include "kernels/params.h"
 
 namespace defray {
 
@@ -11,10 +12,20 @@ namespace defray {
 /// px^2 of variance, as much as a disc of 2 px (variance r^2 / 4), which the lens need not add.
 std::int32_t half_size_coc(std::int32_t coc_quanta);
 
+/// A disc of this radius leaves nothing of the finest detail.
+constexpr float nothing_left_px = 1.75f;
+
 /// The share of a picture's finest detail (periods of 2 to 4 px, which half the size cannot hold)
 /// that a disc of this radius lets through: its transfer function 2 J1(x) / x, x = 2 pi radius /
-/// period, in the mean over those periods, within 0.04; none from 1.75 px on.
+/// period, in the mean over those periods, within 0.04.
 float detail_left(std::int32_t coc_quanta);
+
+/// Not nearer than the focus and blurred beyond all detail: through that shows what lies behind,
+/// but the pinhole picture has its sharp edges there, which show nowhere.
+inline bool is_clear(std::int32_t coc_quanta) {
+  constexpr float beyond_detail = -nothing_left_px * (1 << DEFRAY_COC_FRACTION_BITS);
+  return coc_quanta > static_cast<std::int32_t>(beyond_detail);
+}
 
 /// Blocks of 2x2 pixels as pixels: mean colours, CoC and depth of one of the four, so that they are
 /// a surface's own: of a lamp (more light than the others together) or of the lower median by CoC.
@@ -29,15 +40,5 @@ struct HalfFrame {
   std::vector<Plane> clear_colour;
 };
 HalfFrame at_half_size(const Frame& frame);
-
-/// A plane of ((width + 1) / 2) x ((height + 1) / 2) values at width x height: linear between the
-/// middles of blocks.
-Plane at_full_size(const Plane& half, int width, int height);
-
-/// `half_result` of a channel at full size, with the detail that the frame has beside the clear
-/// pixels of the half frame, by `half_visible` of it; nothing darker than black, and nothing that
-/// is not a number.
-Plane with_detail(const Frame& frame, const HalfFrame& half, std::size_t channel,
-                  const Plane& half_result, const Plane& half_visible);
 
 }  // namespace defray

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "chain/full_size.h"
 
 namespace defray {
 namespace {
@@ -10,7 +12,8 @@ namespace {
 /// Every pixel opaque.
 bool is_opaque(const Frame& f) {
   const auto alpha = f.channels.back().host();
-  return f.has_alpha && std::all_of(alpha.begin(), alpha.end(), [](float a) { return a == 1.0f; });
+  return f.has_alpha &&
+         parallel_count(alpha.size(), [&](std::size_t i) { return alpha[i] != 1.0f; }) == 0;
 }
 
 /// What the half frame's chain gives, and how much of each pixel's detail is to be seen.
@@ -71,11 +74,9 @@ MethodResult run_half_size(const Frame& f, const ChainSettings& settings, Backen
   HalfResult made = through_lens(half, opaque, settings, backend, wants_nearest, progress);
   watch.lap();
   MethodResult& out = made.result;
-  for (std::size_t c = 0; c < out.colour.size(); ++c) {
-    const bool is_constant = opaque && c + 1 == out.colour.size();
-    out.colour[c] = is_constant ? Plane(f.pixels(), 1.0f)
-                                : with_detail(f, half, c, out.colour[c], made.visible);
-  }
+  if (opaque) out.colour.pop_back();
+  out.colour = with_detail(f, half, out.colour, made.visible);
+  if (opaque) out.colour.emplace_back(f.pixels(), 1.0f);
   out.confidence = at_full_size(out.confidence, f.width, f.height);
   out.tiles.double_size(f.width, f.height);
   if (wants_nearest) out.nearest = nearest_at_full_size(f, half, out.nearest);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "chain/full_size.h"
 #include "support.h"
 
 namespace defray::test::half_size_test {
