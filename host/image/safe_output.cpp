@@ -112,6 +112,18 @@ void keep_permissions(const std::string& before, const std::string& after) {
   if (fs::is_regular_file(status)) fs::permissions(after, status.permissions(), is_new);
 }
 
+/// The file that a name stands for, there or not yet: renaming over a link would leave what it
+/// names stale.
+std::string behind_links(const std::string& path) {
+  constexpr int most = 40;  // as the system has it
+  fs::path at = path;
+  std::error_code none;
+  for (int i = 0; i < most && fs::is_symlink(at, none); ++i) {
+    at = at.parent_path() / fs::read_symlink(at, none);
+  }
+  return at.string();
+}
+
 }  // namespace
 
 void create_folder(const std::string& path) {
@@ -122,7 +134,8 @@ void create_folder(const std::string& path) {
   }
 }
 
-void check_can_write(const std::string& path, const std::string& hint) {
+void check_can_write(const std::string& to, const std::string& hint) {
+  const std::string path = behind_links(to);
   std::error_code names_nothing;  // what is wrong with it then, opening tells
   if (fs::is_directory(path, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", path);
@@ -154,8 +167,7 @@ void check_can_make(const std::string& path) {
 }
 
 void write_safely(const std::string& to, const std::function<void(const std::string&)>& write) {
-  // Through a link to the file it names: renaming over the link would leave that one stale.
-  const std::string path = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;
+  const std::string path = behind_links(to);
   const std::string name = temporary_name(path);
   const Temporary temporary(name);
   try {

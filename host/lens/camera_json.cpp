@@ -173,6 +173,9 @@ CameraValues parse_camera_json(const std::string& text, const std::string& path,
   values.sensor_width_mm = positive(path, root, "sensor_width_mm");
   values.sensor_height_mm = positive(path, root, "sensor_height_mm");
   values.fov_deg = positive(path, root, "fov_deg");
+  if (values.fov_deg && !(*values.fov_deg < 180)) {
+    fail(ErrorKind::input, "{}: 'fov_deg' is {}: it must be below 180", path, *values.fov_deg);
+  }
   values.fit = sensor_fit(path, root);
   values.focus_distance_units =
       times(distance(path, focus, "focus_distance_m"), 1 / metres_per_unit);

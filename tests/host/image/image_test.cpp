@@ -221,6 +221,21 @@ TEST(SafeOutput, WritesThroughALink) {
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
 }
 
+TEST(SafeOutput, ALinkMayNameAFileThatIsYetToCome) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "there");
+  std::filesystem::create_symlink("there/second", folder / "first");
+  std::filesystem::create_symlink("../new.txt", folder / "there/second");
+  check_can_write(folder / "first");
+  write_text(folder / "first", "new");
+  EXPECT_EQ(bytes_of(folder / "new.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "there/second"));
+  std::filesystem::create_symlink("none/new.txt", folder / "lost");
+  expect_error(ErrorKind::output, {"cannot write in folder", "none"},
+               [&] { check_can_write(folder / "lost"); });
+}
+
 TEST(Output, DisplayWindowCropsAndPads) {
   const Window display{0, 0, 4, 3};
   const Plane inside = to_display_window({{1, 2}}, {1, 1, 2, 1}, display)[0];

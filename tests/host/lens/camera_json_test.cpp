@@ -48,6 +48,7 @@ TEST(Camera, BadFiles) {
       {R"({"focal_length_mm": 0})", "camera.json: 'focal_length_mm' is 0: it must be above 0"},
       {R"({"sensor_width_mm": -1})", "camera.json: 'sensor_width_mm' is -1: it must be above 0"},
       {R"({"sensor_height_mm": -1})", "camera.json: 'sensor_height_mm' is -1"},
+      {R"({"fov_deg": 180})", "camera.json: 'fov_deg' is 180: it must be below 180"},
       {R"({"fov_deg": -4})", "camera.json: 'fov_deg' is -4: it must be above 0"},
       {R"({"focus_distance_m": -3})", "camera.json: 'focus_distance_m' is -3"},
       {R"({"focus_distance_m": "far"})", "camera.json: 'focus_distance_m' is not a number"},
