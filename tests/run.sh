@@ -23,12 +23,13 @@ if [ -n "$full" ]; then
   export DEFRAY_TEST_LONG=1
   which=(-L 'full|both')
 else
-  echo "Every kernel, option, message and documented command (--full: all there is)."
+  echo "Every kernel, nearly every option, message and documented command (--full: all there is)."
   which=(-L 'quick|both')
 fi
 step() { echo "[$((SECONDS - begin)) s] $1"; }
 step "Building"
-build "$folder" -C "$project/tests/presets/tests.cmake" -DDEFRAY_SANITIZED_TESTS=${full:+ON}
+build "$folder" -C "$project/tests/presets/tests.cmake" -DDEFRAY_SANITIZED_TESTS=${full:+ON} \
+  -DDEFRAY_BENCHMARKS=${full:+ON}
 
 # Kernels are compiled anew for each build, and the user's cache is left alone.
 export POCL_CACHE_DIR=$folder/kernel-cache XDG_CACHE_HOME=$folder/cache

@@ -31,9 +31,32 @@ function(add_check name cost label)
   set_tests_properties(${name} PROPERTIES LABELS "check;${label}" COST ${cost} TIMEOUT 1200)
 endfunction()
 
-add_shards(command 3 50 quick command_tests)
-add_shards(kernels 2 40 quick kernels_tests)
-add_shards(host 1 30 quick host_tests)
+# Left to --full: what takes seconds and looks again at what other tests look at, at more of it or in
+# another way (windows, browsers, cold caches, damaged files, more settings of what is set elsewhere,
+# more frames for the same twins); and defray-perf, which is not even built without it.
+set(left_to_full
+    ShowWindow.* *ReportOpensInABrowser KernelCache.* PerfCommand.* ReportCommand.*
+    TuneCommand.IsUsed* TuneCommand.OfTheBuiltIn* TuneCommand.ADamaged*
+    ValidateCommand.FastArithmetics* ValidateCommand.OfFloats* ValidateCommand.ACaseRuns*
+    MethodCommand.FastArithmetic* MethodCommand.EyeAnd* OptionsCommand.WorkGroups*
+    TradeCommand.CommandsAre* TradeCommand.WithoutATruth* ChainCommand.Reference*
+    ChainCommand.SameBits* ChannelsCommand.KernelsGive* Mistakes.* Sequences.* RenderFormats.*
+    Files.APicture* Files.AGrey* Files.SkipExisting* Streams.Messages* Windows.Grow*
+    Metadata.OptionsWin* Info.Suggests* BudgetCommand.AFile* BudgetCommand.Learns*
+    SplatCommand.FramesOf* SplatCommand.AnEye* ErrorCommand.TheSummary* ErrorCommand.WrongUse*
+    OutputCommand.*
+    Session.EveryFile* ValidateDevice.* CocAccuracy.* RdbGather.GivesTheSameBits*
+    Fill.*FarAway PatternSearch.LooksAt* RdbScatter.*Jitter ChainBands.*TheStages HighlightDisc.*
+    ExtremeSums.* Scenes/ChainStages.* Chain.GivesEachStage* Nearest.KernelEquals*
+    Sparse.IsTheSame* Gather.SameBits*
+    Cutout.* Tuned.WorkGroups* Lights.Aiming* Aperture.BladesHave* Api.*)
+list(JOIN left_to_full ":" left_to_full)
+foreach(shards "command 3 50" "kernels 2 40" "host 1 30")
+  separate_arguments(shards)
+  list(GET shards 0 name)
+  add_shards(${shards} quick bash -c "exec \"$0\" --gtest_filter=\"\${GTEST_FILTER:-*-$1}\""
+             $<TARGET_FILE:${name}_tests> "${left_to_full}")
+endforeach()
 # One seed: `RC_PARAMS=seed=N` repeats what a failure prints; without it every run is new.
 add_shards(properties 1 1 both properties_tests)
 set_property(TEST properties APPEND PROPERTY ENVIRONMENT "RC_PARAMS=seed=1994")
@@ -54,7 +77,11 @@ foreach(readme ${readmes})
   elseif(folder STREQUAL project OR folder STREQUAL cli)
     set(cost 45)
   endif()
-  add_check(readme_${folder} ${cost} both bash ${here}/readme_test.sh ${readme}
+  set(label both)
+  if(folder STREQUAL perf)  # its program is built for --full
+    set(label full)
+  endif()
+  add_check(readme_${folder} ${cost} ${label} bash ${here}/readme_test.sh ${readme}
             $<TARGET_FILE:defray>)
 endforeach()
 # validate's rehearsal there finds what Mesa has compiled for these.
