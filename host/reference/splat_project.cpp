@@ -31,16 +31,31 @@ float coc_px(const DefraySplatParams& p, float z) {
   return std::clamp(radius, -p.limit_px, p.limit_px);
 }
 
+/// A variance in an axis and a circle's in all directions.
+struct Around {
+  Variance all;
+  float circle;
+};
+
 /// Eigenvalues of m, each at least `circle`, in m's axes.
-Variance circumellipse(const Variance& m, float circle) {
+Around circumellipse(const Variance& m, float circle) {
   const float mean = 0.5f * (m.xx + m.yy), difference = 0.5f * (m.xx - m.yy);
   const float spread = std::sqrt(difference * difference + m.xy * m.xy);
   const float largest = mean + spread;
-  if (largest <= circle) return {circle, 0, circle};
-  if (spread == 0) return {largest, 0, largest};
+  if (largest <= circle) return {{circle, 0, circle}, circle};
+  if (spread == 0) return {{largest, 0, largest}, largest};
   const float smallest = std::fmax(mean - spread, circle);
   const float middle = 0.5f * (largest + smallest), half = 0.5f * (largest - smallest) / spread;
-  return {middle + half * difference, half * m.xy, middle - half * difference};
+  return {{middle + half * difference, half * m.xy, middle - half * difference}, smallest};
+}
+
+/// Of own + I + around; own's is root^2.
+float determinant_of(const Variance& own, float root, const Around& around) {
+  const float circle = 1 + around.circle;
+  const Variance axis{around.all.xx - around.circle, around.all.xy, around.all.yy - around.circle};
+  const float mixed = own.xx * axis.yy + own.yy * axis.xx - 2 * (own.xy * axis.xy);
+  const float traces = own.xx + own.yy + axis.xx + axis.yy;
+  return root * root + circle * traces + circle * circle + std::fmax(mixed, 0.0f);
 }
 
 /// Where the pixels whose centres lie between two places begin and end, in a picture.
@@ -51,9 +66,9 @@ std::array<std::int32_t, 2> pixels_between(float from, float to, std::uint32_t s
   return {limited(std::ceil(from - 0.5f)), limited(std::floor(to - 0.5f) + 1)};
 }
 
-void set_shape(const DefraySplatParams& p, const Variance& w, float mass, bool is_disc,
-               DefraySplat& s) {
-  const float determinant = w.xx * w.yy - w.xy * w.xy, root = std::sqrt(determinant);
+void set_shape(const DefraySplatParams& p, const Variance& w, float determinant, float mass,
+               bool is_disc, DefraySplat& s) {
+  const float root = std::sqrt(determinant);
   float reach = 2 * p.cutoff, form = 0.5f;
   s.amplitude = mass / (6.28318531f * root * p.gaussian_share);
   if (is_disc) {
@@ -118,12 +133,13 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const bool is_disc =
       p.has_discs && std::fabs(coc) > DEFRAY_SPLAT_DISC * (1 + scale * std::sqrt(n.variance));
   const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
-  const Variance added = circumellipse(
+  const Around added = circumellipse(
       {low.between(to_x, to_x), low.between(to_x, to_y), low.between(to_y, to_y)}, blur);
   const float over_x = dot(to_x, normal), over_y = dot(to_y, normal);
-  const Variance w{n.variance * (dot(to_x, to_x) - over_x * over_x) + 1 + added.xx,
-                   n.variance * (dot(to_x, to_y) - over_x * over_y) + added.xy,
-                   n.variance * (dot(to_y, to_y) - over_y * over_y) + 1 + added.yy};
+  const Variance own{n.variance * (dot(to_x, to_x) - over_x * over_x),
+                     n.variance * (dot(to_x, to_y) - over_x * over_y),
+                     n.variance * (dot(to_y, to_y) - over_y * over_y)};
+  const Variance w{own.xx + 1 + added.all.xx, own.xy + added.all.xy, own.yy + 1 + added.all.yy};
   const float facing = std::fabs(towards) / (size * std::sqrt(dot(from_eye, from_eye)));
   const float light = p.has_headlight ? 0.333333343f + 0.666666687f * facing : 1;
   s.r = n.r * light;
@@ -131,7 +147,7 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   s.b = n.b * light;
   s.a = n.a;
   if (!(mass > 0)) return culled(s);
-  set_shape(p, w, mass, is_disc, s);
+  set_shape(p, w, determinant_of(own, n.variance * (mass / size), added), mass, is_disc, s);
   return s.first_x < s.end_x && s.first_y < s.end_y ? s : culled(s);
 }
 

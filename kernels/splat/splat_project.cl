@@ -39,16 +39,27 @@ float between(const float3 a, __global const DefraySplatNode* n, const float3 b)
 float product(const float3 a, const float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // The variance (xx, xy, yy) whose ellipse is the smallest around those of `m` and of a circle's
-// variance: the larger of the two along each of m's axes (appendix A).
-float3 circumellipse(const float3 m, const float circle) {
+// variance: the larger of the two along each of m's axes (appendix A). Last, that of its shorter
+// one.
+float4 circumellipse(const float3 m, const float circle) {
   const float mean = 0.5f * (m.x + m.z), half_difference = 0.5f * (m.x - m.z);
   const float spread = sqrt(half_difference * half_difference + m.y * m.y);
-  if (mean + spread <= circle) return (float3)(circle, 0.0f, circle);
+  if (mean + spread <= circle) return (float4)(circle, 0.0f, circle, circle);
   const float longer = mean + spread, shorter = fmax(mean - spread, circle);
-  if (spread == 0.0f) return (float3)(longer, 0.0f, longer);
+  if (spread == 0.0f) return (float4)(longer, 0.0f, longer, longer);
   const float middle = 0.5f * (longer + shorter), stretch = 0.5f * (longer - shorter) / spread;
-  return (float3)(middle + stretch * half_difference, stretch * m.y,
-                  middle - stretch * half_difference);
+  return (float4)(middle + stretch * half_difference, stretch * m.y,
+                  middle - stretch * half_difference, shorter);
+}
+
+// Of `own` + I + `added`, whose product of xx and yy and square of xy are almost the same where a
+// surface is seen from its edge: `added` is a circle and what is longer along one axis, of `own`
+// the root of the determinant is known, and no large numbers are subtracted.
+float determinant_of(const float3 own, const float root, const float4 added) {
+  const float circle = 1.0f + added.w;
+  const float xx = added.x - added.w, yy = added.z - added.w;
+  const float across = own.x * yy + own.z * xx - 2.0f * (own.y * added.y);
+  return root * root + circle * (own.x + own.z + xx + yy) + circle * circle + fmax(across, 0.0f);
 }
 
 // First pixel whose centre is not before `from`, and first whose is beyond `to`, within [0, size].
@@ -59,9 +70,8 @@ int2 pixels_between(const float from, const float to, const uint size) {
 }
 
 // The kernel's shape from its variance; false where it covers no pixel.
-bool shape_splat(const DefraySplatParams p, const float3 variance, const float mass,
-                 const bool is_disc, DefraySplat* s) {
-  const float determinant = variance.x * variance.z - variance.y * variance.y;
+bool shape_splat(const DefraySplatParams p, const float3 variance, const float determinant,
+                 const float mass, const bool is_disc, DefraySplat* s) {
   const float root = sqrt(determinant);
   const float form = (is_disc ? 0.25f : 0.5f) / determinant;
   s->conic_xx = variance.z * form;
@@ -125,11 +135,12 @@ bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, 
   const bool is_disc =
       p.has_discs && fabs(coc) > DEFRAY_SPLAT_DISC * (1.0f + scale * sqrt(n->variance));
   const float blur = is_disc ? 0.25f * (coc * coc) : 0.36067376f * (coc * coc);  // 1 / (2 ln 4)
-  const float3 added = circumellipse(low, blur);
-  const float3 variance =
-      (float3)(n->variance * (product(row_x, row_x) - tilt_x * tilt_x) + 1.0f + added.x,
-               n->variance * (product(row_x, row_y) - tilt_x * tilt_y) + added.y,
-               n->variance * (product(row_y, row_y) - tilt_y * tilt_y) + 1.0f + added.z);
+  const float4 added = circumellipse(low, blur);
+  const float3 own = (float3)(n->variance * (product(row_x, row_x) - tilt_x * tilt_x),
+                              n->variance * (product(row_x, row_y) - tilt_x * tilt_y),
+                              n->variance * (product(row_y, row_y) - tilt_y * tilt_y));
+  const float3 variance = (float3)(own.x + 1.0f + added.x, own.y + added.y, own.z + 1.0f + added.z);
+  const float determinant = determinant_of(own, n->variance * (mass / size), added);
 
   // A light at the eye: a third of it from all around.
   const float facing = fabs(towards) / (size * sqrt(product(from_eye, from_eye)));
@@ -138,7 +149,7 @@ bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, 
   s->g = n->g * light;
   s->b = n->b * light;
   s->a = n->a;
-  return mass > 0.0f && shape_splat(p, variance, mass, is_disc, s);
+  return mass > 0.0f && shape_splat(p, variance, determinant, mass, is_disc, s);
 }
 
 __kernel void splat_project(const DefraySplatParams p, __global const DefraySplatNode* nodes,

@@ -182,6 +182,32 @@ TEST(SplatProject, WhatIsCulled) {
   EXPECT_FALSE(is_culled(project(surfel(0, 0, 0, away, 1e-4), p)));
 }
 
+/// A surfel of 7 m, 4 m away, seen from its edge, along the diagonal: a line of any length on the
+/// screen, a pixel's prefilter wide.
+TEST(SplatProject, ASurfelFromItsEdgeIsALineOfAnyLength) {
+  for (const double variance : {1e-4, 1e-2, 1.0, 50.0}) {
+    for (const double turn : {0.05, 0.3, 0.785398163, 1.1, 2.7}) {
+      DefraySplatParams p = view_of(512, 30, 0);
+      p.one_sided = 0;
+      p.focal_px *= 100;
+      constexpr double off_edge = 1e-6;
+      const double size = 12.0, n[3] = {std::cos(turn), std::sin(turn), off_edge};
+      const DefraySplatNode node =
+          surfel(0, 0, 0, {size * n[0], size * n[1], size * n[2]}, variance);
+      const DefraySplat s = project(node, p);
+      ASSERT_FALSE(is_culled(s)) << variance << " " << turn;
+      // All in doubles: the plane's variance in the picture, and a pixel.
+      const double scale = static_cast<double>(p.focal_px) / 30;
+      const double v = static_cast<double>(node.variance) * scale * scale;
+      const double length = v + 1, width = v * off_edge * off_edge + 1;
+      const double amplitude =
+          12.0 * scale * scale * off_edge /
+          (2 * M_PI * std::sqrt(length * width) * static_cast<double>(p.gaussian_share));
+      EXPECT_NEAR(s.amplitude / amplitude, 1, 1e-4) << variance << " " << turn;
+    }
+  }
+}
+
 TEST(SplatProject, AHeadlightShadesBySlant) {
   DefraySplatParams p = view_of(64, 4, 0);
   p.has_headlight = 1;
@@ -203,9 +229,16 @@ const FaultRows faults{
     {"splat_project",
      "no limit of the CoC",
      {"return clamp(radius, -p.limit_px, p.limit_px);", "return radius;"}},
+    {"splat_project", "no prefilter", {"(own.x + 1.0f + added.x,", "(own.x + added.x,"}},
     {"splat_project",
-     "no prefilter",
-     {"- tilt_x * tilt_x) + 1.0f + added.x", "- tilt_x * tilt_x) + added.x"}},
+     "a surface that is seen from its edge alone",
+     {"return root * root + circle", "return circle"}},
+    {"splat_project",
+     "longer blur does not meet the surface",
+     {"circle * circle + fmax(across, 0.0f)", "circle * circle"}},
+    {"splat_project",
+     "what is longer along one axis twice",
+     {"xx = added.x - added.w", "xx = added.x"}},
     {"splat_project",
      "basis functions round in the picture",
      {"(product(row_x, row_y) - tilt_x * tilt_y)", "product(row_x, row_y)"}},
