@@ -9,6 +9,7 @@
 #include "image/output.h"
 #include "image/sequence.h"
 #include "open_device.h"
+#include "opencl/kernel_cache.h"
 #include "render/show_session.h"
 #include "standard_streams.h"
 
@@ -81,6 +82,19 @@ void print_chosen(const RenderCommand& job, const FrameOutcome& outcome) {
   fmt::print("  the same again: {}\n", line);
 }
 
+/// Of a picture, what has just been caught, whatever it is.
+Error error_in_hand(const std::string& path) {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error(ErrorKind::input, path + ": not enough memory for this picture");
+  } catch (const std::exception& error) {
+    return Error(ErrorKind::internal, path + ": " + error.what());
+  }
+}
+
 /// Of a frame among others.
 Error with_remedy(const Error& error, std::size_t frames) {
   if (frames == 1 || error.kind() != ErrorKind::input) return error;
@@ -99,8 +113,8 @@ void SequenceRun::Work::attempt(const Step& step) {
   if (!file || error) return;
   try {
     step();
-  } catch (const Error& e) {
-    error = e;
+  } catch (...) {
+    error = error_in_hand(outcome.paths.input);
   }
 }
 
@@ -113,8 +127,8 @@ SequenceRun::Work SequenceRun::read(std::optional<int> frame) const {
   try {
     work.file = std::make_unique<FileRender>(work.outcome.paths, settings_at(job_, frame));
     work.file->read();
-  } catch (const Error& error) {
-    work.error = error;
+  } catch (...) {
+    work.error = error_in_hand(work.outcome.paths.input);
   }
   return work;
 }
@@ -124,6 +138,8 @@ void SequenceRun::render() {
     return std::async(job_.no_overlap ? std::launch::deferred : std::launch::async,
                       [this, i] { return read(frames_[i]); });
   };
+  prepare_kernel_cache();  // sets an environment variable, which other threads may read from here
+                           // on
   std::future<Work> reading = read_ahead(0), writing;
   device_.emplace(device_of(job_));
   for (std::size_t i = 0; i < frames_.size(); ++i) {

@@ -45,7 +45,7 @@ std::vector<std::optional<int>> frames_of(const SplatCommand& job) {
     return {std::nullopt};
   }
   if (frames.size() > 1 && !has_frame_pattern(job.output)) {
-    fail(ErrorKind::usage, "{}: {} frames would go to one file; put #### in its name", job.output,
+    fail(ErrorKind::usage, "{}: {} frames would go to one file; give a name with ####", job.output,
          frames.size());
   }
   return {frames.begin(), frames.end()};

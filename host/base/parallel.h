@@ -3,28 +3,41 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace defray {
 
-/// Calls task(i) for every i from 0 to count - 1, once, on every core, this thread included. Tasks
-/// must not throw. `progress` gets the share done, 0 to 1, on this thread.
+/// Calls task(i) for every i from 0 to count - 1, once, on every core, this thread included. What a
+/// task throws, no memory for one, is thrown here, once those at work are done. `progress` gets the
+/// share done, 0 to 1, on this thread.
 template <typename Task>
 void parallel_for(int count, const Task& task, const std::function<void(double)>& progress = {}) {
   std::atomic<int> next = 0;
+  std::exception_ptr thrown;
+  std::once_flag first;
   const auto work = [&](bool reports) {
-    for (int i = next++; i < count; i = next++) {
-      task(i);
-      if (reports && progress) progress(static_cast<double>(i + 1) / count);
+    try {
+      for (int i = next++; i < count; i = next++) {
+        task(i);
+        if (reports && progress) progress(static_cast<double>(i + 1) / count);
+      }
+    } catch (...) {
+      std::call_once(first, [&] { thrown = std::current_exception(); });
+      next = count;
     }
   };
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
-    helpers.emplace_back(work, false);
+  {
+    std::vector<std::jthread> helpers;
+    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
+      helpers.emplace_back(work, false);
+    }
+    work(true);
   }
-  work(true);
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 /// Calls task(first, end) for stretches of a long row, each once.

@@ -4,7 +4,15 @@
 
 #include <algorithm>
 
+#include "base/error.h"
+
 namespace defray {
+
+void require_allowed_size(const std::string& what, int width, int height) {
+  if (has_allowed_size(width, height)) return;
+  fail(ErrorKind::input, "{} has {}x{} pixels; allowed are 1 to {} a side and {} in all", what,
+       width, height, max_side, max_pixels);
+}
 
 Window intersection(const Window& a, const Window& b) {
   const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/window.h"
 #include "image/image_file_part.h"
 #include "image/sequence.h"
 
@@ -15,8 +16,6 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-constexpr std::int64_t max_pixels = std::int64_t{1} << 28;  // 16384 x 16384
-constexpr int max_side = 1 << 16;
 constexpr int max_channels = 4096;
 
 std::uint64_t physical_memory() {
@@ -26,9 +25,7 @@ std::uint64_t physical_memory() {
 
 /// Sizes come from the header, before anything is allocated: OpenImageIO does not limit EXR.
 void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t bytes_before) {
-  const std::int64_t pixels = std::int64_t{spec.width} * spec.height;
-  if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
-      pixels > max_pixels || spec.depth > 1) {
+  if (!has_allowed_size(spec.width, spec.height) || spec.depth > 1) {
     fail(ErrorKind::input,
          "{}: header says {}x{}x{} pixels; allowed are 1 to {} a side and {} in all", path,
          spec.width, spec.height, spec.depth, max_side, max_pixels);
@@ -74,6 +71,7 @@ ImageFile ImageFile::read(const std::string& path, Content content) {
   check_readable(path);
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path, content);
+  require_allowed_size(path + ":", picture.width, picture.height);
   const bool is_exact = content == Content::picture && picture.bits == 8;  // in half floats
   const Sample sample = is_exact ? Sample::half_float : Sample::single_float;
   ImageFile file =

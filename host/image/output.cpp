@@ -40,6 +40,7 @@ void write_display_encoded(const std::string& path, const PartInfo& part,
     notes.push_back(
         fmt::format("{} values outside 0...1 clipped by the {}-bit output", clipped, bits));
   }
+  require_allowed_size(path + ": the display window", part.display.width, part.display.height);
   const LdrPicture picture{part.display.width,
                            part.display.height,
                            {},

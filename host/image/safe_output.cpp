@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -20,27 +22,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The temporary file in hand, for a signal handler: empty, or a complete path.
-std::array<char, 4096> temporary_path{};
+/// A temporary file in hand, for a signal handler.
+struct Place {
+  std::atomic<bool> is_taken = false;
+  std::atomic<bool> is_named = false;  ///< The path is complete.
+  std::array<char, 4096> path{};
+};
+/// Of as many threads as write at a time; what more of them leave behind the next run removes.
+std::array<Place, 16> places{};
+
+Place* free_place() {
+  for (Place& place : places) {
+    if (!place.is_taken.exchange(true)) return &place;
+  }
+  return nullptr;
+}
 
 /// Registers a temporary file for the time it exists; removes it when it was not renamed.
 class Temporary {
  public:
-  explicit Temporary(const std::string& path) : path_(path) {
-    if (path.size() < temporary_path.size()) {
-      std::memcpy(temporary_path.data() + 1, path.c_str() + 1, path.size());
-      temporary_path[0] = path[0];  // last: the handler never sees half a name
-    }
+  explicit Temporary(const std::string& path) : path_(path), place_(free_place()) {
+    if (!place_ || path.size() >= place_->path.size()) return;
+    std::memcpy(place_->path.data(), path.c_str(), path.size() + 1);
+    place_->is_named = true;
   }
   ~Temporary() {
-    temporary_path[0] = '\0';
     unlink(path_.c_str());  // fails harmlessly after the rename
+    if (!place_) return;
+    place_->is_named = false;
+    place_->is_taken = false;
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
 
  private:
   std::string path_;
+  Place* place_;
 };
 
 fs::path folder_of(const std::string& path) {
@@ -59,9 +76,16 @@ std::string host_mark() {
 /// choose the format by it. What only asks has names of its own: another thread may be writing.
 std::string temporary_name(const std::string& path, char mark = '-') {
   const fs::path target(path);
-  const std::string name = fmt::format(".{}.defray{}{}-{}{}", target.stem().string(), mark,
-                                       host_mark(), getpid(), target.extension().string());
-  return (folder_of(path) / name).string();
+  const std::string end =
+      fmt::format(".defray{}{}-{}{}", mark, host_mark(), getpid(), target.extension().string());
+  std::string stem = target.stem().string();
+  const bool is_allowed = target.filename().native().size() <= NAME_MAX;
+  if (is_allowed && stem.size() + end.size() >= NAME_MAX) {  // cut, and still another for each
+    const std::string whole = fmt::format("{:08x}", std::hash<std::string>()(stem) & 0xffffffff);
+    stem.resize(NAME_MAX - 1 - std::min<std::size_t>(NAME_MAX - 1, end.size() + whole.size()));
+    stem += whole;
+  }
+  return (folder_of(path) / ("." + stem + end)).string();
 }
 
 /// Of a name that temporary_name made on this machine, the process; 0 for any other.
@@ -103,6 +127,15 @@ void sync_path(const std::string& what, const std::string& path) {
   const int code = errno;
   if (file >= 0) close(file);
   if (!ok) fail(ErrorKind::output, "{}: cannot sync it to disk: {}", what, std::strerror(code));
+}
+
+/// As far as that goes: who may write into a folder need not be let read it, and some file systems
+/// sync none. The file is there, and synced.
+void sync_folder(const std::string& path) {
+  const int folder = open(path.c_str(), O_RDONLY);
+  if (folder < 0) return;
+  (void)fsync(folder);
+  close(folder);
 }
 
 /// Who may read and write a file stays so when another takes its place.
@@ -185,7 +218,7 @@ void write_safely(const std::string& to, const std::function<void(const std::str
     fail(ErrorKind::output, "{}: cannot rename the finished file to it: {}", path,
          std::strerror(errno));
   }
-  sync_path(path, folder_of(path).string());
+  sync_folder(folder_of(path).string());
 }
 
 void write_text(const std::string& path, const std::string& text) {
@@ -197,7 +230,9 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 void remove_temporary() {
-  if (temporary_path[0] != '\0') unlink(temporary_path.data());
+  for (const Place& place : places) {
+    if (place.is_named) unlink(place.path.data());
+  }
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {

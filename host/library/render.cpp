@@ -30,6 +30,11 @@ void check(const Picture& picture, const Options& options) {
   if (data.width <= 0 || data.height <= 0) {
     fail(ErrorKind::usage, "the data window {} has no pixels", to_string(data));
   }
+  if (!has_allowed_size(data.width, data.height)) {
+    fail(ErrorKind::usage,
+         "the data window {} is too large: allowed are {} pixels a side and {} in all",
+         to_string(data), max_side, max_pixels);
+  }
   if (picture.display.width < 0 || picture.display.height < 0) {
     fail(ErrorKind::usage, "the display window {} has no pixels", to_string(picture.display));
   }

@@ -44,6 +44,9 @@ void grow(Source& source, const RenderSettings& settings, FrameReport& report) {
     }
     return;
   }
+  require_allowed_size(fmt::format("{}: its data window, grown by the blur ({} none lets it be),",
+                                   source.file.path(), field("grow")),
+                       to.width, to.height);
   for (Plane& plane : source.colour) plane = enlarged(plane, from, to, 0);
   source.depth = enlarged(source.depth, from, to, std::numeric_limits<float>::infinity());
   source.file.grow(source.choice.part, to);

@@ -8,6 +8,7 @@
 #include "lens/lens.h"
 #include "library/backend_of.h"
 #include "splat/cloud_cache.h"
+#include "splat/models.h"
 #include "splat/splat_picture.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
@@ -99,6 +100,10 @@ SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pos
   out.depth = std::move(planes.depth);
   out.fragments = std::move(planes.fragments);
   return out;
+}
+
+PointCloud make_point_cloud(const std::string& name, std::size_t points) {
+  return model_cloud(name, points);
 }
 
 CameraPose framing_pose(const SplatModel& model, const Lens& lens, const SplatSettings& settings) {

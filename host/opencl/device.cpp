@@ -75,7 +75,13 @@ std::vector<DeviceInfo> list_devices() {
     } catch (const cl::Error&) {
       continue;  // and "no device" likewise
     }
-    for (const cl::Device& device : devices) found.push_back(describe(platform, device));
+    for (const cl::Device& device : devices) {
+      try {
+        found.push_back(describe(platform, device));
+      } catch (const cl::Error&) {
+        continue;  // one that cannot even tell its name is none
+      }
+    }
   }
   return found;
 }

@@ -3,6 +3,13 @@
 #include "opencl/opencl_error.h"
 
 namespace defray {
+namespace {
+
+[[noreturn]] void fail_on(const cl::Error& error) {
+  fail(ErrorKind::device, "{} failed: {}", error.what(), opencl_error_name(error.err()));
+}
+
+}  // namespace
 
 DeviceBuffer::DeviceBuffer(cl::Context context, cl::CommandQueue queue, cl::Buffer buffer,
                            std::size_t bytes, bool works_in_host_memory,
@@ -34,12 +41,16 @@ void DeviceBuffer::fetch(void* host) {
     ++traffic_->downloads;
     traffic_->bytes += bytes_;
   } catch (const cl::Error& error) {
-    fail(ErrorKind::device, "{} failed: {}", error.what(), opencl_error_name(error.err()));
+    fail_on(error);
   }
 }
 
 const cl::Buffer& DeviceBuffer::use() {
-  unmap();
+  try {
+    unmap();
+  } catch (const cl::Error& error) {
+    fail_on(error);
+  }
   return buffer_;
 }
 

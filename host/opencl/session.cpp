@@ -36,13 +36,15 @@ std::vector<std::string> Session::kernel_names() const {
 std::map<std::string, double> Session::take_kernel_seconds() {
   finish();
   std::map<std::string, double> seconds;
-  for (const auto& [name, events] : events_) {
-    for (const cl::Event& event : events) {
-      const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-      const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-      seconds[name] += 1e-9 * static_cast<double>(end - start);
+  checked(info_, "clGetEventProfilingInfo", [&] {
+    for (const auto& [name, events] : events_) {
+      for (const cl::Event& event : events) {
+        const auto start = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        const auto end = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+        seconds[name] += 1e-9 * static_cast<double>(end - start);
+      }
     }
-  }
+  });
   events_.clear();
   return seconds;
 }

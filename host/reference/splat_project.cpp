@@ -37,6 +37,14 @@ struct Around {
   float circle;
 };
 
+/// Areas' squares are beyond floats.
+float size_of(const Row& a) {
+  const float largest = std::fmax(std::fmax(std::fabs(a[0]), std::fabs(a[1])), std::fabs(a[2]));
+  if (!(largest > 0)) return 0;
+  const Row share{a[0] / largest, a[1] / largest, a[2] / largest};
+  return largest * std::sqrt(dot(share, share));
+}
+
 /// Eigenvalues of m, each at least `circle`, in m's axes.
 Around circumellipse(const Variance& m, float circle) {
   const float mean = 0.5f * (m.xx + m.yy), difference = 0.5f * (m.xx - m.yy);
@@ -105,7 +113,7 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const Covariance low{{Row{n.low_xx, n.low_xy, n.low_xz}, Row{n.low_xy, n.low_yy, n.low_yz},
                         Row{n.low_xz, n.low_yz, n.low_zz}}};
   const float z = dot(forward, from_eye);
-  const float size = std::sqrt(dot(area, area));
+  const float size = size_of(area);
   const Row normal{area[0] / size, area[1] / size, area[2] / size};
 
   DefraySplat s{};
@@ -116,12 +124,12 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   s.z_near = z - half_depth;
   s.z_far = z + half_depth;
   if (!(size > 0) || !(s.z_near > p.near_units)) return culled(s);
-  const float towards = dot(area, from_eye);
+  const float towards = dot(normal, from_eye);
   if (p.one_sided && !(towards < 0)) return culled(s);
 
   const float tan_x = dot(right, from_eye) / z, tan_y = dot(down, from_eye) / z;
   const float scale = p.focal_px / z;
-  const float mass = scale * scale * (std::fabs(towards) / z);
+  const float spread = scale * scale * (std::fabs(towards) / z), mass = spread * size;
   s.x = p.centre_x + p.focal_px * tan_x;
   s.y = p.centre_y + p.focal_px * tan_y;
   Row to_x, to_y;  // the Jacobian
@@ -140,14 +148,14 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
                      n.variance * (dot(to_x, to_y) - over_x * over_y),
                      n.variance * (dot(to_y, to_y) - over_y * over_y)};
   const Variance w{own.xx + 1 + added.all.xx, own.xy + added.all.xy, own.yy + 1 + added.all.yy};
-  const float facing = std::fabs(towards) / (size * std::sqrt(dot(from_eye, from_eye)));
+  const float facing = std::fabs(towards) / std::sqrt(dot(from_eye, from_eye));
   const float light = p.has_headlight ? 0.333333343f + 0.666666687f * facing : 1;
   s.r = n.r * light;
   s.g = n.g * light;
   s.b = n.b * light;
   s.a = n.a;
   if (!(mass > 0)) return culled(s);
-  set_shape(p, w, determinant_of(own, n.variance * (mass / size), added), mass, is_disc, s);
+  set_shape(p, w, determinant_of(own, n.variance * spread, added), mass, is_disc, s);
   return s.first_x < s.end_x && s.first_y < s.end_y ? s : culled(s);
 }
 

@@ -1,4 +1,6 @@
-// Built-in point clouds: those of Krivanek & Zara 2003, or what stands in for them.
+// Those of Krivanek & Zara 2003, or what stands in for them.
+#include "splat/models.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -6,7 +8,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/vec3.h"
-#include "defray/splat.h"
 #include "splat/cloud_columns.h"
 
 namespace defray {
@@ -154,7 +155,7 @@ constexpr Model models[] = {{"plane", 262144, plane},
 
 }  // namespace
 
-PointCloud make_point_cloud(const std::string& name, std::size_t points) {
+PointCloud model_cloud(const std::string& name, std::size_t points) {
   std::vector<std::string> names;
   for (const Model& model : models) {
     if (name == model.name) {

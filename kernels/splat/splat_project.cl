@@ -38,6 +38,14 @@ float between(const float3 a, __global const DefraySplatNode* n, const float3 b)
 
 float product(const float3 a, const float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+// Of areas, whose squares are beyond floats.
+float size_of(const float3 a) {
+  const float largest = fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
+  if (!(largest > 0.0f)) return 0.0f;
+  const float3 share = a / largest;
+  return largest * sqrt(product(share, share));
+}
+
 // The variance (xx, xy, yy) whose ellipse is the smallest around those of `m` and of a circle's
 // variance: the larger of the two along each of m's axes (appendix A). Last, that of its shorter
 // one.
@@ -108,7 +116,7 @@ bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, 
 
   // The basis function's depth: no thinner than its own width, or neighbours on a curved surface
   // that faces the camera would lie apart.
-  const float size = sqrt(product(area, area));
+  const float size = size_of(area);
   const float3 normal = area / size;
   const float slant = product(forward, normal);
   const float along = n->variance * (1.0f - slant * slant) + between(forward, n, forward);
@@ -119,10 +127,11 @@ bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, 
   s->z_far = z + half_depth;
   if (!(size > 0.0f) || !(z - half_depth > p.near_units)) return false;
 
-  const float towards = product(area, from_eye);
+  const float towards = product(normal, from_eye);
   if (p.one_sided && !(towards < 0.0f)) return false;
   const float scale = p.focal_px / z, tan_x = x / z, tan_y = y / z;
-  const float mass = scale * scale * (fabs(towards) / z);
+  const float spread = scale * scale * (fabs(towards) / z);  // of a unit of area
+  const float mass = spread * size;
   s->x = p.centre_x + p.focal_px * tan_x;
   s->y = p.centre_y + p.focal_px * tan_y;
 
@@ -140,10 +149,10 @@ bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, 
                               n->variance * (product(row_x, row_y) - tilt_x * tilt_y),
                               n->variance * (product(row_y, row_y) - tilt_y * tilt_y));
   const float3 variance = (float3)(own.x + 1.0f + added.x, own.y + added.y, own.z + 1.0f + added.z);
-  const float determinant = determinant_of(own, n->variance * (mass / size), added);
+  const float determinant = determinant_of(own, n->variance * spread, added);
 
   // A light at the eye: a third of it from all around.
-  const float facing = fabs(towards) / (size * sqrt(product(from_eye, from_eye)));
+  const float facing = fabs(towards) / sqrt(product(from_eye, from_eye));
   const float light = p.has_headlight ? 0.333333343f + 0.666666687f * facing : 1.0f;
   s->r = n->r * light;
   s->g = n->g * light;

@@ -39,6 +39,13 @@ grep -vE "^. (DEFRAY_${abi/./\\.}\$|(typeinfo( name)?|vtable) for defray::Error@
   >foreign || true
 [ -s foreign ] && complain "it shows what is not the API: $(head -3 foreign)"
 grep -q 'T defray::render(defray::Device' symbols || complain "render does not show"
+# All of it in each build: what these objects neither hold nor need comes in by chance alone, beside
+# what a unity build has compiled with it. (Methods' and qualities' names are in files that they need.)
+nm -C "$build"/host/CMakeFiles/defray_host.dir/library/*.o | cut -c18- >own
+sed -n 's/@.*//; s/^T defray::/defray::/p' symbols | grep -vE '^defray::(test::|all_methods|settings_for|to_string)' | while IFS= read -r symbol; do
+  grep -qF "$symbol" own || echo "$symbol"
+done >elsewhere
+[ -s elsewhere ] && complain "it shows this by chance: $(head -3 elsewhere)"
 grep -E 'defray::(Session|DeviceBackend|Frame|ImageFile|run_chain|apply_method)\b' symbols &&
   complain "it shows its inner works"
 

@@ -81,7 +81,7 @@ TEST_F(ErrorCommand, AFrameANumber) {
   expect_refusal(defray(folder,
                         "render in.####.exr -o o.####.exr --error-out e.exr --camera camera.json "
                         "--focus-setting bg"),
-                 2, {"e.exr", "put #### in its name"}, "one file for all");
+                 2, {"e.exr", "give a name with ####"}, "one file for all");
 }
 
 TEST_F(ErrorCommand, StatsSayHowATargetsFrameIsMadeAgain) {

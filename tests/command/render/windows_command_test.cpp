@@ -48,6 +48,35 @@ TEST_F(Windows, PlacesAreThoseOfTheDisplayWindow) {
                  {"17,20: cut.exr has pixels from 18,18 to 29,29"}, "left of it");
 }
 
+TEST_F(Windows, LargerThanKernelsCountAreRefused) {
+  write("cut.exr", 0.75f, at);
+  expect_ok(shell(folder_, "oiiotool cut.exr --fullsize 100000x100000+0+0 -o huge.exr"));
+  const std::string lens = " --fstop 0.0001 --focal-length 50 --focus 3 ";
+  expect_refusal(defray(folder_, "render huge.exr -o out.exr --grow display" + lens), 3,
+                 {"huge.exr: its data window, grown by the blur (--grow none lets it be), has ",
+                  "allowed are 1 to 65536 a side"},
+                 "grown");
+  expect_refusal(defray(folder_, "render huge.exr -o out.png --grow none" + lens), 3,
+                 {"out.png: the display window has 100000x100000 pixels"}, "png");
+  expect_ok(defray(folder_, "render huge.exr -o out.exr --grow none" + lens));
+}
+
+/// A frame that the memory does not hold is one that failed, among others.
+TEST_F(Windows, AFrameTooLargeForTheMemoryIsABadFrame) {
+  write("s.0001.exr", 0.75f, at);
+  write("s.0003.exr", 0.75f, at);
+  expect_ok(shell(folder_, "oiiotool s.0001.exr --fullsize 16000x16000+0+0 -o s.0002.exr"));
+  const Result result = shell(
+      folder_, "ulimit -v 3000000; " + program() +
+                   " render s.####.exr -o o.####.png --grow none --skip-bad-frames -q --fstop 2 "
+                   "--focal-length 50 --focus 3 --device reference");
+  EXPECT_EQ(result.code, 1) << result.err;
+  EXPECT_NE(result.err.find("s.0002.exr: not enough memory for this picture"), std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("1 of 3 frames failed"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "o.0003.png"));
+}
+
 TEST_F(Windows, DepthOfALargerOneIsCutToTheColours) {
   write("cut.exr", 1, at);
   const std::string lens = " -o out.exr --fstop 0.25 --focal-length 50 --focus 3 ";

@@ -19,6 +19,20 @@ TEST(Parallel, VisitsEveryPlaceOnce) {
   }
 }
 
+TEST(Parallel, ThrowsWhatATaskThrowsAndOnlyThat) {
+  for (int round = 0; round < 50; ++round) {
+    std::atomic<int> done = 0;
+    EXPECT_THROW(parallel_for(1000,
+                              [&](int i) {
+                                if (i % 100 == 30) throw std::bad_alloc();
+                                ++done;
+                              }),
+                 std::bad_alloc);
+    EXPECT_LT(done, 1000);
+  }
+  EXPECT_NO_THROW(parallel_for(10, [](int) {}));
+}
+
 TEST(Parallel, CountsWhatIs) {
   for (const std::size_t length : lengths) {
     EXPECT_EQ(parallel_count(length, [](std::size_t i) { return i % 3 == 0; }), (length + 2) / 3);

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "image/image_file.h"
+#include "image/ldr.h"
 #include "support.h"
 
 namespace defray::test::image_limits_test {
@@ -30,6 +31,13 @@ TEST(ImageLimits, SidesAreUpTo65536Pixels) {
     expect_error(ErrorKind::input, {fmt::format("{}x{}x1", width, height), "1 to 65536 a side"},
                  [&] { ImageFile::read(path); });
   }
+}
+
+TEST(ImageLimits, SidesOfPngsToo) {
+  const Folder folder;
+  write_ldr(folder / "wide.png", {65537, 1, {"Y"}, {Plane(65537)}});
+  expect_error(ErrorKind::input, {"wide.png: has 65537x1 pixels", "1 to 65536 a side"},
+               [&] { ImageFile::read(folder / "wide.png"); });
 }
 
 TEST(ImageLimits, ChannelsAreUpTo4096) {

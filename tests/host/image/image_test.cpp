@@ -2,8 +2,10 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include "base/text.h"
 #include "image/image_file.h"
@@ -219,6 +221,47 @@ TEST(SafeOutput, WritesThroughALink) {
   write_safely(folder / "link.txt", [](const std::string& name) { std::ofstream(name) << "new"; });
   EXPECT_EQ(bytes_of(folder / "real.txt"), "new");
   EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
+}
+
+TEST(SafeOutput, NamesMayBeAsLongAsTheSystemHasThem) {
+  const Folder folder;
+  for (const std::size_t length : {200, 240, 255}) {
+    const std::string a = folder / (std::string(length - 5, 'x') + "a.exr");
+    const std::string b = folder / (std::string(length - 5, 'x') + "b.exr");
+    write_safely(a, [&](const std::string& first) {
+      std::ofstream(first) << "a";
+      write_safely(b, [&](const std::string& second) {
+        EXPECT_NE(first, second);
+        std::ofstream(second) << "b";
+      });
+    });
+    EXPECT_EQ(bytes_of(a), "a");
+    EXPECT_EQ(bytes_of(b), "b");
+  }
+}
+
+/// As the signal handler does it, of all that are being written.
+TEST(SafeOutput, AnInterruptedWriteOfManyLeavesNothing) {
+  const Folder folder;
+  std::vector<std::jthread> writers;
+  std::atomic<int> ready = 0;
+  std::atomic<bool> go_on = false;
+  for (int i = 0; i < 5; ++i) {
+    writers.emplace_back([&, i] {
+      const std::string path = folder / fmt::format("{}.txt", i);
+      EXPECT_THROW(write_safely(path,
+                                [&](const std::string& name) {
+                                  std::ofstream(name) << i;
+                                  ++ready;
+                                  while (!go_on) std::this_thread::yield();
+                                }),
+                   Error);
+    });
+  }
+  while (ready < 5) std::this_thread::yield();
+  remove_temporary();
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  go_on = true;
 }
 
 TEST(SafeOutput, ALinkMayNameAFileThatIsYetToCome) {

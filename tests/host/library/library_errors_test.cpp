@@ -37,6 +37,10 @@ TEST(Library, RefusesPlanesThatDoNotFit) {
   refuses({"1 to 4 planes", "5"}, [](Picture& p) { p.colour.resize(5, p.colour[0]); });
   refuses({"data window", "no pixels"}, [](Picture& p) { p.data.width = 0; });
   refuses({"data window", "no pixels"}, [](Picture& p) { p.data.height = -1; });
+  refuses({"data window 65537x1", "65536 pixels a side"}, [](Picture& p) {
+    p.data = {0, 0, 65537, 1};
+  });
+  refuses({"is too large", "268435456 in all"}, [](Picture& p) { p.data = {0, 0, 20000, 20000}; });
   refuses({"display window", "no pixels"}, [](Picture& p) { p.display.width = -1; });
 }
 

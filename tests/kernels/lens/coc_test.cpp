@@ -188,5 +188,14 @@ const FaultRows faults{
     {"coc", "last pixel dropped", {"if (i >= p.pixel_count)", "if (i + 1 >= p.pixel_count)"}},
 };
 
+TEST(Coc, SameBitsWhereNoBufferHoldsAPlane) {
+  const Lens lens = lens_of(3);
+  const Plane depths = depths_for(lens);
+  DeviceInfo info = device_under_test();
+  info.max_buffer_bytes = 1000 * sizeof(float);
+  Session small(info);
+  EXPECT_EQ(DeviceBackend(small).coc(lens, 1920, depths), device().coc(lens, 1920, depths));
+}
+
 }  // namespace
 }  // namespace defray::test::coc_test

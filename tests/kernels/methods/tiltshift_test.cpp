@@ -24,6 +24,16 @@ TEST(Tiltshift, KernelEqualsTwinBitForBit) {
   }
 }
 
+TEST(Tiltshift, SameBitsWhereNoBufferHoldsAPlane) {
+  DeviceInfo info = device_under_test();
+  for (const std::size_t rows : {1, 7, 96}) {
+    info.max_buffer_bytes = (rows * 61 + 60) * sizeof(float);
+    Session small(info);
+    const auto p = tiltshift_params({0.3, 0.2, 12}, 61, 97, -3, 90);
+    EXPECT_EQ(DeviceBackend(small).tiltshift(p), device().tiltshift(p)) << rows;
+  }
+}
+
 TEST(Tiltshift, GrowsFromTheBandToTheFarthestEdge) {
   // 100 rows, the band from row 20 to row 40: the ramp of 60 rows ends at the bottom edge.
   const auto p = tiltshift_params({0.3, 0.2, 12}, 1, 100, 0, 100);
