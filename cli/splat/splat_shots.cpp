@@ -77,10 +77,11 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
 /// default one.
 Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
   CameraValues values = shot.camera;
-  if (!values.focal_length_mm && !values.fov_deg) {
-    values.focal_length_mm = Lens().focal_length_mm;
-  } else if (!values.focal_length_mm && *values.fov_deg > 0 && *values.fov_deg < 180) {
-    values.focal_length_mm = Lens().sensor_width_mm / 2 / std::tan(*values.fov_deg * M_PI / 360);
+  if (!values.focal_length_mm) {
+    const double fov = values.fov_deg.value_or(0);  // make_lens says what is wrong with others
+    values.focal_length_mm = fov > 0 && fov < 180
+                                 ? Lens().sensor_width_mm / 2 / std::tan(fov * M_PI / 360)
+                                 : Lens().focal_length_mm;
   }
   if (!values.focus_distance_units) values.focus_distance_units = focus;
   const Window display{0, 0, job.settings.width, job.settings.height};

@@ -84,7 +84,7 @@ void print_text(const TuneReport& report) {
                to_string(f.own), f.own_ms, to_string(f.best), f.best_ms, gain_of(f), f.tried,
                f.is_adopted ? "best" : "own");
   }
-  fmt::print("  {}\n", report.path);
+  fmt::print("  gains are of the shortest runs, quartiles of runs in pairs\n  {}\n", report.path);
 }
 
 void print_json(const TuneReport& report) {

@@ -1,13 +1,18 @@
 #include "chain/quality.h"
 
+#include "base/error.h"
+
 namespace defray {
 
 const char* to_string(Quality quality) {
   constexpr std::array words{"preview", "draft", "normal", "high"};
-  return words[static_cast<std::size_t>(quality)];
+  const auto index = static_cast<std::size_t>(quality);
+  if (index >= words.size()) fail(ErrorKind::usage, "there is no quality {}", index);
+  return words[index];
 }
 
 ChainSettings settings_for(Quality quality) {
+  to_string(quality);  // refuses what is none
   ChainSettings s;
   if (quality == Quality::preview) {
     s.cells_per_side = 6;

@@ -54,8 +54,12 @@ void Session::set_work_group(std::size_t x, std::size_t y) {
 }
 
 void Session::set_work_group(const std::string& kernel, std::size_t x, std::size_t y) {
-  if (x * y > info_.max_work_group) {
-    fail(ErrorKind::usage, "work-group {}x{} has {} work-items: {} allows at most {}", x, y, x * y,
+  if ((x == 0) != (y == 0)) {
+    fail(ErrorKind::usage, "work-group {}x{}: either both are 0, for the kernel's own, or none", x,
+         y);
+  }
+  if (x > info_.max_work_group || y > info_.max_work_group || x * y > info_.max_work_group) {
+    fail(ErrorKind::usage, "work-group {}x{} has too many work-items: {} allows at most {}", x, y,
          info_.name, info_.max_work_group);
   }
   if (x * y == 0) {

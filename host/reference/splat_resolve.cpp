@@ -40,7 +40,7 @@ struct Pixel {
     const float colour[] = {s.r, s.g, s.b, s.a};
     for (int c = 0; c < 4; ++c) layer[c] += taken * colour[c];
     far = std::fmax(far, s.z_far);
-    depth = std::fmin(depth, s.z);
+    if (s.a > 0) depth = std::fmin(depth, s.z);
     ++count;
   }
 };

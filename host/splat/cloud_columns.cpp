@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/srgb.h"
@@ -53,6 +54,24 @@ CloudColumns::CloudColumns(const std::vector<std::string>& given_names,
   alpha_ = find(names, "alpha");
   if (!alpha_) alpha_ = find(names, "a");
   radius_ = find(names, "radius");
+  note_unused(names);
+}
+
+void CloudColumns::note_unused(const std::vector<std::string>& names) {
+  std::set<std::size_t> used(place_.begin(), place_.end());
+  for (const Group& group : {normal_, colour_}) {
+    if (group) used.insert(group->begin(), group->end());
+  }
+  for (const std::optional<std::size_t>& column : {alpha_, radius_}) {
+    if (column) used.insert(*column);
+  }
+  constexpr std::size_t most = 8;
+  std::vector<std::string> unused;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!used.contains(i)) unused.push_back(unused.size() < most ? names[i] : "...");
+  }
+  unused.resize(std::min(unused.size(), most + 1));
+  if (!unused.empty()) cloud_.notes.push_back("not used: " + join(unused, " "));
 }
 
 CloudColumns::Group CloudColumns::group(const std::vector<std::string>& names,

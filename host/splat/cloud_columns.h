@@ -31,6 +31,7 @@ class CloudColumns {
  private:
   using Group = std::optional<std::array<std::size_t, 3>>;  ///< Three columns that go together.
   Group group(const std::vector<std::string>& names, std::array<const char*, 3> wanted) const;
+  void note_unused(const std::vector<std::string>& names);
   /// Of its type's largest; of floats the value.
   double share(std::span<const double> row, std::size_t column) const;
   float colour(std::span<const double> row, std::size_t column) const;

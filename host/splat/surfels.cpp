@@ -192,7 +192,14 @@ void note_bright_colours(const PointCloud& cloud, Surfels& out) {
 Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   check_counts(cloud);
   check_colours(cloud);
+  for (const double o : cloud.origin) {
+    if (!std::isfinite(o)) {
+      fail(ErrorKind::input, "the cloud's {} has {}: allowed are finite numbers", field("origin"),
+           o);
+    }
+  }
   Surfels out;
+  out.notes = cloud.notes;
   note_bright_colours(cloud, out);
   out.has_colours = !cloud.colours.empty();
   const std::vector<std::uint32_t> kept = placed_points(cloud, out);

@@ -147,10 +147,14 @@ Columns names_for(const std::vector<ColumnContent>& content, const std::string& 
     append(are_colours(3) && !are_colours(6) ? colour : normal);
     append(names.back() == "blue" ? normal : colour);
   }
+  if (content.size() == 7 && are_colours(4)) {  // laser scanners' .pts
+    append({"intensity"});
+    append(colour);
+  }
   if (names.size() != content.size()) {
     fail(ErrorKind::input,
          "{}: has {} columns: without a line of names (x y z nx ny nz red green blue alpha radius) "
-         "3, 6 or 9 are understood",
+         "3, 6, 9 or, with an intensity before the colour, 7 are understood",
          path, content.size());
   }
   return names;

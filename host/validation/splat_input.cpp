@@ -67,7 +67,8 @@ DefraySplatNode node_of(const Case& c, std::uint32_t index) {
   n.r = colour_of(c, random);
   n.g = colour_of(c, random);
   n.b = colour_of(c, random);
-  n.a = c.seed % 3 == 0 ? static_cast<float>(random.next()) : 1;
+  // Some are all transparent.
+  n.a = c.seed % 3 == 0 ? static_cast<float>(std::max(1.25 * random.next() - 0.25, 0.0)) : 1;
   return n;
 }
 

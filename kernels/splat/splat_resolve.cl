@@ -12,9 +12,9 @@
 // first    [tile_count + 1]  where a tile's part of `list` begins
 // list     splats that meet the tile, in order
 // out0..3  [height][width]   premultiplied colour and alpha
-// depth    [height][width]   of the nearest fragment's splat, +inf where there is none
-// count    [height][width]   fragments, up to where nothing shines through any more
-// One work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
+// depth    [height][width]   of the nearest fragment's splat with any alpha, +inf where there is
+// none count    [height][width]   fragments, up to where nothing shines through any more One
+// work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
 // DEFRAY_SPLAT_TILE).
 #include "base/any.clh"
 #include "splat_params.h"
@@ -87,7 +87,7 @@ INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16
   r->layer2 = select(r->layer2, r->layer2 + taken * s->b, joins);
   r->layer3 = select(r->layer3, r->layer3 + taken * s->a, joins);
   r->far = select(r->far, fmax(r->far, s->z_far), joins);
-  r->depth = select(r->depth, fmin(r->depth, s->z), joins);
+  if (s->a > 0.0f) r->depth = select(r->depth, fmin(r->depth, s->z), joins);
   r->count -= joins;
 }
 

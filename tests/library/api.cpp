@@ -232,6 +232,10 @@ void check_messages(Device& device) {
   expect_error(ErrorKind::usage, "no kernel is called 'mixd'. Did you mean 'mixed'?",
                [&] { device.set_work_group("mixd", 8, 8); });
   expect_error(ErrorKind::usage, "work-items", [&] { device.set_work_group(100000, 1); });
+  expect_error(ErrorKind::usage, "there is no quality 9",
+               [] { defray::to_string(static_cast<defray::Quality>(9)); });
+  expect_error(ErrorKind::usage, "there is no quality 9",
+               [] { defray::settings_for(static_cast<defray::Quality>(9)); });
   Device reference = Device::open("reference");
   expect_error(ErrorKind::usage, "memory means nothing to device reference",
                [&] { reference.set_memory(1); });

@@ -22,6 +22,7 @@ struct PointCloud {
       radii;  ///< Of the disc that a point stands for, scene units. Empty: estimated.
   std::vector<std::array<float, 3>> colours;  ///< Linear. Empty: grey, with a light at the eye.
   std::vector<float> alpha;                   ///< 0 to 1. Empty: opaque.
+  std::vector<std::string> notes;             ///< Of its reader: what is not used.
 };
 
 /// Where the camera stands. It looks along the picture's axis.

@@ -52,7 +52,16 @@ TEST_F(Messages, OfNumbersAndWords) {
 TEST_F(Messages, OfATextCloud) {
   std::ofstream(folder_ / "five.xyz") << "0 0 0 1 2\n1 0 0 1 2\n";
   expect_refused("splat five.xyz" + lens, 3,
-                 {"five.xyz: has 5 columns", "3, 6 or 9 are understood"});
+                 {"five.xyz: has 5 columns", "3, 6, 9 or, with an intensity"});
+  expect_refused("splat --model plane --model-points 99 --fstop 2 --fov 180 -o o.exr", 2,
+                 {"--fov is 180 degrees", "below 180"});
+  std::ofstream(folder_ / "scan.pts") << "3\n0 0 0 -12 255 0 0\n1 0 0 8 255 9 9\n0 1 0 3 255 2 2\n";
+  const Result scan = defray(folder_, "splat scan.pts -o o.exr --fstop 2 --size 16x16 --json");
+  expect_ok(scan);
+  EXPECT_EQ(scan.err, "defray: note: scan.pts: not used: intensity\n");
+  std::ofstream(folder_ / "half.xyz") << "x y z red radius f_dc\n0 0 0 1 1 4\n1 0 0 1 1 4\n";
+  EXPECT_EQ(defray(folder_, "splat half.xyz -o o.exr --fstop 2 --size 16x16 --json").err,
+            "defray: note: half.xyz: not used: red f_dc\n");
 }
 
 }  // namespace

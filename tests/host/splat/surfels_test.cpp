@@ -131,6 +131,14 @@ TEST(Surfels, EstimatedNormalsHaveTheSideOfGivenOnes) {
   }
 }
 
+TEST(Surfels, AnOriginIsFinite) {
+  for (const double bad : {HUGE_VAL, std::nan("")}) {
+    PointCloud cloud = slope(3);
+    cloud.origin[1] = bad;
+    expect_error(ErrorKind::input, {"the cloud's origin has"}, [&] { make_surfels(cloud); });
+  }
+}
+
 TEST(Surfels, NotesFlippedNormals) {
   PointCloud cloud = slope(9);
   cloud.normals.assign(cloud.positions.size(), {0, 0, 1});

@@ -34,6 +34,12 @@ TEST(Session, WorkGroupsBeyondTheDevicesLimitAreRefused) {
   Session own(device_under_test());
   expect_error(ErrorKind::usage, {"work-items", "allows at most"},
                [&] { own.set_work_group(own.info().max_work_group, 2); });
+  constexpr std::size_t half = std::size_t{1} << 32;  // times itself it is 0
+  expect_error(ErrorKind::usage, {"too many work-items"}, [&] { own.set_work_group(half, half); });
+  for (const std::size_t x : {0, 5}) {
+    expect_error(ErrorKind::usage, {"either both are 0"},
+                 [&] { own.set_work_group("fill", x, 5 - x); });
+  }
 }
 
 Session with_substitution(const Substitution& substitution) {

@@ -98,6 +98,14 @@ TEST(SplatResolve, DepthIsTheNearestFragmentsAndFragmentsAreCounted) {
   EXPECT_EQ(planes.colour[3][0], 0);
 }
 
+TEST(SplatResolve, WhatIsAllTransparentHasNoDepth) {
+  const SplatPlanes planes = device().splat_resolve(
+      in_order({splat_at(1, 1, 0.5f, 3, 0.1f, 1, 0), splat_at(1, 1, 0.5f, 5, 0.1f, 1)}),
+      picture(3, 3, false));
+  EXPECT_EQ(planes.depth[4], 5);
+  EXPECT_EQ(planes.fragments[4], 2);
+}
+
 TEST(SplatResolve, GaussiansAreExponentialsToTheirCutOff) {
   DefraySplat s = splat_at(20, 0, 1, 3, 0.1f, 1);
   s.conic_xx = s.conic_yy = 0.01f;
@@ -175,6 +183,7 @@ TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
 }
 
 const FaultRows faults{
+    {"splat_resolve", "nothing has a depth", {"if (s->a > 0.0f) r->depth =", "r->depth ="}},
     {"splat_resolve",
      "surfaces never end",
      {"hits & (s->z_near > r->far)", "hits & (s->z_near > INFINITY)"}},
