@@ -80,11 +80,14 @@ std::map<std::string, std::array<std::size_t, 2>> Session::tuned() const {
 }
 
 std::array<std::size_t, 2> Session::group_of(const std::string& name) const {
-  for (const auto* groups : {&groups_, &tuned_}) {
-    if (const auto found = groups->find(name); found != groups->end()) return found->second;
-  }
+  if (const auto set = groups_.find(name); set != groups_.end()) return set->second;
+  const auto tuned = tuned_.find(name);
   const WorkGroup own = launch_of(name).group_on(info_.is_gpu());
-  return {own.x, own.y};
+  auto [x, y] = tuned != tuned_.end() ? tuned->second : std::array{own.x, own.y};
+  const auto known = most_work_items_.find(name);
+  const std::size_t most = known != most_work_items_.end() ? known->second : info_.max_work_group;
+  while (x * std::max<std::size_t>(y, 1) > most) (x > y ? x : y) /= 2;
+  return {x, y};
 }
 
 cl::Buffer Session::buffer(std::size_t bytes) {
@@ -184,7 +187,10 @@ cl::Kernel& Session::kernel_of(const char* name) {
   const auto found = kernels_.find(name);
   if (found != kernels_.end()) return found->second;
   return checked(info_, std::string("clCreateKernel ") + name, [&]() -> cl::Kernel& {
-    return kernels_.emplace(name, cl::Kernel(program_, name)).first->second;
+    const cl::Kernel kernel(program_, name);
+    most_work_items_[name] = std::min(
+        info_.max_work_group, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(info_.device));
+    return kernels_.emplace(name, kernel).first->second;
   });
 }
 

@@ -49,7 +49,8 @@ class Session {
   /// Those of them that are used: none is set.
   std::map<std::string, std::array<std::size_t, 2>> tuned() const;
 
-  /// What a kernel is launched with: as set, as tuned, or as the launch table has it.
+  /// What a kernel is launched with: as set; or as tuned, or as the launch table has it, halved
+  /// until the device takes so many work-items, of this kernel, once it is made.
   std::array<std::size_t, 2> group_of(const std::string& name) const;
 
   /// What is made on the device for a stage fits so much, unless a row with the rows that it looks
@@ -210,8 +211,9 @@ class Session {
   cl::Context context_;
   cl::CommandQueue queue_;
   cl::Program program_;
-  cl::Buffer nothing_;                         ///< For planes that are empty.
-  std::map<std::string, cl::Kernel> kernels_;  ///< Kept: Mesa compiles each new one anew.
+  cl::Buffer nothing_;                                  ///< For planes that are empty.
+  std::map<std::string, cl::Kernel> kernels_;           ///< Kept: Mesa compiles each new one anew.
+  std::map<std::string, std::size_t> most_work_items_;  ///< In a group of each of these.
   std::shared_ptr<Traffic> traffic_ = std::make_shared<Traffic>();
 };
 

@@ -42,6 +42,22 @@ TEST(Session, WorkGroupsBeyondTheDevicesLimitAreRefused) {
   }
 }
 
+TEST(Session, WorkGroupsThatNoOneAskedForFitTheDevice) {
+  DeviceInfo info = device_under_test();
+  using Group = std::array<std::size_t, 2>;
+  for (const auto& [most, group] : {std::pair{1, Group{1, 0}}, {48, {32, 0}}, {64, {64, 0}}}) {
+    info.max_work_group = static_cast<std::size_t>(most);
+    EXPECT_EQ(Session(info).group_of("coc"), group) << most;
+  }
+  info.max_work_group = 24;
+  Session small(info);
+  small.set_tuned({{"fill", {8, 8}}, {"split", {1, 64}}});
+  EXPECT_EQ(small.group_of("fill"), (Group{4, 4}));
+  EXPECT_EQ(small.group_of("split"), (Group{1, 16}));
+  small.set_work_group("fill", 2, 3);
+  EXPECT_EQ(small.group_of("fill"), (Group{2, 3}));
+}
+
 Session with_substitution(const Substitution& substitution) {
   SessionOptions options;
   options.substitutions = {substitution};
