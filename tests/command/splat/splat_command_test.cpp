@@ -79,20 +79,15 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   const Result text = defray(folder_, figure + "-o o.exr " + wide_lens);
   expect_ok(text);
   EXPECT_NE(text.out.find("2000 points drawn as "), std::string::npos) << text.out;
+  const std::string nothing = "nothing of the cloud is in the picture: see --from, --look-at";
   for (const std::string flag : {"--json ", "--depth "}) {
     const Result away =
         defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + flag + wide_lens);
-    expect_ok(away);
-    EXPECT_NE(away.err.find("o.exr: nothing of the cloud is in the picture"), std::string::npos);
+    EXPECT_EQ(away.err, "defray: note: o.exr: " + nothing + "\n");
   }
-  const json away = render("--from 0,0,9 --look-at 0,0,20 " + wide_lens);
-  EXPECT_EQ(away["notes"][0], "nothing of the cloud is in the picture: see --from, --look-at");
-  EXPECT_EQ(away["status"], "ok");
-  EXPECT_EQ(away["input"], "model figure");
-  EXPECT_EQ(sharp["notes"], json::array());
-  EXPECT_TRUE(sharp["fragments"].is_number_integer());
-  EXPECT_GT(sharp["render_s"], 0.0);
-  EXPECT_GE(sharp["stages_s"]["resolve"], 0.0);
+  EXPECT_EQ(render("--from 0,0,9 --look-at 0,0,20 " + wide_lens)["notes"], json::array({nothing}));
+  EXPECT_TRUE(sharp["notes"].empty() && sharp["fragments"].is_number_integer());
+  EXPECT_TRUE(sharp["render_s"] > 0.0 && sharp["stages_s"]["resolve"] >= 0.0);
 }
 
 TEST_F(SplatCommand, ATurn) {
@@ -287,10 +282,10 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused(figure + "-o o.exr --psf dics " + wide_lens, 2, {"--psf", "Did you mean 'disc'?"});
   refused(figure + "-o o.exr --turntable 3 " + wide_lens, 2,
           {"o.exr", "3 frames would go to one file"});
-  refused(figure + "-o o.####.exr --turntable -1 " + wide_lens, 2, {"--turntable is -1"});
-  refused(figure + "-o o.####.exr --turntable 0 " + wide_lens, 2, {"--turntable is 0"});
-  refused(figure + "-o o.####.exr --turntable 1000000000 " + wide_lens, 2,
-          {"--turntable is 1000000000: allowed are 1 to 100000"});
+  for (const std::string count : {"-1", "0", "1000000000"}) {
+    refused(figure + "-o o.####.exr --turntable " + count + " " + wide_lens, 2,
+            {"--turntable is " + count + ": allowed are 1 to 100000"});
+  }
 }
 
 TEST_F(SplatCommand, WithoutAScreenThereIsNothingToShow) {
