@@ -5,6 +5,7 @@
 
 #include "base/window.h"
 #include "commands.h"
+#include "commands/cloud_info.h"
 #include "commands/suggested_command.h"
 #include "defray/error.h"
 #include "options/option_table.h"
@@ -106,18 +107,20 @@ void print_json(const FileInfo& info) {
 }  // namespace
 
 Run add_info(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "info",
-      "What a picture holds: parts, layers, windows, depths, lens; a command that renders it");
+  CLI::App* command = app.add_subcommand("info",
+                                         "What a picture or point cloud holds: parts, layers, "
+                                         "windows, depths, lens; points and where they "
+                                         "lie; a command that renders it");
   struct Options {
     std::string file;
     bool json = false;
   };
   auto o = std::make_shared<Options>();
-  command->add_option("file", o->file, "EXR, TIFF, HDR, PNG, JPEG")->required();
+  command->add_option("file", o->file, "EXR, TIFF, HDR, PNG, JPEG; PLY, text")->required();
   command->add_flag("--json", o->json, "Print one JSON object instead of text");
   command->footer("Example: defray info beauty.exr");
   return [o] {
+    if (is_cloud_name(o->file)) return print_cloud_info(o->file, o->json), 0;
     const FileInfo info = describe_file(o->file);
     if (o->json) {
       print_json(info);

@@ -53,13 +53,13 @@ std::string chain_line(const ChainReport& d) {
 }
 
 /// To be repeated exactly.
-std::string options_of(Quality quality, int cells_per_side) {
+std::string quality_options(Quality quality, int cells_per_side) {
   return fmt::format("--quality {} --rdb {}", to_string(quality), cells_per_side);
 }
 
 std::string expected_line(const ExpectedError& e) {
   const std::string chosen =
-      e.quality ? options_of(*e.quality, e.cells_per_side) + ": " : std::string();
+      e.quality ? quality_options(*e.quality, e.cells_per_side) + ": " : std::string();
   if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
@@ -207,7 +207,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
   if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
   if (r.budget) {
     fmt::print("  {}: {:.4g} ms expected, {:.4g} taken, of {:.4g}\n",
-               options_of(r.budget->quality, r.budget->cells_per_side), r.budget->expected_ms,
+               quality_options(r.budget->quality, r.budget->cells_per_side), r.budget->expected_ms,
                1000 * r.render_seconds, r.budget->budget_ms);
   }
   if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));

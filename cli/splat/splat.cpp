@@ -6,6 +6,7 @@
 #include "image/display.h"
 #include "image/output.h"
 #include "image/safe_output.h"
+#include "image/sequence.h"
 #include "image/viewer.h"
 #include "open_device.h"
 #include "progress.h"
@@ -31,6 +32,11 @@ Examples:
 SplatModel model_of(const SplatCommand& job, bool has_bar) {
   if (job.input.empty() == job.model.empty()) {
     fail(ErrorKind::usage, "a point cloud is missing: name a file, or a model with --model");
+  }
+  std::error_code unknown;
+  if (has_frame_pattern(job.input) && !std::filesystem::exists(job.input, unknown)) {
+    fail(ErrorKind::usage,
+         "{}: one cloud goes with all frames: a pattern is for cameras and pictures", job.input);
   }
   ProgressBar bar(1, "points", has_bar);
   const auto update = [&](double share) { bar.update(0, share); };

@@ -2,6 +2,7 @@
 #include <OpenImageIO/imagebuf.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -186,6 +187,39 @@ TEST_F(Info, ListsEachPart) {
   EXPECT_EQ(parts[0]["channels"], (std::vector<std::string>{"R", "G", "B", "Z"}));
   EXPECT_EQ(parts[1]["channels"], (std::vector<std::string>{"glow.R", "glow.G", "glow.B"}));
   EXPECT_EQ(data("both.exr")["depth_candidates"][0]["part"], 0);
+}
+
+TEST_F(Info, OfAPointCloud) {
+  const auto cloud = [&](double unit) {
+    std::ofstream points(folder / "scan.ply");
+    points << "ply\nformat ascii 1.0\nelement vertex 400\nproperty double x\nproperty double y\n"
+              "property double z\nproperty float confidence\nproperty uchar red\nproperty uchar "
+              "green\nproperty uchar blue\nend_header\n";
+    for (int i = 0; i < 400; ++i) {
+      points << unit * (5 + i % 20 / 10.0) << ' ' << unit * (i / 20 / 10.0) << ' ' << unit * (i % 7)
+             << " 1 250 9 9\n";
+    }
+  };
+  cloud(1);
+  expect_lines("scan.ply", {"  points: 400", "  x 5 to 6.9", "  y 0 to 1.9", "  z 0 to 6",
+                            "  given: places, colours", "  not used: confidence", "try:"});
+  for (const double unit : {1e-4, 1.0, 1e6}) {
+    cloud(unit);
+    const json told = data("scan.ply");
+    EXPECT_EQ(told["points"], 400);
+    EXPECT_NEAR(told["most"][0], 6.9 * unit, 1e-6 * unit);
+    EXPECT_EQ(told["given"], json::array({"colours"}));
+    EXPECT_EQ(told["notes"], json::array({"not used: confidence"}));
+    const std::string command = told["command"];
+    const Result drawn = shell(folder, program() + command.substr(6) + " --json");
+    expect_ok(drawn);
+    const json picture = json::parse(drawn.out);
+    EXPECT_GT(picture["seen"], 300) << command;
+    EXPECT_NEAR(picture["farthest_coc_px"], 8, 5) << command;
+  }
+  expect_refusal(defray(folder, "info none.ply"), 3, {"none.ply: no such file"}, "none");
+  expect_refusal(defray(folder, "splat s.####.ply -o o.####.png --fstop 2"), 2,
+                 {"s.####.ply: one cloud goes with all frames"}, "frames");
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+#pragma once
+// What defray info tells of a point cloud.
+#include <string>
+
+namespace defray::cli {
+
+/// By its name: .ply, .xyz, .txt, .csv, .pts.
+bool is_cloud_name(const std::string& path);
+
+/// Prints its points, where they lie, what they have, and a command that draws them. Throws
+/// Error(input).
+void print_cloud_info(const std::string& path, bool json);
+
+}  // namespace defray::cli
