@@ -72,18 +72,18 @@ class Surfaces {
     Plane above, below;
     add_light(f, top, above);
     add_light(f, bottom, below);
-    const std::size_t first = half_.frame.index(0, y);
-    std::uint32_t* const __restrict source = &half_.source[first];
-    std::int32_t* const __restrict own_coc = &coc_[first];
-    float* const __restrict own_depth = &depth_[first];
-    float* const __restrict detail = &half_.detail[first];
-    float* const __restrict clear = &half_.clear[first];
+    const std::size_t begin = half_.frame.index(0, y);
+    std::uint32_t* const __restrict source = &half_.source[begin];
+    std::int32_t* const __restrict own_coc = &coc_[begin];
+    float* const __restrict own_depth = &depth_[begin];
+    float* const __restrict detail = &half_.detail[begin];
+    float* const __restrict clear = &half_.clear[begin];
     for_each_block(f.width, [&](std::size_t i, std::size_t left, std::size_t right) {
       const std::int32_t c[4]{coc.top[left], coc.top[right], coc.bottom[left], coc.bottom[right]};
       const float light[4]{above[left], above[right], below[left], below[right]};
       const int own = own_pixel(c, light);
-      const auto of_own = [own](auto a, auto b, auto c, auto d) {
-        return own == 0 ? a : own == 1 ? b : own == 2 ? c : d;
+      const auto of_own = [own](auto first, auto second, auto third, auto fourth) {
+        return own == 0 ? first : own == 1 ? second : own == 2 ? third : fourth;
       };
       source[i] = static_cast<std::uint32_t>(
           of_own(top + left, top + right, bottom + left, bottom + right));

@@ -168,14 +168,14 @@ void create_folder(const std::string& path) {
 }
 
 void check_can_write(const std::string& to, const std::string& hint) {
-  const std::string path = behind_links(to);
   std::error_code names_nothing;  // what is wrong with it then, opening tells
-  if (fs::is_directory(path, names_nothing)) {
-    fail(ErrorKind::output, "{}: is a folder, not a file name", path);
+  if (fs::is_directory(to, names_nothing)) {
+    fail(ErrorKind::output, "{}: is a folder, not a file name", to);
   }
-  if (fs::exists(path, names_nothing) && !fs::is_regular_file(path, names_nothing)) {
-    fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", path);
+  if (fs::exists(to, names_nothing) && !fs::is_regular_file(to, names_nothing)) {
+    fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", to);
   }
+  const std::string path = behind_links(to);
   remove_stale_files(folder_of(path));
   const std::string probe = temporary_name(path, '+');
   const int file = open(probe.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0666);
