@@ -1,6 +1,9 @@
 // The tuner at work: what counts, what is tried alone, where it goes on.
 #include "tune/tuner.h"
 
+#include <chrono>
+#include <thread>
+
 #include "command/program.h"
 #include "tuning/shapes.h"
 
@@ -135,6 +138,14 @@ TEST_F(TunerAtWork, EndsAtItsTime) {
   tuner.run(workload(), 1e-9, [](double, const std::string&) {});
   EXPECT_LE(drawn, 4);  // once
   EXPECT_GE(drawn, 3);
+}
+
+/// A step is not begun that would end after the time if it took as long as the last.
+TEST_F(TunerAtWork, StepsThatTakeTheirTimeEndWithinIt) {
+  spoil = [](int, Drawn&) { std::this_thread::sleep_for(std::chrono::milliseconds(100)); };
+  Tuner tuner(device, path, {"linear_psf"});
+  tuner.run(workload(), 1.05, [](double, const std::string&) {});
+  EXPECT_LE(drawn, 10);
 }
 
 TEST_F(TunerAtWork, ADeviceThatIsWrongFromTheStartIsRefused) {
