@@ -66,12 +66,6 @@ std::vector<std::string> given_of(const PointCloud& cloud) {
 
 }  // namespace
 
-bool is_cloud_name(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".ply" || extension == ".xyz" || extension == ".txt" || extension == ".csv" ||
-         extension == ".pts";
-}
-
 void print_cloud_info(const std::string& path, bool json) {
   const PointCloud cloud = read_point_cloud(path);
   const Bounds bounds(cloud);

@@ -4,9 +4,6 @@
 
 namespace defray::cli {
 
-/// By its name: .ply, .xyz, .txt, .csv, .pts.
-bool is_cloud_name(const std::string& path);
-
 /// Prints its points, where they lie, what they have, and a command that draws them. Throws
 /// Error(input).
 void print_cloud_info(const std::string& path, bool json);

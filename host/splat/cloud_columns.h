@@ -10,6 +10,9 @@
 
 namespace defray {
 
+/// By its extension: what read_point_cloud() reads.
+bool is_cloud_name(const std::string& path);
+
 /// Throws Error(input) where that many points need more memory than the machine has.
 void check_memory_for(std::uint64_t points, const std::string& path,
                       const std::string& how_known = "says it has");

@@ -7,11 +7,15 @@
 
 namespace defray {
 
-PointCloud read_point_cloud(const std::string& path) {
+bool is_cloud_name(const std::string& path) {
   const std::string extension = lower_extension(path);
-  const bool is_ply = extension == ".ply";
-  if (!is_ply && extension != ".xyz" && extension != ".txt" && extension != ".csv" &&
-      extension != ".pts") {
+  return extension == ".ply" || extension == ".xyz" || extension == ".txt" || extension == ".csv" ||
+         extension == ".pts";
+}
+
+PointCloud read_point_cloud(const std::string& path) {
+  const bool is_ply = lower_extension(path) == ".ply";
+  if (!is_cloud_name(path)) {
     fail(ErrorKind::input, "{}: point clouds are .ply, .xyz, .txt, .csv or .pts", path);
   }
   std::ifstream file = open_input(path);

@@ -1,35 +1,11 @@
 // defray splat: every option changes a picture, every mistake has its line.
+#include "splat_command.h"
+
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "command/program.h"
 
 namespace defray::test::splat_command_test {
 namespace {
-
-using nlohmann::json;
-
-const std::string figure = "splat --model figure --model-points 2000 --size 64x64 ";
-const std::string wide_lens = "--aperture-diameter 3000 --focal-length 50 ";
-
-class SplatCommand : public testing::Test {
- protected:
-  json render(const std::string& options, const std::string& output = "o.exr") const {
-    const Result result = defray(folder_, figure + "--json -o " + output + " " + options);
-    expect_ok(result);
-    return json::parse(result.out.substr(0, result.out.find('\n')));
-  }
-  std::uint64_t hash(const std::string& options) const {
-    render(options);
-    return file_hash(folder_ / "o.exr");
-  }
-  void refused(const std::string& arguments, int code,
-               const std::vector<std::string>& words) const {
-    expect_refusal(defray(folder_, arguments), code, words, arguments);
-  }
-  Folder folder_;
-};
 
 TEST_F(SplatCommand, EveryOptionChangesThePicture) {
   const std::uint64_t plain = hash(wide_lens);
@@ -90,65 +66,6 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   EXPECT_TRUE(sharp["render_s"] > 0.0 && sharp["stages_s"]["resolve"] >= 0.0);
 }
 
-TEST_F(SplatCommand, ATurn) {
-  const Result result = defray(folder_, figure + "--json --turntable 4 -o t.####.exr " + wide_lens);
-  expect_ok(result);
-  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 4);
-  EXPECT_EQ(file_hash(folder_ / "t.0001.exr"), hash(wide_lens));
-  EXPECT_NE(file_hash(folder_ / "t.0001.exr"), file_hash(folder_ / "t.0003.exr"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "t.0005.exr"));
-}
-
-/// A turn's frames, those of cameras, and those in which the lens changes.
-TEST_F(SplatCommand, FramesOfATurnOfCamerasAndOfALens) {
-  const auto frame = [&](const std::string& options, int number) {
-    const std::string command = figure + "-q -o f.####.exr " + options;
-    expect_ok(defray(folder_, command));
-    return file_hash(folder_ / fmt::format("f.{:04}.exr", number));
-  };
-  const std::uint64_t third = frame("--turntable 4 " + wide_lens, 3);
-  expect_ok(shell(folder_, "rm f.*"));
-  EXPECT_EQ(frame("--turntable 4 --frames 3 " + wide_lens, 3), third);
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.0001.exr"));
-
-  const std::string focus = "--frames 1,3 --focus 3:1,4:5 " + wide_lens;
-  EXPECT_EQ(frame(focus, 3), hash(wide_lens + "--focus 3.5"));
-  EXPECT_EQ(frame(focus, 1), hash(wide_lens + "--focus 3"));
-  EXPECT_EQ(frame("--frames 2 --max-coc 1:1,3:3 " + wide_lens, 2), hash(wide_lens + "--max-coc 2"));
-
-  for (const int number : {1, 2}) {
-    std::ofstream(folder_ / fmt::format("c.{:04}.json", number))
-        << R"({"focal_length_mm": 50, "aperture_diameter_m": 3, "focus_distance_m": )" << 2 + number
-        << R"(, "from_m": [)" << number << R"(, 1, 4], "look_at_m": [0, 0, 0], "up": [0, 1, 0]})";
-  }
-  EXPECT_EQ(frame("--camera c.####.json", 2), hash(wide_lens + "--focus 4 --from 2,1,4 --look-at "
-                                                               "0,0,0"));
-  EXPECT_EQ(file_hash(folder_ / "f.0001.exr"),
-            hash(wide_lens + "--focus 3 --from 1,1,4 --look-at 0,0,0"));
-  // Where the camera stands counts beside a whole lens, too.
-  EXPECT_EQ(hash("--camera c.0002.json --focus 3 --sensor-width 36 " + wide_lens),
-            hash(wide_lens + "--focus 3 --from 2,1,4 --look-at 0,0,0"));
-  refused(figure + "-o o.exr --camera c.####.json", 2, {"o.exr", "2 frames would go to one file"});
-  refused(figure + "-o f.####.exr --camera c.####.json --frames 1-3", 3, {"c.0003.json"});
-  refused(figure + "-o f.####.exr --camera c.####.json --turntable 3", 2,
-          {"--turntable goes round with one camera, c.####.json are many"});
-  refused(figure + "-o f.####.exr --turntable 3 --frames 2-4 " + wide_lens, 2,
-          {"--frames has 4: the turn's frames are 1 to 3"});
-  refused(figure + "-o o.exr --focus 3:1,4:5 " + wide_lens, 2,
-          {"--focus changes over frames: say which, with --frames"});
-}
-
-TEST_F(SplatCommand, AnEyeIsALens) {
-  const std::string eye = "--focus 3 --eye ", same =
-                                                  "--focus 3 --aperture-diameter 4.6 "
-                                                  "--focal-length 17 --pixel-scale 28000";
-  EXPECT_EQ(hash(eye), hash(same));
-  const std::string display = "--focus 3 --eye=display ";
-  EXPECT_NE(hash(display), hash(eye));
-  EXPECT_NE(hash(display + "--display-distance 0.3"), hash(display));
-  EXPECT_NE(hash(display + "--display-resolution 8000"), hash(display));
-}
-
 TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
   const std::string inside = "splat plane.xyz -o o.exr --size 32x32 " + wide_lens;
   std::ofstream points(folder_ / "plane.xyz");
@@ -165,23 +82,6 @@ TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
   const json report = render(wide_lens);
   EXPECT_GT(report["from_behind"], 0.2);
   EXPECT_LT(report["from_behind"], 0.8);
-}
-
-TEST_F(SplatCommand, ACameraFileHasLensAndPose) {
-  std::ofstream(folder_ / "c.json")
-      << R"({"focal_length_mm": 50, "focus_distance_m": 4, "aperture_diameter_m": 3,
-             "from_m": [1, 1, 4], "look_at_m": [0, 0.2, 0], "up": [0, 1, 0.1]})";
-  EXPECT_EQ(hash("--camera c.json"),
-            hash(wide_lens + "--focus 4 --from 1,1,4 --look-at 0,0.2,0 --up 0,1,0.1"));
-  EXPECT_NE(hash("--camera c.json --from 1,1,5"), hash("--camera c.json"));
-  for (const auto& [text, words] :
-       {std::pair{R"({"from_m": [1, 1]})", "'from_m' is no list of three numbers"},
-        {R"({"from_m": [1, 1, 2]})", "has 'from_m' alone"},
-        {R"({"look_at_m": [1, 1, 2]})", "has 'look_at_m' alone"},
-        {R"({"up": [1, 1, 2]})", "has 'up' alone"}}) {
-    std::ofstream(folder_ / "b.json") << text;
-    refused(figure + "-o o.exr --camera b.json " + wide_lens, 3, {"b.json", words});
-  }
 }
 
 TEST_F(SplatCommand, FilesAreRead) {
