@@ -1,10 +1,10 @@
 // Twin of kernels/splat/splat_resolve.cl: every splat into all of its pixels, one after the other,
 // without tiles.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "base/falloff.h"
 #include "reference/twin_backend.h"
 #include "splat/splats.h"
 
@@ -44,19 +44,6 @@ struct Pixel {
     ++count;
   }
 };
-
-/// e^-power as the kernel has it: the same polynomial of 2^x about whole exponents.
-float falloff(float power) {
-  const float exponent = power * -1.44269504f;
-  const auto whole = static_cast<std::int32_t>(exponent - 0.5f);
-  const float x = exponent - static_cast<float>(whole);
-  float mantissa = 1.53533619e-4f;
-  for (const float c :
-       {1.33988744e-3f, 9.61843736e-3f, 5.55033247e-2f, 0.240226479f, 0.693147203f, 1.0f}) {
-    mantissa = mantissa * x + c;
-  }
-  return mantissa * std::bit_cast<float>((whole + 127) << 23);
-}
 
 float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) {
   const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;

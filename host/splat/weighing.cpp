@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/falloff.h"
 #include "base/parallel.h"
 #include "splat/cloud_points.h"
 
@@ -13,74 +14,120 @@ namespace {
 /// along two axes, in distances of points. Twice the steps raise the least sum of points in random
 /// places from 0.91 to 0.93.
 constexpr int weighing_steps = 4;
-constexpr double look_at = 0.5;
+constexpr float look_at = 0.5f;
 /// Sums should be no less than 1, where what is behind would shine through; what is more does not
 /// count (SplatMerge).
 constexpr double aim = 1.03;
+/// A basis function is nothing where it is e to the minus this.
+constexpr float nothing_from = 79;
+/// Planes that lie flatter than this to a line of sight (a cosine) are seen as if by it.
+constexpr float least_facing = 1e-3f;
 
-/// Places on the surface around a point.
-std::array<Vec3, 5> sites_of(const CloudPoints& cloud, std::size_t point) {
-  const Vec3 at = cloud.place(point), normal = cloud.points[point].normal;
-  const Vec3 beside =
-      normalized(cross(normal, std::abs(normal.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-  const double far = look_at * cloud.points[point].spacing;
-  const Vec3 u = beside * far, v = cross(normal, beside) * far;
-  return {at, at + u, at - u, at + v, at - v};
+/// At the point, and as far as look_at to either side along two axes; the rest are zeros, so that
+/// they make whole vectors.
+constexpr std::size_t site_count = 5, lanes = 8;
+using Sites = std::array<float, lanes>;
+
+using Axis = std::array<float, 3>;
+
+float dot(const Axis& a, const Axis& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Axis axis(const Vec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
+constexpr double square(double x) { return x * x; }
+
+/// The surface at a point.
+struct Tangent {
+  Axis normal, u, v;  ///< Unit; sites lie along u and v.
+  float spacing;
+
+  explicit Tangent(const CloudPoint& point)
+      : normal(axis(point.normal)), spacing(static_cast<float>(point.spacing)) {
+    const Vec3& n = point.normal;
+    const Vec3 beside = normalized(cross(n, std::abs(n.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    u = axis(beside);
+    v = axis(cross(n, beside));
+  }
+};
 
 /// Finds areas with which the basis functions add up to 1 all over the surface, by the steps of
-/// Richardson and Lucy: each area times the mean, by its own basis function, of what sums lack.
+/// Richardson and Lucy: each area times the mean, by its own basis function, of what sums lack. In
+/// floats, and in units of each point's own size: weights need no more.
 class Weighing {
  public:
   explicit Weighing(const CloudPoints& cloud)
-      : cloud_(cloud), areas_(cloud.points.size()), lacks_(cloud.points.size()) {
-    for (std::size_t i = 0; i < areas_.size(); ++i) areas_[i] = square(cloud.points[i].spacing);
-  }
+      : cloud_(cloud),
+        tangents_(cloud.points.begin(), cloud.points.end()),
+        heights_(cloud.points.size(), static_cast<float>(1 / whole_of_unit_height)),
+        lacks_(cloud.points.size()) {}
 
   void step() {
-    parallel_for_each(areas_.size(), [&](std::size_t i) { look(i); });
-    std::vector<double> next(areas_.size());
-    parallel_for_each(areas_.size(), [&](std::size_t i) { next[i] = areas_[i] * factor(i); });
-    areas_ = std::move(next);
+    parallel_for_each(heights_.size(), [&](std::size_t i) { look(i); });
+    parallel_for_each(heights_.size(), [&](std::size_t i) { heights_[i] *= factor(i); });
   }
 
-  std::vector<double> take() && { return std::move(areas_); }
+  std::vector<double> areas() const {
+    std::vector<double> areas;
+    for (std::size_t i = 0; i < heights_.size(); ++i) {
+      areas.push_back(static_cast<double>(heights_[i]) * whole_of_unit_height *
+                      square(cloud_.points[i].spacing));
+    }
+    return areas;
+  }
 
  private:
-  static double square(double x) { return x * x; }
+  /// What a basis function of height 1 adds up to on its plane, in squares of its point's spacing.
+  static constexpr double whole_of_unit_height = 2 * M_PI * square(basis_deviation);
 
-  /// What a point's basis function of unit area covers at a place, seen along the normal there:
-  /// where the surface bends, its points are closer to each other, and show less of their areas.
-  double basis(std::size_t of, const Vec3& place, const Vec3& normal) const {
-    const CloudPoint& point = cloud_.points[of];
-    const double same = dot(point.normal, normal);
-    const double facing = cloud_.is_oriented ? std::max(same, 0.0) : std::abs(same);
-    const Vec3 d = place - cloud_.place(of);
-    const double variance = square(basis_deviation * point.spacing), beside = dot(d, normal);
-    return facing * std::exp(-0.5 * (dot(d, d) - beside * beside) / variance) /
-           (2 * M_PI * variance);
+  /// What a point's basis function of height 1 covers at the sites of another, or itself, seen
+  /// along the normal there: where that line meets the plane on which the basis function lies.
+  Sites basis(std::size_t of, std::size_t at) const {
+    const Tangent &point = tangents_[of], &there = tangents_[at];
+    const float same = dot(point.normal, there.normal);
+    if (cloud_.is_oriented && !(same > 0)) return {};
+    const float inverse = 1 / std::max(there.spacing, 1e-30f);
+    Axis d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      d[k] = (cloud_.places[at][k] - cloud_.places[of][k]) * inverse;
+    }
+    const float du = 2 * look_at * dot(d, there.u), dv = 2 * look_at * dot(d, there.v);
+    const float own = dot(d, d), far = own + look_at * look_at;
+    const Sites squares = {own, far + du, far - du, far + dv, far - dv};
+    const float above = dot(d, point.normal);
+    const float nu = look_at * dot(point.normal, there.u),
+                nv = look_at * dot(point.normal, there.v);
+    const Sites above_plane = {above, above + nu, above - nu, above + nv, above - nv};
+    const float on = 1 / std::copysign(std::max(std::fabs(same), least_facing), same);
+    const float twice = 2 * dot(d, there.normal);
+    const float size = there.spacing / (static_cast<float>(basis_deviation) * point.spacing);
+    Sites covered;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float down = above_plane[k] * on;  // along the line, to the plane
+      const float power = 0.5f * size * size * (squares[k] + down * (down - twice));
+      covered[k] = falloff(power < nothing_from ? power : nothing_from);
+    }
+    return covered;
   }
 
   void look(std::size_t point) {
-    const auto sites = sites_of(cloud_, point);
-    const Vec3& normal = cloud_.points[point].normal;
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      double sum = areas_[point] * basis(point, sites[k], normal);
-      for (const std::uint32_t i : cloud_.around.of(point)) {
-        sum += areas_[i] * basis(i, sites[k], normal);
-      }
-      lacks_[point][k] = static_cast<float>(aim * cloud_.points[point].covered / sum);
-    }
+    Sites sums{};
+    const auto add = [&](std::size_t of) {
+      const Sites covered = basis(of, point);
+      for (std::size_t k = 0; k < lanes; ++k) sums[k] += heights_[of] * covered[k];
+    };
+    add(point);
+    for (const std::uint32_t i : cloud_.around.of(point)) add(i);
+    const float wanted = static_cast<float>(aim * cloud_.points[point].covered);
+    for (std::size_t k = 0; k < site_count; ++k) lacks_[point][k] = wanted / sums[k];
   }
 
-  double factor(std::size_t point) const {
-    double weights = 0, sum = 0;
-    const auto add = [&](std::size_t around) {
-      const auto sites = sites_of(cloud_, around);
-      for (std::size_t k = 0; k < sites.size(); ++k) {
-        const double weight = basis(point, sites[k], cloud_.points[around].normal);
-        weights += weight;
-        sum += weight * static_cast<double>(lacks_[around][k]);
+  float factor(std::size_t point) const {
+    float weights = 0, sum = 0;
+    const auto add = [&](std::size_t at) {
+      const Sites covered = basis(point, at);
+      for (std::size_t k = 0; k < site_count; ++k) {
+        weights += covered[k];
+        sum += covered[k] * lacks_[at][k];
       }
     };
     add(point);
@@ -89,9 +136,10 @@ class Weighing {
   }
 
   const CloudPoints& cloud_;
-  std::vector<double> areas_;
-  std::vector<std::array<float, 5>>
-      lacks_;  ///< What sums at a point's sites are to be multiplied by.
+  std::vector<Tangent> tangents_;
+  std::vector<float> heights_;  ///< Of the points' basis functions.
+  /// What sums at a point's sites are to be multiplied by.
+  std::vector<std::array<float, site_count>> lacks_;
 };
 
 }  // namespace
@@ -102,7 +150,7 @@ std::vector<double> weighed_areas(const CloudPoints& cloud, const Progress& prog
     weighing.step();
     if (progress) progress(static_cast<double>(i + 1) / weighing_steps);
   }
-  return std::move(weighing).take();
+  return weighing.areas();
 }
 
 }  // namespace defray
