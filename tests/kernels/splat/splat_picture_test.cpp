@@ -85,13 +85,12 @@ PointCloud rod(std::size_t end_points, bool has_normals) {
 
 TEST(SplatPicture, ATipOfFewPointsCoversWhatIsBehind) {
   for (const bool has_normals : {true, false}) {
-    // Between points their functions still add up to less; the flatter the tip, the less it lacks.
-    for (const auto& [points, bound] : {std::pair{60u, 0.85f}, {200u, 0.94f}}) {
+    for (const std::size_t points : {60, 200}) {
       const Hierarchy tree = tree_of(rod(points, has_normals), has_normals);
       DefraySplatParams p = view_of(160, 4, 0);
       p.one_sided = has_normals;
       const auto [least, most] = range_inside(draw(tree, p).colour[3], 160, 10);
-      EXPECT_GE(least, bound) << points << " points, normals " << has_normals;
+      EXPECT_GE(least, 0.985f) << points << " points, normals " << has_normals;
       EXPECT_LE(most, 1.0001f) << points << " points, normals " << has_normals;
     }
   }
@@ -107,7 +106,7 @@ TEST(SplatPicture, IrregularPointsCoverTheirSurface) {
   }
   const DefraySplatParams p = view_of(128, 4, 0);
   const auto [least, most] = range_inside(draw(tree_of(cloud), p).colour[3], 128, 30);
-  EXPECT_GE(least, 0.91f);
+  EXPECT_GE(least, 0.99f);
   EXPECT_LE(most, 1.0001f);
 }
 
