@@ -16,7 +16,24 @@
 
 namespace defray {
 
-struct SplatModel::State : CachedCloud {};
+namespace {
+
+/// Of the sphere about its centre that holds all points.
+double radius_of(const Hierarchy& tree) {
+  const DefraySplatNode& root = tree.nodes.front().splat;
+  double radius = 0;
+  for (const DefraySplatNode& p : tree.points) {
+    const double distance = length(Vec3{p.x, p.y, p.z} - Vec3{root.x, root.y, root.z});
+    radius = std::max(radius, distance + 2 * std::sqrt(static_cast<double>(p.variance)));
+  }
+  return radius;
+}
+
+}  // namespace
+
+struct SplatModel::State : CachedCloud {
+  double radius = 0;
+};
 
 SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
     : state_(std::make_unique<State>()) {
@@ -26,9 +43,12 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
   state_->has_colours = surfels.has_colours;
   state_->notes = std::move(surfels.notes);
   state_->tree = build_hierarchy(std::move(surfels.points), surfels.has_normals);
+  state_->radius = radius_of(state_->tree);
 }
 
-SplatModel::SplatModel(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SplatModel::SplatModel(std::unique_ptr<State> state) : state_(std::move(state)) {
+  state_->radius = radius_of(state_->tree);
+}
 
 namespace {
 
@@ -49,7 +69,7 @@ SplatModel SplatModel::read(const std::string& path, bool has_cache, const Progr
   std::string why;
   if (has_cache) {
     if (std::optional<CachedCloud> cached = read_cache(path, why)) {
-      return SplatModel(std::make_unique<State>(State{std::move(*cached)}));
+      return SplatModel(std::make_unique<State>(State{std::move(*cached), 0}));
     }
   }
   SplatModel model = of_file(path, progress);
@@ -72,15 +92,7 @@ std::array<double, 3> SplatModel::centre() const {
           origin[2] + static_cast<double>(root.z)};
 }
 
-double SplatModel::radius() const {
-  const DefraySplatNode& root = state_->tree.nodes.front().splat;
-  double radius = 0;
-  for (const DefraySplatNode& p : state_->tree.points) {
-    const double distance = length(Vec3{p.x, p.y, p.z} - Vec3{root.x, root.y, root.z});
-    radius = std::max(radius, distance + 2 * std::sqrt(static_cast<double>(p.variance)));
-  }
-  return radius;
-}
+double SplatModel::radius() const { return state_->radius; }
 
 SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pose, const Lens& lens,
                   const SplatSettings& settings, const Progress& progress) {

@@ -70,7 +70,7 @@ class View {
   /// Beyond the plane through the eye and a line in the picture, `edge` px from the axis.
   bool is_beside(double off_axis, const SeenNode& s, double edge) const {
     const double focal = p_.focal_px;
-    return off_axis * focal - s.z * edge > s.radius * std::hypot(focal, edge);
+    return off_axis * focal - s.z * edge > s.radius * std::sqrt(focal * focal + edge * edge);
   }
 
   const DefraySplatParams& p_;
