@@ -1,12 +1,12 @@
 #include "render/sequence_run.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <system_error>
 
 #include "image/display.h"
 #include "image/output.h"
+#include "image/safe_output.h"
 #include "image/sequence.h"
 #include "open_device.h"
 #include "opencl/kernel_cache.h"
@@ -29,18 +29,6 @@ std::vector<std::string> outputs_of(const FramePaths& paths) {
   for (const auto& [field_name, path] : paths.data_outputs()) outputs.push_back(path);
   return outputs;
 }
-
-namespace {
-
-/// Not where it is empty, as a full disk or a copy that broke off leaves it.
-bool is_written(const std::string& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (is_regular_file(status)) return std::filesystem::file_size(path, ignored) > 0;
-  return exists(status) && !is_directory(status);
-}
-
-}  // namespace
 
 bool is_skipped(const RenderCommand& job, std::optional<int> frame) {
   const std::vector<std::string> outputs = outputs_of(paths_of(job.paths, frame));

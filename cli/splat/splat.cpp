@@ -1,7 +1,8 @@
 // defray splat: a point cloud through the lens.
+#include <algorithm>
+#include <filesystem>
+
 #include "base/error.h"
-#include "base/stopwatch.h"
-#include "base/text.h"
 #include "commands.h"
 #include "image/display.h"
 #include "image/output.h"
@@ -10,15 +11,11 @@
 #include "image/viewer.h"
 #include "open_device.h"
 #include "progress.h"
-#include "splat/splat_report.h"
-#include "splat/splat_shots.h"
+#include "splat/splat_run.h"
 #include "standard_streams.h"
 
 namespace defray::cli {
 namespace {
-
-/// Of a closed surface half is seen from behind; of the built-in models' parts never so much.
-constexpr double mostly_behind = 0.9;
 
 constexpr const char* splat_footer =
     R"(Lens, focus and units are those of 'defray render': focus and places in scene units (--unit says what
@@ -44,29 +41,6 @@ SplatModel model_of(const SplatCommand& job, bool has_bar) {
                            : SplatModel(make_point_cloud(job.model, job.model_points), update);
 }
 
-std::vector<std::string> write(const std::string& path, const SplatCommand& job,
-                               const SplatResult& result) {
-  std::vector<std::string> names{"R", "G", "B", "A"};
-  std::vector<Plane> planes = result.colour;
-  if (job.has_depth) {
-    names.push_back("Z");
-    planes.push_back(result.depth);
-  }
-  if (job.has_fragments) {
-    names.push_back("fragments");
-    planes.push_back(result.fragments);
-  }
-  ImageFile file = ImageFile::from_planes(names, planes, job.settings.width, job.settings.height,
-                                          Sample::single_float);
-  std::vector<std::string> notes;
-  if (lower_extension(path) == ".exr") {
-    write_safely(path, [&](const std::string& name) { file.write(name); });
-    return notes;
-  }
-  write_picture(path, file, {0, "", "", {0, 1, 2, 3}}, result.colour, Bits::as_input, notes);
-  return notes;
-}
-
 void show(const std::vector<Plane>& colour, const SplatSettings& s, const std::string& title) {
   std::string why;
   if (!has_display(why)) {
@@ -82,60 +56,32 @@ void show(const std::vector<Plane>& colour, const SplatSettings& s, const std::s
   }
 }
 
-/// What to know about a picture; `written` about its file.
-std::vector<std::string> notes_of(const SplatReport& report, std::vector<std::string> written) {
-  std::vector<std::string> notes = std::move(written);
-  if (report.from_behind > mostly_behind) {
-    notes.push_back(fmt::format(
-        "{:.0f} % of what is before the camera is seen from behind and not drawn: --two-sided "
-        "draws it; normals may point inwards",
-        100 * report.from_behind));
-  } else if (report.seen == 0) {
-    notes.push_back("nothing of the cloud is in the picture: see --from, --look-at");
-  }
-  return notes;
-}
-
-void report(const SplatCommand& job, const SplatShot& shot, const SplatOutcome& outcome) {
-  if (!job.quiet) {
-    for (const std::string& note : outcome.notes) {
-      print_error(fmt::format("defray: note: {}: {}", shot.output, note));
-    }
-  }
-  if (job.json) {
-    print_json(shot, outcome);
-  } else if (!job.quiet) {
-    print_text(shot, outcome);
+void check_place(const SplatCommand& job, const SplatShot& shot) {
+  if (job.makes_folders) {
+    check_can_make(shot.output);
+  } else {
+    check_can_write(shot.output, "--mkdir makes it");
   }
 }
 
 int run(const SplatCommand& job) {
   check_output_format(job.output);
   const std::vector<SplatShot> shots = shots_of(job);
-  check_can_write(shots.front().output);
-  Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
-  const bool has_bar = !job.quiet && !job.json;
-  const SplatModel model = model_of(job, has_bar);
-  const std::string source = job.input.empty() ? "model " + job.model : job.input;
-  for (const std::string& note : model.notes())
-    print_error("defray: note: " + source + ": " + note);
-  std::vector<Plane> last;
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    const SplatShot& shot = shots[i];
-    const SplatCamera camera = camera_of(job, shot, model);
-    ProgressBar bar(shots.size(), "frames", has_bar);
-    const Stopwatch watch;
-    SplatResult result = splat(device, model, camera.pose, camera.lens, job.settings,
-                               [&](double share) { bar.update(i, share); });
-    const double seconds = watch.seconds();
-    const std::vector<std::string> written = write(shot.output, job, result);
-    bar.clear();
-    report(
-        job, shot,
-        {source, device.name(), camera, result.report, seconds, notes_of(result.report, written)});
-    last = std::move(result.colour);
+  const auto is_left = [&](const SplatShot& shot) { return is_skipped(job, shot); };
+  if (std::all_of(shots.begin(), shots.end(), is_left)) {
+    for (const SplatShot& shot : shots) print_skipped(job, shot);
+    return 0;
   }
-  if (job.show) show(last, job.settings, "defray: " + shots.back().output);
+  check_place(job, *std::find_if_not(shots.begin(), shots.end(), is_left));
+  Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
+  const SplatModel model = model_of(job, !job.quiet && !job.json);
+  const std::string source = job.input.empty() ? "model " + job.model : job.input;
+  for (const std::string& note : model.notes()) {
+    print_error("defray: note: " + source + ": " + note);
+  }
+  SplatRun splats(job, device, model, source);
+  splats.draw(shots);
+  if (job.show) show(splats.last()->colour, job.settings, "defray: " + splats.last()->shot.output);
   return 0;
 }
 

@@ -28,6 +28,7 @@ struct SplatCommand {
   std::string device;
   bool no_tuning = false;
   bool has_depth = false, has_fragments = false;  ///< Channels beside R G B A.
+  bool makes_folders = false, skip_existing = false;
   bool json = false, quiet = false, show = false;
 };
 

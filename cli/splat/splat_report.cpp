@@ -7,6 +7,26 @@
 
 namespace defray::cli {
 
+namespace {
+
+/// Names come from files: bytes that are no UTF-8 are replaced, not fatal.
+void print_line(const nlohmann::ordered_json& line) {
+  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void print_skipped(const SplatCommand& job, const SplatShot& shot) {
+  if (job.json) {
+    nlohmann::ordered_json line;
+    if (shot.frame) line["frame"] = *shot.frame;
+    line.update({{"status", "skipped"}, {"output", shot.output}});
+    print_line(line);
+  } else if (!job.quiet) {
+    fmt::print("{}: exists, skipped\n", shot.output);
+  }
+}
+
 void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
   const SplatReport& r = outcome.report;
   const Lens& lens = outcome.camera.lens;
@@ -37,8 +57,7 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
                {"notes", outcome.notes},
                {"tuned", r.tuned},
                {"render_s", outcome.render_seconds}});
-  // Names come from files: bytes that are no UTF-8 are replaced, not fatal.
-  fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  print_line(line);
 }
 
 void print_text(const SplatShot& shot, const SplatOutcome& outcome) {

@@ -17,6 +17,9 @@ struct SplatOutcome {
   std::vector<std::string> notes;
 };
 
+/// Of a picture that --skip-existing leaves alone, as text or JSON.
+void print_skipped(const SplatCommand& job, const SplatShot& shot);
+
 /// One JSON line.
 void print_json(const SplatShot& shot, const SplatOutcome& outcome);
 

@@ -235,6 +235,13 @@ void remove_temporary() {
   }
 }
 
+bool is_written(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_regular_file(status)) return fs::file_size(path, ignored) > 0;
+  return fs::exists(status) && !fs::is_directory(status);
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;

@@ -26,6 +26,9 @@ void write_text(const std::string& path, const std::string& text);
 /// Removes the temporary file in hand, for a process that ends here; a signal handler may call it.
 void remove_temporary();
 
+/// Whether a file is there and not empty, as a full disk or a copy that broke off leaves it.
+bool is_written(const std::string& path);
+
 /// Whether two paths name one file, written yet or not, however they are spelt.
 bool is_same_file(const std::string& a, const std::string& b);
 

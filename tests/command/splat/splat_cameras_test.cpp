@@ -1,6 +1,7 @@
 // defray splat: turns, cameras of each frame, lenses.
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "splat_command.h"
 
@@ -53,6 +54,41 @@ TEST_F(SplatCommand, FramesOfATurnOfCamerasAndOfALens) {
           {"--frames has 4: the turn's frames are 1 to 3"});
   refused(figure + "-o o.exr --focus 3:1,4:5 " + wide_lens, 2,
           {"--focus changes over frames: say which, with --frames"});
+}
+
+TEST_F(SplatCommand, FramesThatExistAreSkippedAndFoldersMade) {
+  const std::string turn = figure + "--turntable 3 -o new/t.####.exr " + wide_lens;
+  refused(turn, 4, {"new", "--mkdir makes it"});
+  expect_ok(defray(folder_, turn + " --mkdir -q"));
+  const auto frame = [&](int i) { return folder_ / fmt::format("new/t.{:04}.exr", i); };
+  const std::uint64_t second = file_hash(frame(2)), third = file_hash(frame(3));
+  std::ofstream(frame(1)) << "old";
+  std::filesystem::remove(frame(2));
+  std::ofstream(frame(3)).flush();
+  const Result again = defray(folder_, turn + " --skip-existing --json");
+  expect_ok(again);
+  std::istringstream lines(again.out);
+  for (const std::string status : {"skipped", "ok", "ok"}) {
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(json::parse(line)["status"], status) << line;
+  }
+  EXPECT_EQ(std::filesystem::file_size(frame(1)), 3u);
+  EXPECT_EQ(file_hash(frame(2)), second);
+  EXPECT_EQ(file_hash(frame(3)), third);
+  // Where all are there, the points are not even read.
+  const Result none = defray(
+      folder_, "splat none.ply -o new/t.####.exr --turntable 3 --skip-existing " + wide_lens);
+  expect_ok(none);
+  EXPECT_NE(none.out.find("new/t.0003.exr: exists, skipped"), std::string::npos) << none.out;
+}
+
+/// One is drawn while the last is written: those before stay, and none comes after.
+TEST_F(SplatCommand, AFrameThatCannotBeWrittenEndsTheRun) {
+  std::filesystem::create_directory(folder_ / "f.0002.exr");
+  refused(figure + "--turntable 4 -o f.####.exr " + wide_lens, 4, {"f.0002.exr", "is a folder"});
+  EXPECT_EQ(file_hash(folder_ / "f.0001.exr"), hash(wide_lens));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.0003.exr"));
 }
 
 TEST_F(SplatCommand, AnEyeIsALens) {

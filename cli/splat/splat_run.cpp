@@ -1,0 +1,117 @@
+#include "splat/splat_run.h"
+
+#include <filesystem>
+
+#include "base/stopwatch.h"
+#include "base/text.h"
+#include "image/output.h"
+#include "image/safe_output.h"
+#include "standard_streams.h"
+
+namespace defray::cli {
+namespace {
+
+/// Of a closed surface half is seen from behind; of the built-in models' parts never so much.
+constexpr double mostly_behind = 0.9;
+
+/// Returns notes on the file.
+std::vector<std::string> write_splats(const std::string& path, const SplatCommand& job,
+                                      const SplatResult& result) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (job.makes_folders && !folder.empty()) create_folder(folder.string());
+  std::vector<std::string> names{"R", "G", "B", "A"};
+  std::vector<Plane> planes = result.colour;
+  if (job.has_depth) {
+    names.push_back("Z");
+    planes.push_back(result.depth);
+  }
+  if (job.has_fragments) {
+    names.push_back("fragments");
+    planes.push_back(result.fragments);
+  }
+  ImageFile file = ImageFile::from_planes(names, planes, job.settings.width, job.settings.height,
+                                          Sample::single_float);
+  std::vector<std::string> notes;
+  if (lower_extension(path) == ".exr") {
+    write_safely(path, [&](const std::string& name) { file.write(name); });
+    return notes;
+  }
+  write_picture(path, file, {0, "", "", {0, 1, 2, 3}}, result.colour, Bits::as_input, notes);
+  return notes;
+}
+
+/// What to know about a picture; `written` about its file.
+std::vector<std::string> splat_notes(const SplatReport& report, std::vector<std::string> written) {
+  std::vector<std::string> notes = std::move(written);
+  if (report.from_behind > mostly_behind) {
+    notes.push_back(fmt::format(
+        "{:.0f} % of what is before the camera is seen from behind and not drawn: --two-sided "
+        "draws it; normals may point inwards",
+        100 * report.from_behind));
+  } else if (report.seen == 0) {
+    notes.push_back("nothing of the cloud is in the picture: see --from, --look-at");
+  }
+  return notes;
+}
+
+}  // namespace
+
+bool is_skipped(const SplatCommand& job, const SplatShot& shot) {
+  return job.skip_existing && is_written(shot.output);
+}
+
+SplatRun::SplatRun(const SplatCommand& job, Device& device, const SplatModel& model,
+                   std::string source)
+    : job_(job), device_(device), model_(model), source_(std::move(source)) {}
+
+void SplatRun::draw(const std::vector<SplatShot>& shots) {
+  ProgressBar bar(shots.size(), "frames", !job_.quiet && !job_.json);
+  std::future<WrittenSplats> writing;
+  const auto finish_last = [&] {
+    if (!writing.valid()) return;
+    bar.clear();
+    finish(writing);
+  };
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (is_skipped(job_, shots[i])) {
+      finish_last();
+      bar.clear();
+      print_skipped(job_, shots[i]);
+      continue;
+    }
+    const SplatCamera camera = camera_of(job_, shots[i], model_);
+    const Stopwatch watch;
+    SplatResult result = splat(device_, model_, camera.pose, camera.lens, job_.settings,
+                               [&](double share) { bar.update(i, share); });
+    const double seconds = watch.seconds();
+    finish_last();
+    writing = write_later(shots[i], camera, std::move(result), seconds);
+  }
+  finish_last();
+}
+
+std::future<WrittenSplats> SplatRun::write_later(const SplatShot& shot, SplatCamera camera,
+                                                 SplatResult result, double seconds) const {
+  return std::async(std::launch::async, [=, this, result = std::move(result)]() mutable {
+    const std::vector<std::string> notes = write_splats(shot.output, job_, result);
+    SplatOutcome outcome{source_,       device_.name(), camera,
+                         result.report, seconds,        splat_notes(result.report, notes)};
+    return WrittenSplats{shot, std::move(outcome), std::move(result.colour)};
+  });
+}
+
+void SplatRun::finish(std::future<WrittenSplats>& writing) {
+  const WrittenSplats& written = last_.emplace(writing.get());
+  if (!job_.quiet) {
+    for (const std::string& note : written.outcome.notes) {
+      print_error(fmt::format("defray: note: {}: {}", written.shot.output, note));
+    }
+  }
+  if (job_.json) {
+    print_json(written.shot, written.outcome);
+  } else if (!job_.quiet) {
+    print_text(written.shot, written.outcome);
+  }
+}
+
+}  // namespace defray::cli
