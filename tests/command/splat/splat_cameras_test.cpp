@@ -86,7 +86,8 @@ TEST_F(SplatCommand, FramesThatExistAreSkippedAndFoldersMade) {
 /// One is drawn while the last is written: those before stay, and none comes after.
 TEST_F(SplatCommand, AFrameThatCannotBeWrittenEndsTheRun) {
   std::filesystem::create_directory(folder_ / "f.0002.exr");
-  refused(figure + "--turntable 4 -o f.####.exr " + wide_lens, 4, {"f.0002.exr", "is a folder"});
+  refused(figure + "-q --turntable 4 -o f.####.exr " + wide_lens, 4,
+          {"f.0002.exr", "Is a directory"});
   EXPECT_EQ(file_hash(folder_ / "f.0001.exr"), hash(wide_lens));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "f.0003.exr"));
 }
