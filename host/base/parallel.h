@@ -40,13 +40,15 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
   if (thrown) std::rethrow_exception(thrown);
 }
 
+/// A long row is cut into stretches of this length.
+inline constexpr std::size_t stretch_length = 1 << 15;
+
 /// Calls task(first, end) for stretches of a long row, each once.
 template <typename Task>
 void parallel_for_stretches(std::size_t count, const Task& task) {
-  constexpr std::size_t stretch = 1 << 15;
-  parallel_for(static_cast<int>((count + stretch - 1) / stretch), [&](int i) {
-    const std::size_t first = static_cast<std::size_t>(i) * stretch;
-    task(first, std::min(first + stretch, count));
+  parallel_for(static_cast<int>((count + stretch_length - 1) / stretch_length), [&](int i) {
+    const std::size_t first = static_cast<std::size_t>(i) * stretch_length;
+    task(first, std::min(first + stretch_length, count));
   });
 }
 
@@ -56,6 +58,19 @@ void parallel_for_each(std::size_t count, const Task& task) {
   parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
     for (std::size_t k = first; k < end; ++k) task(k);
   });
+}
+
+/// The sum of `sum_of(first, end)` over stretches of a long row: added in their order, so that
+/// every machine's rounding is the same.
+template <typename SumOf>
+auto parallel_sum(std::size_t count, const SumOf& sum_of) {
+  std::vector<decltype(sum_of(count, count))> parts((count + stretch_length - 1) / stretch_length);
+  parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
+    parts[first / stretch_length] = sum_of(first, end);
+  });
+  decltype(sum_of(count, count)) all{};
+  for (const auto& part : parts) all += part;
+  return all;
 }
 
 /// For how many i below count `is(i)`.

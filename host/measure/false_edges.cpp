@@ -5,6 +5,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "base/parallel.h"
 #include "base/srgb.h"
 #include "measure/metrics.h"
 
@@ -17,12 +18,11 @@ constexpr int truth_within_px = 2;
 
 Luma luma(const std::vector<Plane>& picture, int width) {
   Luma out(static_cast<int>(picture[0].size()) / width, width);
-  std::size_t i = 0;
-  for (double& value : out) {
-    value = 255 * (0.2126 * shown_value(picture[0][i]) + 0.7152 * shown_value(picture[1][i]) +
+  double* const to = out[0];
+  parallel_for_each(picture[0].size(), [&](std::size_t i) {
+    to[i] = 255 * (0.2126 * shown_value(picture[0][i]) + 0.7152 * shown_value(picture[1][i]) +
                    0.0722 * shown_value(picture[2][i]));
-    ++i;
-  }
+  });
   return out;
 }
 
@@ -31,14 +31,15 @@ Luma gradient(const Luma& from) {
   const auto slope = [](double before, double after, int apart) {
     return apart == 0 ? 0 : (after - before) / apart;
   };
-  for (int y = 0; y < from.rows; ++y) {
+  parallel_for(from.rows, [&](int y) {
     const int above = std::max(y - 1, 0), below = std::min(y + 1, from.rows - 1);
     for (int x = 0; x < from.cols; ++x) {
       const int left = std::max(x - 1, 0), right = std::min(x + 1, from.cols - 1);
-      out(y, x) = std::hypot(slope(from(y, left), from(y, right), right - left),
-                             slope(from(above, x), from(below, x), below - above));
+      const double across = slope(from(y, left), from(y, right), right - left);
+      const double down = slope(from(above, x), from(below, x), below - above);
+      out(y, x) = std::sqrt(across * across + down * down);
     }
-  }
+  });
   return out;
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <opencv2/core/ocl.hpp>
 #include <opencv2/quality/qualityssim.hpp>
+#include <span>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "image/ldr.h"
 
 namespace defray {
@@ -25,28 +27,48 @@ double psnr_db(double squared_error_sum, double count) {
   return 10 * std::log10(count / squared_error_sum);
 }
 
+/// Sums of squares of differences, and of how many pixels.
+struct SquareSums {
+  double encoded = 0, linear = 0, raw = 0;
+  std::size_t pixels = 0;
+
+  void operator+=(const SquareSums& other) {
+    encoded += other.encoded;
+    linear += other.linear;
+    raw += other.raw;
+    pixels += other.pixels;
+  }
+
+  void add(float a, float b) {
+    const double shown = shown_value(a) - shown_value(b), light = clipped(a) - clipped(b);
+    const double any = difference(a, b);
+    encoded += shown * shown;
+    linear += light * light;
+    raw += any * any;
+    ++pixels;
+  }
+};
+
 /// Errors over the pixels that `is_counted` accepts.
 template <typename IsCounted>
 Errors errors_over(const std::vector<Plane>& a, const std::vector<Plane>& b,
                    const IsCounted& is_counted) {
-  Errors errors;
-  double encoded_sum = 0, linear_sum = 0, raw_sum = 0;
+  SquareSums all;
   for (std::size_t c = 0; c < rgb; ++c) {
-    for (std::size_t i = 0; i < a[c].size(); ++i) {
-      if (!is_counted(i)) continue;
-      errors.pixels += c == 0;
-      const double encoded_error = shown_value(a[c][i]) - shown_value(b[c][i]);
-      const double linear_error = clipped(a[c][i]) - clipped(b[c][i]);
-      const double raw_error = difference(a[c][i], b[c][i]);
-      encoded_sum += encoded_error * encoded_error;
-      linear_sum += linear_error * linear_error;
-      raw_sum += raw_error * raw_error;
-    }
+    all += parallel_sum(a[c].size(), [&](std::size_t first, std::size_t end) {
+      SquareSums sums;
+      for (std::size_t i = first; i < end; ++i) {
+        if (is_counted(i)) sums.add(a[c][i], b[c][i]);
+      }
+      return sums;
+    });
   }
-  const double count = rgb * static_cast<double>(errors.pixels);
-  errors.psnr_srgb_db = psnr_db(encoded_sum, count);
-  errors.psnr_linear_db = psnr_db(linear_sum, count);
-  errors.rms = std::sqrt(raw_sum / count);
+  const auto count = static_cast<double>(all.pixels);
+  Errors errors;
+  errors.pixels = all.pixels / rgb;
+  errors.psnr_srgb_db = psnr_db(all.encoded, count);
+  errors.psnr_linear_db = psnr_db(all.linear, count);
+  errors.rms = std::sqrt(all.raw / count);
   return errors;
 }
 
@@ -72,8 +94,10 @@ void find_worst(const std::vector<Plane>& a, const std::vector<Plane>& b, int wi
 
 cv::Mat encoded_bytes(const Plane& plane, int width) {
   cv::Mat image(static_cast<int>(plane.size()) / width, width, CV_32F);
-  std::transform(plane.begin(), plane.end(), image.begin<float>(),
-                 [](float value) { return static_cast<float>(255 * shown_value(value)); });
+  const std::span<float> to(image.ptr<float>(), plane.size());
+  parallel_for_each(plane.size(), [&](std::size_t i) {
+    to[i] = static_cast<float>(255 * shown_value(plane[i]));
+  });
   return image;
 }
 
@@ -95,9 +119,13 @@ template <typename IsCounted>
 double energy(const std::vector<Plane>& picture, const IsCounted& is_counted) {
   double sum = 0;
   for (std::size_t c = 0; c < rgb; ++c) {
-    for (std::size_t i = 0; i < picture[c].size(); ++i) {
-      if (is_counted(i)) sum += static_cast<double>(picture[c][i]);
-    }
+    sum += parallel_sum(picture[c].size(), [&](std::size_t first, std::size_t end) {
+      double part = 0;
+      for (std::size_t i = first; i < end; ++i) {
+        if (is_counted(i)) part += static_cast<double>(picture[c][i]);
+      }
+      return part;
+    });
   }
   return sum;
 }
@@ -134,10 +162,10 @@ std::vector<Plane> difference_picture(const std::vector<Plane>& a, const std::ve
   require_same_size(a, b);
   std::vector<Plane> picture(rgb, Plane(a[0].size()));
   for (std::size_t c = 0; c < rgb; ++c) {
-    for (std::size_t i = 0; i < a[c].size(); ++i) {
+    parallel_for_each(a[c].size(), [&](std::size_t i) {
       const double shown = 1 - amplify * std::fabs(shown_value(a[c][i]) - shown_value(b[c][i]));
       picture[c][i] = shown > 0 ? static_cast<float>(srgb_decode(shown)) : 0;
-    }
+    });
   }
   return picture;
 }
