@@ -1,6 +1,7 @@
 #include "splat/cut.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -28,7 +29,10 @@ struct SeenNode {
 
 class View {
  public:
-  explicit View(const DefraySplatParams& p) : p_(p) {}
+  explicit View(const DefraySplatParams& p)
+      : p_(p),
+        sides_{Side(p, p.centre_x), Side(p, p.width - p.centre_x), Side(p, p.centre_y),
+               Side(p, p.height - p.centre_y)} {}
 
   SeenNode see(const HierarchyNode& n) const {
     const Vec3 at = Vec3{n.splat.x, n.splat.y, n.splat.z} - Vec3{p_.eye_x, p_.eye_y, p_.eye_z};
@@ -53,6 +57,13 @@ class View {
            is_beside(-s.y, s, top + margin) || is_beside(s.y, s, p_.height - top + margin);
   }
 
+  /// Whether all of it is in the picture, and what is below it, whose `is_outside` need not be
+  /// asked.
+  bool is_inside(const SeenNode& s) const {
+    return s.z - s.radius > p_.near_units && sides_[0].holds(-s.x, s) && sides_[1].holds(s.x, s) &&
+           sides_[2].holds(-s.y, s) && sides_[3].holds(s.y, s);
+  }
+
   bool is_small(const SeenNode& s, const HierarchyNode& n) const {
     const double near = s.z - s.radius;
     if (!(near > p_.near_units)) return false;
@@ -67,6 +78,18 @@ class View {
   }
 
  private:
+  /// The plane through the eye and a side of the picture, `edge` px from the axis.
+  struct Side {
+    double focal, edge, slant;
+
+    Side(const DefraySplatParams& p, double edge_px)
+        : focal(p.focal_px), edge(edge_px), slant(std::sqrt(focal * focal + edge * edge)) {}
+
+    bool holds(double off_axis, const SeenNode& s) const {
+      return off_axis * focal - s.z * edge < -s.radius * slant;
+    }
+  };
+
   /// Beyond the plane through the eye and a line in the picture, `edge` px from the axis.
   bool is_beside(double off_axis, const SeenNode& s, double edge) const {
     const double focal = p_.focal_px;
@@ -74,15 +97,24 @@ class View {
   }
 
   const DefraySplatParams& p_;
+  const std::array<Side, 4> sides_;
 };
 
 /// So many halvings down the parts begin that threads take: 64 parts.
 constexpr int levels_above_parts = 6;
 
+using NodeSpan = std::span<const DefraySplatNode>;
+
 /// A part of the hierarchy and what is drawn of it.
 struct Part {
   std::uint32_t first, end;  ///< Nodes.
-  std::vector<DefraySplatNode> cut;
+  std::vector<NodeSpan> cut;
+  std::size_t count = 0;  ///< In all of them.
+
+  void add(NodeSpan nodes) {
+    cut.push_back(nodes);
+    count += nodes.size();
+  }
 };
 
 class Cut {
@@ -96,7 +128,7 @@ class Cut {
     const SeenNode seen = camera_.see(n);
     if (camera_.is_outside(seen)) return;
     if (levels == 0 || tree_.is_leaf(node) || stands_for_all(seen, n)) {
-      parts.push_back({node, n.next, {}});
+      parts.push_back({node, n.next, {}, 0});
       return;
     }
     collect(node + 1, levels - 1, parts);
@@ -104,17 +136,21 @@ class Cut {
   }
 
   void draw(Part& part) const {
+    std::uint32_t inside_end = part.first;  // nodes before it are known to be in the picture
     for (std::uint32_t i = part.first; i < part.end;) {
       const HierarchyNode& node = tree_.nodes[i];
       const SeenNode seen = camera_.see(node);
-      if (camera_.is_outside(seen)) {
+      if (i >= inside_end && camera_.is_outside(seen)) {
         i = node.next;
-      } else if (stands_for_all(seen, node)) {
-        part.cut.push_back(node.splat);
+        continue;
+      }
+      if (i >= inside_end && camera_.is_inside(seen)) inside_end = node.next;
+      if (stands_for_all(seen, node)) {
+        part.add({&node.splat, 1});
         i = node.next;
       } else if (tree_.is_leaf(i)) {
-        part.cut.insert(part.cut.end(), tree_.points.begin() + node.first_point,
-                        tree_.points.begin() + node.end_point);
+        part.add(
+            NodeSpan(tree_.points).subspan(node.first_point, node.end_point - node.first_point));
         i = node.next;
       } else {
         ++i;
@@ -145,13 +181,13 @@ Values<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySplatPa
   std::size_t all = 0;
   for (const Part& part : parts) {
     place.push_back(all);
-    all += part.cut.size();
+    all += part.count;
   }
   auto nodes = Values<DefraySplatNode>::room(all);
   const std::span<DefraySplatNode> to = nodes.edit();
   parallel_for(count, [&](int i) {
-    std::copy(parts[size(i)].cut.begin(), parts[size(i)].cut.end(),
-              to.begin() + static_cast<std::ptrdiff_t>(place[size(i)]));
+    auto at = to.begin() + static_cast<std::ptrdiff_t>(place[size(i)]);
+    for (const NodeSpan nodes : parts[size(i)].cut) at = std::copy(nodes.begin(), nodes.end(), at);
   });
   return nodes;
 }

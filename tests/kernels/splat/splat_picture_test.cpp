@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "measure/metrics.h"
+#include "splat/splats.h"
 #include "splat_support.h"
 
 namespace defray::test::splat_picture_test {
@@ -139,6 +140,23 @@ TEST(SplatPicture, LevelsOfDetailShowWhatPointsShow) {
       EXPECT_LT(with.drawn, without.drawn) << name << ", " << aperture;
       EXPECT_GT(compare(a.colour, b.colour, 128).psnr_srgb_db, 38) << name << ", " << aperture;
     }
+  }
+}
+
+TEST(SplatPicture, WhatIsOutsideIsLeftOutAndNothingElse) {
+  const Hierarchy tree = tree_of(make_point_cloud("figure", 10000));
+  // Near, from afar all in the picture, and with blur that brings in what lies beside it.
+  for (const auto& [distance, aperture, most] :
+       {std::tuple{1.2, 0.0, 0.2}, {20.0, 0.0, 1.0}, {1.2, 400.0, 0.7}}) {
+    const DefraySplatParams p = view_of(64, distance, aperture);
+    SplatReport report;
+    const SplatPlanes cut = draw_splats(device(), tree, p, false, 0, report);
+    EXPECT_LE(static_cast<double>(report.drawn), most * static_cast<double>(report.points));
+    const Values<DefraySplatNode> all(tree.points);
+    const SplatPlanes whole =
+        device().splat_resolve(in_order(device().splat_project(all, p)), p, {});
+    EXPECT_EQ(cut.colour, whole.colour) << distance << ", " << aperture << " mm";
+    EXPECT_EQ(cut.depth, whole.depth) << distance << ", " << aperture << " mm";
   }
 }
 
