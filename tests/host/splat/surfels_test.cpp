@@ -44,6 +44,22 @@ TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
   EXPECT_LT(area_of(surfels.points[10]), 1.5 * area);
 }
 
+/// The back of something thin is not seen from before it, and covers nothing there.
+TEST(Surfels, AThinThingsBackWeighsNothingInFront) {
+  PointCloud sheet = slope(21);
+  const std::size_t points = sheet.positions.size();
+  sheet.normals.assign(points, {-0.5f, 0, 1});
+  sheet.radii.assign(points, 0.1f);
+  const double alone = area_of(middle(make_surfels(sheet)));
+  for (std::size_t i = 0; i < points; ++i) {
+    const auto& p = sheet.positions[i];
+    sheet.positions.push_back({p[0], p[1], p[2] - 0.01f});
+    sheet.normals.push_back({0.5f, 0, -1});
+    sheet.radii.push_back(0.1f);
+  }
+  EXPECT_GT(area_of(make_surfels(sheet).points[points / 2]), 0.8 * alone);
+}
+
 TEST(Surfels, NormalsAreThoseOfTheShapeAtEveryScale) {
   for (const float scale : {1e-5f, 1.0f, 1e5f}) {
     PointCloud cloud = slope(9);

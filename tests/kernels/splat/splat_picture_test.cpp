@@ -147,7 +147,7 @@ TEST(SplatPicture, WhatIsOutsideIsLeftOutAndNothingElse) {
   const Hierarchy tree = tree_of(make_point_cloud("figure", 10000));
   // Near, from afar all in the picture, and with blur that brings in what lies beside it.
   for (const auto& [distance, aperture, most] :
-       {std::tuple{1.2, 0.0, 0.6}, {20.0, 0.0, 1.0}, {1.2, 400.0, 0.8}}) {
+       {std::tuple{1.2, 0.0, 0.575}, {20.0, 0.0, 1.0}, {1.2, 400.0, 0.8}}) {
     const DefraySplatParams p = view_of(64, distance, aperture);
     SplatReport report;
     const SplatPlanes cut = draw_splats(device(), tree, p, false, 0, report);
