@@ -81,7 +81,9 @@ int run(const SplatCommand& job) {
   }
   SplatRun splats(job, device, model, source);
   splats.draw(shots);
-  if (job.show) show(splats.last()->colour, job.settings, "defray: " + splats.last()->shot.output);
+  if (const auto& last = splats.last(); job.show && last) {
+    show(last->colour, job.settings, "defray: " + last->shot.output);
+  }
   return 0;
 }
 

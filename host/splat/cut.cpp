@@ -57,8 +57,7 @@ class View {
            is_beside(-s.y, s, top + margin) || is_beside(s.y, s, p_.height - top + margin);
   }
 
-  /// Whether all of it is in the picture, and what is below it, whose `is_outside` need not be
-  /// asked.
+  /// Whether all of it is in the picture: then so is all below it, which need not be asked.
   bool is_inside(const SeenNode& s) const {
     return s.z - s.radius > p_.near_units && sides_[0].holds(-s.x, s) && sides_[1].holds(s.x, s) &&
            sides_[2].holds(-s.y, s) && sides_[3].holds(s.y, s);

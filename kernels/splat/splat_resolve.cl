@@ -72,14 +72,12 @@ INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, co
                 form < p.cutoff);
 }
 
-// Returns whether a surface has ended before it in some pixel: only then may one become opaque.
-INLINED bool add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
+INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
                        const bool averages) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
-  if (!any_lane(hits)) return false;
+  if (!any_lane(hits)) return;
   const int16 begins = hits & (s->z_near > r->far);
-  const bool ends = any_lane(begins);
-  if (ends) end_layer(r, begins, averages);
+  if (any_lane(begins)) end_layer(r, begins, averages);
   const int16 joins = hits & ~r->opaque;
   // Only where it joins: 0 times what is not finite is not 0.
   const float16 taken = averages ? weight : fmin(weight, 1.0f - r->weight);
@@ -91,7 +89,6 @@ INLINED bool add_splat(SplatRun* r, __global const DefraySplat* s, const float16
   r->far = select(r->far, fmax(r->far, s->z_far), joins);
   if (s->a > 0.0f) r->depth = select(r->depth, fmin(r->depth, s->z), joins);
   r->count -= joins;
-  return ends;
 }
 
 __kernel void splat_resolve(const DefraySplatTileParams p, __global const DefraySplat* splats,
@@ -118,8 +115,8 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
     if ((int)y < s->first_y || (int)y >= s->end_y) continue;
     const int16 inside = (column >= s->first_x) & (column < s->end_x);
     const float16 weight = splat_weight(s, centres - s->x, (float)y + 0.5f - s->y, p);
-    const bool ends = add_splat(&r, s, select((float16)(0.0f), weight, inside), p.averages);
-    if (ends && all_lanes(r.opaque)) break;
+    add_splat(&r, s, select((float16)(0.0f), weight, inside), p.averages);
+    if (all_lanes(r.opaque)) break;
   }
   end_layer(&r, ~r.opaque, p.averages);
 
