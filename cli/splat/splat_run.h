@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/plane.h"
 #include "progress.h"
 #include "splat/splat_report.h"
 #include "splat/splat_shots.h"
