@@ -186,7 +186,7 @@ Values<DefraySplatNode> cut_hierarchy(const Hierarchy& tree, const DefraySplatPa
   const std::span<DefraySplatNode> to = nodes.edit();
   parallel_for(count, [&](int i) {
     auto at = to.begin() + static_cast<std::ptrdiff_t>(place[size(i)]);
-    for (const NodeSpan nodes : parts[size(i)].cut) at = std::copy(nodes.begin(), nodes.end(), at);
+    for (const NodeSpan part : parts[size(i)].cut) at = std::copy(part.begin(), part.end(), at);
   });
   return nodes;
 }
