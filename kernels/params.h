@@ -69,6 +69,10 @@
 /// how colours go on, and at the slant, which the first of them tells.
 #define DEFRAY_FILL_LOOKS 4
 #define DEFRAY_FILL_LOOK_PX 4
+/// And at one on either side of the way, so far from it and so far beyond the first: whether the
+/// way follows a line or an edge. (2 and 3 px to either side: as near to the truth.)
+#define DEFRAY_FILL_SIDE_PX 3
+#define DEFRAY_FILL_SIDES_AT_PX 2
 /// Most directions in which `fill` looks for what goes on behind.
 #define DEFRAY_FILL_DIRECTIONS 16
 /// So far `split` takes surfaces from: squares of 7 px.

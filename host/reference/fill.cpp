@@ -17,6 +17,9 @@ struct Found {
   float inverse;   ///< 1/depth: continued to where the way began.
   float weight;    ///< Of its colour.
   bool is_barred;  ///< A silhouette was passed on the way.
+  int direction = 0;
+  float sides = 0;      ///< How far the colours beside it are from its own, squared.
+  float coherence = 0;  ///< How much more they change across the way than along it.
 };
 
 /// A straight way over the picture: place after t steps of a pixel.
@@ -43,6 +46,11 @@ float brightness(const Colour& c) {
 /// Without alpha.
 float sum_of_squares(const Colour& c) { return c[0] * c[0] + c[1] * c[1] + c[2] * c[2]; }
 
+float squared_distance(Colour a, const Colour& b) {
+  add(a, -1, b);
+  return sum_of_squares(a);
+}
+
 class Filler {
  public:
   Filler(const Frame& f, const Words& marks, int directions)
@@ -61,7 +69,10 @@ class Filler {
     for (int i = 0; i < directions_; ++i) {
       const double angle = i * 2 * std::numbers::pi / directions_;
       const Way way{at, static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-      if (const auto found = look_along(way, own)) all.push_back(looked_further(way, *found));
+      if (const auto found = look_along(way, own)) {
+        all.push_back(looked_further(way, *found));
+        all.back().direction = i;
+      }
     }
     return all;
   }
@@ -156,11 +167,9 @@ class Filler {
       const Place further = way.after(t + DEFRAY_FILL_LOOK_PX * i);
       if (!frame_.contains(further)) break;
       const std::size_t q = frame_.index(further);
-      if (is_mixed(q) || std::abs(frame_.coc(q) - coc) > 4 * DEFRAY_JUMP_QUANTA) continue;
+      if (!is_same_surface(q, coc)) continue;
       const Colour c = colour_at(channels_, q);
-      Colour difference = c;
-      add(difference, -1, colour);
-      change += sum_of_squares(difference);
+      change += squared_distance(c, colour);
       size += sum_of_squares(c);
       if (!(brightness(c) > brightest)) continue;
       brightest = brightness(c);
@@ -170,9 +179,30 @@ class Filler {
     if (std::isfinite(change) && std::isfinite(size)) {
       const float share = change > 0 ? std::fmin(change / size, 8.0f) : 0;
       found.weight /= 0.1f + share;
+      const float sides = change_across(way, t, colour, coc);
+      if (std::isfinite(sides) && sides > 0) {
+        found.sides = sides;
+        found.coherence = std::fmin(sides / (change + 0.1f * size), 30.0f);
+      }
     }
     if (found.distance > 4 && brightness(colour) > 3 * brightest) found.source = source;
     return found;
+  }
+
+  bool is_same_surface(std::size_t pixel, int coc) const {
+    return !is_mixed(pixel) && std::abs(frame_.coc(pixel) - coc) <= 4 * DEFRAY_JUMP_QUANTA;
+  }
+
+  /// Of the colour after t steps, and those on both sides of the way a little further on.
+  float change_across(const Way& way, int t, const Colour& colour, int coc) const {
+    float sum = 0;
+    for (const int side : {-DEFRAY_FILL_SIDE_PX, DEFRAY_FILL_SIDE_PX}) {
+      const Way across{way.after(t + DEFRAY_FILL_SIDES_AT_PX), -way.y, way.x};
+      const Place at = across.after(side);
+      if (!frame_.contains(at) || !is_same_surface(frame_.index(at), coc)) continue;
+      sum += squared_distance(colour_at(channels_, frame_.index(at)), colour);
+    }
+    return sum;
   }
 
   CocFrame frame_;
@@ -218,6 +248,21 @@ Found most_of(const std::vector<Found>& all, float own) {
   return *best;
 }
 
+/// How much more what was found counts where it follows a line or an edge, most of all where that
+/// comes out again in the opposite direction.
+float structure_of(const Found& f, const std::vector<Found>& all, const Planes& channels,
+                   int directions) {
+  float goes_on = 0;
+  for (const Found& other : all) {
+    if (std::abs(other.direction - f.direction) * 2 != directions) continue;
+    const float sides = std::fmin(f.sides, other.sides);
+    const float apart =
+        squared_distance(colour_at(channels, f.source), colour_at(channels, other.source));
+    if (apart < sides) goes_on = 10 * std::fmin(f.coherence, other.coherence) * (1 - apart / sides);
+  }
+  return 1 + 0.3f * f.coherence + goes_on;
+}
+
 /// Weighted mean of what lies on one surface.
 struct Mean {
   float coc, inverse;
@@ -242,8 +287,9 @@ Mean mean_of(std::vector<Found> all, const Planes& channels, float own, int dire
     coc += weight * all[i].coc;
     inverse += weight * all[i].inverse;
     if (bright[i] > 10 * median) continue;
-    colour_weights += all[i].weight;
-    add(colour, all[i].weight, colour_at(channels, all[i].source));
+    const float shown = all[i].weight * structure_of(all[i], all, channels, directions);
+    colour_weights += shown;
+    add(colour, shown, colour_at(channels, all[i].source));
   }
   return Mean{coc / weights, inverse / weights, divided(colour, colour_weights)};
 }

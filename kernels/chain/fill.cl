@@ -5,7 +5,9 @@
 // closer than the step in CoC. The found pixels that lie on one surface (find_surface),
 // continued along their slant, give CoC and depth: both are linear in the picture for a plane
 // (depth as 1/z), and weighed alike. Their colours are weighed by how little each changes further
-// on along its ray: stripes go on behind in their direction. Highlights do not smear: a colour far
+// on along its ray: stripes go on behind in their direction; and by how much more it changes across
+// the ray than along it, most of all where the opposite ray has found the same: lines and edges go
+// on behind (coherence transport, Bornemann & Maerz 2007). Highlights do not smear: a colour far
 // brighter than those further on gives way to them, one far brighter than the median of all does
 // not count.
 //
@@ -139,6 +141,34 @@ float16 median_of(const Found* found, const int16* counts, const uint directions
   return median;
 }
 
+// So much more a colour counts whose surface is coherent along the way, and where it goes on in the
+// opposite direction. (0.3 and 3, 1 and 10, 1 and 0: built-in scenes of 640x400 within 0.06 dB.)
+#define STRUCTURE 0.3f
+#define STRUCTURE_GOES_ON 10.0f
+
+// By how much a line or an edge goes on from one of opposite directions to the other: both
+// coherent, and as alike as what lies beside them is not.
+float16 going_on(const Found* a, const Found* b) {
+  const float16 none = 0.0f, sides = fmin(a->sides, b->sides);
+  const float16 apart = sum_of_squares(a->colours.c0 - b->colours.c0, a->colours.c1 - b->colours.c1,
+                                       a->colours.c2 - b->colours.c2);
+  const float16 alike = select(none, 1.0f - apart / sides, apart < sides);
+  return STRUCTURE_GOES_ON * fmin(a->coherence, b->coherence) * alike;
+}
+
+void weigh_structures(Found* found, const int16* counts, const uint directions) {
+  const uint turn = directions / 2u;
+  for (uint i = 0; i < turn; ++i) {
+    Found* const a = found + i;
+    Found* const b = found + i + turn;
+    const int16 both = counts[i] & counts[i + turn];
+    float16 on = 0.0f;
+    if (any_lane(both)) on = select(on, going_on(a, b), both);
+    if (any_lane(counts[i])) a->weight *= 1.0f + STRUCTURE * a->coherence + on;
+    if (any_lane(counts[i + turn])) b->weight *= 1.0f + STRUCTURE * b->coherence + on;
+  }
+}
+
 // What lies behind a run's pixels.
 typedef struct {
   int16 is_there, coc;
@@ -160,6 +190,7 @@ Filled fill_run(const DefrayFillParams p, const Window* w, const int2 start, Fou
     counts[i] = (found[i].distance != 0.0f) & is_of(found[i].coc, surface, own_coc);
     if (any_lane(counts[i])) note_colours(w, start, direction_of(p, i), counts[i], found + i);
   }
+  weigh_structures(found, counts, directions);
   const float16 brightest = 10.0f * median_of(found, counts, directions), none = 0.0f;
   float16 weights = 0.0f, coc = 0.0f, inverse = 0.0f, colour_weights = 0.0f;
   Colours sum = {0.0f, 0.0f, 0.0f, 0.0f};

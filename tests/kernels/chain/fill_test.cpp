@@ -223,6 +223,29 @@ TEST(Fill, StripesGoOnInTheirDirection) {
 
 /// Behind a bar across a slanting edge between two surfaces that edge goes on from one side to the
 /// other, through its middle; by the surface of the nearest pixel it ended in one step there.
+/// A dark line of 3 px that slants across a bar of 10: behind it most ways meet what is beside the
+/// line, but only along it is found what goes on.
+TEST(Fill, ALineGoesOnBehindABar) {
+  for (const int slope : {0, 1}) {
+    Canvas f(70, 70);
+    f.coc.assign(f.count(), 256 * 30);
+    const auto beside = [&](int x, int y) { return y - 35 - slope * (x - 35); };
+    f.each([&](int x, int y) {
+      const float v = std::abs(beside(x, y)) <= 1 ? 0.1f : 0.8f;
+      f.paint(x, y, v, v, v);
+    });
+    f.add_bar(30, 40);
+    const Frame behind = f.filled();
+    for (int x = 31; x < 39; ++x) {
+      for (int y = 25; y < 45; ++y) {
+        const float v = behind.channels[0][f.at(x, y)];
+        if (beside(x, y) == 0) EXPECT_LT(v, 0.25f) << slope << ": " << x << ", " << y;
+        if (std::abs(beside(x, y)) == 4) EXPECT_GT(v, 0.7f) << slope << ": " << x << ", " << y;
+      }
+    }
+  }
+}
+
 TEST(Fill, ASilhouetteGoesOnBehindABar) {
   for (const double slope : {1.0, 0.5, -1.0}) {
     Canvas f(90, 60);
