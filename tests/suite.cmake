@@ -92,6 +92,7 @@ add_check(library 20 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_
 add_check(demo 20 full bash ${here}/demo_test.sh ${PROJECT_BINARY_DIR})
 add_check(format 1 both bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 add_check(includes 1 both bash ${here}/includes.sh ${PROJECT_SOURCE_DIR})
+add_check(alone 60 full bash ${here}/alone.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
 
 # All faults, on PoCL alone: every fault is a program to compile.
 add_shards(faults 2 90 full faults_tests)
