@@ -20,4 +20,13 @@ template <typename... Args>
   throw Error(kind, fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// Refuses a number that an enumeration from 0 to `last` has no name for, as other languages may
+/// give.
+template <typename Enum>
+void require_named(const std::string& name, Enum value, Enum last) {
+  const int number = static_cast<int>(value), most = static_cast<int>(last);
+  if (number >= 0 && number <= most) return;
+  fail(ErrorKind::usage, "{} is {}: allowed are 0 to {}", field(name), number, most);
+}
+
 }  // namespace defray

@@ -93,6 +93,7 @@ bool is_background(double stored, const DepthSettings& s) {
 }
 
 void validate(const DepthSettings& s) {
+  require_named("depth.kind", s.kind, DepthKind::zbuffer);
   if (s.kind == DepthKind::normalized) {
     if (!(s.near_units >= 0) || !(s.far_units > s.near_units) || std::isinf(s.far_units)) {
       fail(ErrorKind::usage,

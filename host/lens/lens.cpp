@@ -51,6 +51,7 @@ bool is_focus_infinite(const Lens& lens) {
 }  // namespace
 
 void validate(const Lens& lens) {
+  require_named("model", lens.model, LensModel::breathing);
   require_positive("focal length", lens.focal_length_mm);
   require_positive("sensor width", lens.sensor_width_mm);
   require_positive("scene unit", lens.metres_per_unit);

@@ -81,6 +81,7 @@ Frame frame_of(const Picture& picture, const Lens& lens, const Options& options,
 }
 
 void validate(const Lens& lens, const Options& options) {
+  require_named("nonfinite", options.nonfinite, Nonfinite::keep);
   if (options.method == Method::tiltshift) return validate(options.tiltshift);
   validate(lens);
   validate(options.depth);

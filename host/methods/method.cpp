@@ -68,6 +68,21 @@ const Row& row_of(Method method) {
 
 }  // namespace
 
+void validate(const MethodSettings& s) {
+  require_named("method", s.method, method_rows.back().method);
+  require_named("rdb.rays", s.rdb.rays, RaysBy::scatter);
+  require_named("gather.kind", s.gather.kind, GatherKind::aware);
+  if (!s.chain) return;
+  require_named("rays", s.chain->rays, RaysBy::scatter);
+  require_named("hidden", s.chain->hidden, Hidden::patterns);
+  require_named("border", s.chain->border, Border::renormalise);
+  constexpr int most_shifts = 256;
+  if (s.chain->pattern_shifts < 1 || s.chain->pattern_shifts > most_shifts) {
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 to {}", field("pattern_shifts"),
+         s.chain->pattern_shifts, most_shifts);
+  }
+}
+
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
   for (const Row& row : method_rows) methods.push_back(row.method);

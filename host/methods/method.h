@@ -8,6 +8,10 @@
 
 namespace defray {
 
+/// Throws Error(usage) for enumerations and counts out of range, whatever the method; what a method
+/// has of its own it looks at itself.
+void validate(const MethodSettings& settings);
+
 /// The lens picture, as many channels as there are, and what the method tells beside it. `frame`
 /// has coc_quanta, channels and, for the RDB, depth. Throws Error(usage) for settings out of range.
 MethodResult apply_method(const Frame& frame, const MethodSettings& settings, Backend& backend,

@@ -95,6 +95,7 @@ bool is_predictable(const MethodSettings& method) {
 }
 
 void validate(const MethodSettings& method, const ErrorSettings& error) {
+  validate(method);
   const char* const asked = error.target_db ? "target_db" : error.wants_planes ? "error" : nullptr;
   if (!asked) return;
   if (error.target_db && !(*error.target_db > 0 && *error.target_db <= most_expected_db)) {

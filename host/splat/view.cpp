@@ -73,6 +73,8 @@ void validate(const SplatSettings& s) {
     fail(ErrorKind::usage, "a picture of {}x{} pixels: allowed are 1 to {} a side", s.width,
          s.height, largest_side);
   }
+  require_named("psf", s.psf, SplatPsf::disc);
+  require_named("merge", s.merge, SplatMerge::average);
   if (!(s.cutoff >= 1 && s.cutoff <= 8)) {
     fail(ErrorKind::usage, "{} is {}: allowed are 1 to 8", field("cutoff"), s.cutoff);
   }

@@ -44,6 +44,23 @@ TEST(Library, RefusesPlanesThatDoNotFit) {
   refuses({"display window", "no pixels"}, [](Picture& p) { p.display.width = -1; });
 }
 
+/// As a caller from another language might give them.
+TEST(Library, RefusesNumbersThatNothingIsCalled) {
+  const Memory memory;
+  Device device = Device::open();
+  const auto refuses = [&](const std::vector<std::string>& words, const auto& change) {
+    Options o;
+    change(o);
+    expect_error(ErrorKind::usage, words, [&] { render(device, memory.picture(), lens(), o); });
+  };
+  refuses({"method", "is 4", "0 to 3"}, [](Options& o) { o.method = Method{4}; });
+  refuses({"border", "is -1", "0 to 2"}, [](Options& o) { o.chain->border = Border{-1}; });
+  refuses({"pattern_shifts", "is -1", "1 to 256"},
+          [](Options& o) { o.chain->pattern_shifts = -1; });
+  refuses({"depth.kind", "is 6", "0 to 5"}, [](Options& o) { o.depth.kind = DepthKind{6}; });
+  refuses({"nonfinite", "is 3", "0 to 2"}, [](Options& o) { o.nonfinite = Nonfinite{3}; });
+}
+
 TEST(Library, TiltshiftNeedsNoDepth) {
   const Memory memory;
   Device device = Device::open();

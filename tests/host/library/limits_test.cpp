@@ -3,14 +3,17 @@
 #include <cmath>
 
 #include "lens/aperture.h"
+#include "lens/depth.h"
 #include "lens/lens.h"
 #include "lens/lens_grid.h"
 #include "lens/lens_points.h"
 #include "lens/poisson_disk.h"
 #include "measure/psf_report.h"
 #include "methods/gather.h"
+#include "methods/method.h"
 #include "methods/tiltshift.h"
 #include "scenes/scene.h"
+#include "splat/view.h"
 #include "support.h"
 
 namespace defray::test::limits_test {
@@ -35,6 +38,35 @@ TEST(Limits, OfSettingsAreAllowedThemselves) {
   const auto gather = [](const GatherSettings& s) { validate(s); };
   expect_range(&GatherSettings::samples, 1, 1024, 1, gather);
   expect_range(&GatherSettings::passes, 1, 8, 1, gather);
+  const auto chain = [](const ChainSettings& s) {
+    MethodSettings method;
+    method.chain = s;
+    validate(method);
+  };
+  expect_range(&ChainSettings::pattern_shifts, 1, 256, 1, chain);
+  expect_range(&ChainSettings::hidden, 0, 2, 1, chain);
+  expect_range(&ChainSettings::border, 0, 2, 1, chain);
+  expect_range(&ChainSettings::rays, 0, 1, 1, chain);
+  expect_range(&MethodSettings::method, 0, 3, 1, [](const MethodSettings& s) { validate(s); });
+  expect_range(&RdbSettings::rays, 0, 1, 1, [](const RdbSettings& s) {
+    MethodSettings method;
+    method.rdb = s;
+    validate(method);
+  });
+  expect_range(&GatherSettings::kind, 0, 1, 1, [](const GatherSettings& s) {
+    MethodSettings method;
+    method.gather = s;
+    validate(method);
+  });
+  const auto splat = [](const SplatSettings& s) { validate(s); };
+  expect_range(&SplatSettings::psf, 0, 1, 1, splat);
+  expect_range(&SplatSettings::merge, 0, 1, 1, splat);
+  expect_range(&SplatSettings::cutoff, 1, 8, 0.001, splat);
+  expect_range(&DepthSettings::kind, 0, 5, 1, [](DepthSettings s) {
+    const bool has_ends = s.kind == DepthKind::normalized || s.kind == DepthKind::zbuffer;
+    if (has_ends) s.near_units = 1, s.far_units = 2;
+    validate(s);
+  });
   const auto tiltshift = [](const TiltshiftSettings& s) { validate(s); };
   expect_range(&TiltshiftSettings::band_centre, 0, 1, 0.001, tiltshift);
   expect_range(&TiltshiftSettings::band_width, 0, 1, 0.001, tiltshift);
@@ -51,6 +83,10 @@ TEST(Limits, OfSettingsAreAllowedThemselves) {
 }
 
 TEST(Limits, OfTheLensAreAllowedThemselves) {
+  expect_range(&Lens::model, 0, 1, 1, [](Lens l) {
+    l.focus_distance_units = 1;
+    validate(l);
+  });
   Lens near;
   near.focus_distance_units = 1;
   const auto lens = [](const Lens& l) {
