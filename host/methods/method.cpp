@@ -60,23 +60,21 @@ constexpr std::array method_rows{Row{Method::rdb, "rdb", true, run_rdb},
                                  Row{Method::tiltshift, "tiltshift", false, run_tiltshift}};
 
 const Row& row_of(Method method) {
-  for (const Row& row : method_rows) {
-    if (row.method == method) return row;
-  }
-  fail(ErrorKind::internal, "a method without a row");
+  require_named("method", method, method_rows.back().method);
+  return method_rows[static_cast<std::size_t>(method)];
 }
 
 }  // namespace
 
 void validate(const MethodSettings& s) {
-  require_named("method", s.method, method_rows.back().method);
+  row_of(s.method);
   require_named("rdb.rays", s.rdb.rays, RaysBy::scatter);
   require_named("gather.kind", s.gather.kind, GatherKind::aware);
   if (!s.chain) return;
   require_named("rays", s.chain->rays, RaysBy::scatter);
   require_named("hidden", s.chain->hidden, Hidden::patterns);
   require_named("border", s.chain->border, Border::renormalise);
-  constexpr int most_shifts = 256;
+  constexpr int most_shifts = 64;
   if (s.chain->pattern_shifts < 1 || s.chain->pattern_shifts > most_shifts) {
     fail(ErrorKind::usage, "{} is {}: allowed are 1 to {}", field("pattern_shifts"),
          s.chain->pattern_shifts, most_shifts);

@@ -58,7 +58,7 @@ enum class Hidden {
 struct ChainSettings {
   int cells_per_side = 13;  ///< As many lens points as round cells of such a grid.
   Hidden hidden = Hidden::patterns;
-  /// Shifts at which Hidden::patterns looks, each with both its signs; 1 to 256.
+  /// Shifts at which Hidden::patterns looks, each with both its signs; 1 to 64.
   int pattern_shifts = 24;
   bool split = true;
   bool repair = true;

@@ -55,8 +55,7 @@ TEST(Library, RefusesNumbersThatNothingIsCalled) {
   };
   refuses({"method", "is 4", "0 to 3"}, [](Options& o) { o.method = Method{4}; });
   refuses({"border", "is -1", "0 to 2"}, [](Options& o) { o.chain->border = Border{-1}; });
-  refuses({"pattern_shifts", "is -1", "1 to 256"},
-          [](Options& o) { o.chain->pattern_shifts = -1; });
+  refuses({"pattern_shifts", "is -1", "1 to 64"}, [](Options& o) { o.chain->pattern_shifts = -1; });
   refuses({"depth.kind", "is 6", "0 to 5"}, [](Options& o) { o.depth.kind = DepthKind{6}; });
   refuses({"nonfinite", "is 3", "0 to 2"}, [](Options& o) { o.nonfinite = Nonfinite{3}; });
 }

@@ -43,7 +43,7 @@ TEST(Limits, OfSettingsAreAllowedThemselves) {
     method.chain = s;
     validate(method);
   };
-  expect_range(&ChainSettings::pattern_shifts, 1, 256, 1, chain);
+  expect_range(&ChainSettings::pattern_shifts, 1, 64, 1, chain);
   expect_range(&ChainSettings::hidden, 0, 2, 1, chain);
   expect_range(&ChainSettings::border, 0, 2, 1, chain);
   expect_range(&ChainSettings::rays, 0, 1, 1, chain);
