@@ -59,6 +59,14 @@ constexpr std::array method_rows{Row{Method::rdb, "rdb", true, run_rdb},
                                  Row{Method::gather, "gather", true, run_gather},
                                  Row{Method::tiltshift, "tiltshift", false, run_tiltshift}};
 
+constexpr bool are_in_order() {
+  for (std::size_t i = 0; i < method_rows.size(); ++i) {
+    if (static_cast<std::size_t>(method_rows[i].method) != i) return false;
+  }
+  return true;
+}
+static_assert(are_in_order());
+
 const Row& row_of(Method method) {
   require_named("method", method, method_rows.back().method);
   return method_rows[static_cast<std::size_t>(method)];
