@@ -1,5 +1,6 @@
 #pragma once
-// What the twin of `fill` finds behind a pixel, way by way (kernels/chain/fill_walk.clh, fill_found.clh).
+// What the twin of `fill` finds behind a pixel, way by way (kernels/chain/fill_walk.clh,
+// fill_found.clh).
 #include <limits>
 #include <numbers>
 #include <optional>
