@@ -16,7 +16,7 @@ Frame placed(PinholePicture picture) {
   f.depth = std::move(picture.depth);
   f.width = picture.data.width;
   f.height = picture.data.height;
-  f.has_alpha = f.channels.size() == 4;
+  f.has_alpha = f.channels.size() % 2 == 0;
   f.origin_x = picture.data.x - picture.display.x;
   f.origin_y = picture.data.y - picture.display.y;
   f.display_width = picture.display.width;

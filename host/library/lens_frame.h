@@ -9,7 +9,7 @@
 namespace defray {
 
 struct PinholePicture {
-  Planes channels;           ///< Linear colour, premultiplied; a fourth is alpha.
+  Planes channels;           ///< Linear colour, premultiplied; the last of two or four is alpha.
   Values<float> depth = {};  ///< Planar, > 0, inf: background. A tilt-shift needs none.
   Window data, display;
 };

@@ -37,13 +37,18 @@ const Picture& PictureFile::picture() const { return state_->picture; }
 std::vector<std::string> PictureFile::write(const std::string& path,
                                             const std::vector<Plane>& colour) {
   check_output_format(path);
-  const Window& data = state_->picture.data;
-  const std::size_t count = size(data.width) * size(data.height);
-  const bool fits = colour.size() == state_->colour.size() &&
-                    std::all_of(colour.begin(), colour.end(),
-                                [&](const Plane& plane) { return plane.size() == count; });
-  if (!fits) {
-    fail(ErrorKind::usage, "{}: the colour to write is not of the size of the picture read", path);
+  if (colour.size() != state_->colour.size()) {
+    std::vector<std::string> names;
+    for (const int channel : state_->choice.channels) {
+      names.push_back(state_->file.parts()[size(state_->choice.part)].channels[size(channel)]);
+    }
+    fail(ErrorKind::usage, "{}: the picture read has {} ({} planes), the colour to write has {}",
+         path, fmt::join(names, " "), names.size(), colour.size());
+  }
+  for (const Plane& plane : colour) {
+    if (plane.size() == state_->depth.size()) continue;
+    fail(ErrorKind::usage, "{}: a plane to write has {} values, planes of the picture read have {}",
+         path, plane.size(), state_->depth.size());
   }
   std::vector<std::string> notes;
   write_picture(path, state_->file, state_->choice, colour, Bits::as_input, notes);
@@ -54,7 +59,8 @@ void PictureFile::write_plane(const std::string& path, const std::string& name,
                               const Plane& values) const {
   check_plane_format(path, name);
   if (values.size() != state_->depth.size()) {
-    fail(ErrorKind::usage, "{}: {} is not of the size of the picture read", path, name);
+    fail(ErrorKind::usage, "{}: {} has {} values, planes of the picture read have {}", path, name,
+         values.size(), state_->depth.size());
   }
   defray::write_plane(path, name, state_->file, state_->choice.part, values);
 }

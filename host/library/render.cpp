@@ -10,6 +10,7 @@
 #include "library/backend_of.h"
 #include "library/budget.h"
 #include "library/lens_frame.h"
+#include "library/transparent.h"
 #include "methods/method.h"
 #include "methods/tiltshift.h"
 #include "prediction/with_error.h"
@@ -117,6 +118,7 @@ RenderResult render(Device& device, const Picture& picture, const Lens& lens,
   }
   out.report.chain = std::move(result.report);
   out.colour = std::move(result.colour);
+  clear_transparent(frame, out.colour);
   out.coc_px = radii_px(frame.coc_quanta.host());
   out.confidence = std::move(result.confidence);
   out.nearest = std::move(result.nearest);

@@ -1,5 +1,4 @@
 // The main job: one frame from file to file.
-#include <algorithm>
 #include <iterator>
 #include <optional>
 
@@ -14,28 +13,12 @@
 #include "library/frame_notes.h"
 #include "library/lens_frame.h"
 #include "library/source.h"
+#include "library/transparent.h"
 #include "methods/method.h"
 #include "prediction/with_error.h"
 
 namespace defray {
 namespace {
-
-/// Rounding leaves traces of light where alpha is 0. Light that was there from the start, such as
-/// that of flames, stays. Alpha may be one of the planes.
-void clear_transparent(const std::vector<Plane>& before, const Plane& alpha_before,
-                       std::vector<Plane>& after, const Plane& alpha_after) {
-  const auto shines = [](const std::vector<Plane>& light, const Plane& alpha, std::size_t i) {
-    return alpha[i] == 0 &&
-           std::any_of(light.begin(), light.end(), [i](const Plane& p) { return p[i] != 0; });
-  };
-  for (std::size_t i = 0; i < alpha_before.size(); ++i) {
-    if (shines(before, alpha_before, i)) return;
-  }
-  for (std::size_t i = 0; i < alpha_after.size(); ++i) {
-    if (!shines(after, alpha_after, i)) continue;
-    for (Plane& plane : after) plane[i] = 0;
-  }
-}
 
 /// The lens once more for each group of light channels: with the colour's depth and CoC, but what
 /// lies behind and mixed pixels are estimated from the group's own values. Puts the planes into
@@ -43,7 +26,8 @@ void clear_transparent(const std::vector<Plane>& before, const Plane& alpha_befo
 void render_light(const Source& source, Frame frame, const RenderSettings& settings,
                   const MethodSettings& method, Backend& backend, FrameReport& report,
                   ColourChoice& choice, std::vector<Plane>& planes) {
-  const bool is_cut_out = has_alpha(source.colour);
+  const Values<float> alpha_before = frame.channels.back();
+  const bool is_cut_out = frame.has_alpha;
   const Plane alpha = is_cut_out ? planes.back() : Plane();
   for (const LightGroup& group : source.further.light) {
     const std::vector<Plane> before =
@@ -51,10 +35,10 @@ void render_light(const Source& source, Frame frame, const RenderSettings& setti
     frame.channels = Planes::view(before);
     frame.has_alpha = group.has_alpha;
     std::vector<Plane> out = apply_method(frame, method, backend).colour;
-    if (group.has_alpha) {
-      clear_transparent(before, before.back(), out, out.back());
-    } else if (is_cut_out) {
-      clear_transparent(before, source.colour.back(), out, alpha);
+    if (group.has_alpha || !is_cut_out) {
+      clear_transparent(frame, out);
+    } else {
+      clear_transparent(frame.channels, alpha_before.host(), out, alpha);
     }
     choice.channels.insert(choice.channels.end(), group.channels.begin(), group.channels.end());
     planes.insert(planes.end(), std::make_move_iterator(out.begin()),
@@ -86,7 +70,6 @@ Frame frame_of(const Source& source, const RenderSettings& settings, Backend& ba
   }
   pinhole.depth = Values<float>::view(source.depth.data(), source.depth.size());
   Frame frame = lens_frame(std::move(pinhole), report.lens, backend, report);
-  frame.has_alpha = has_alpha(source.colour);
   note_coc(report.lens, frame.coc_quanta.host(), report.display.width, report.notes);
   return frame;
 }
@@ -160,10 +143,7 @@ void FileRender::render(Device& device, const Progress& progress,
   note_target(s.report.expected, error, s.report.notes);
   s.choice = s.source->choice;
   s.planes = std::move(result.colour);
-  if (has_alpha(s.planes)) {
-    const Plane& alpha = s.source->colour.back();
-    clear_transparent(s.source->colour, alpha, s.planes, s.planes.back());
-  }
+  clear_transparent(frame, s.planes);
   render_light(*s.source, frame, s.settings, made.settings, backend, s.report, s.choice, s.planes);
   move_data(*s.source, result.nearest, s.report);
   if (!s.paths.coc.empty()) s.coc_px = radii_px(frame.coc_quanta.host());

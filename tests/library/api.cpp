@@ -268,9 +268,13 @@ void check_files(Device& device, const std::string& input, const std::string& fo
   expect(written.colour == result.colour, "steps have the bits of render_file");
 
   expect_error(ErrorKind::input, "none.exr", [] { defray::PictureFile::read("none.exr"); });
-  expect_error(ErrorKind::usage, "the colour to write is not of the size of the picture read",
+  expect_error(ErrorKind::usage, "has R G B (3 planes), the colour to write has 0",
                [&] { file.write(folder + "/x.exr", {}); });
-  expect_error(ErrorKind::usage, "coc is not of the size of the picture read",
+  expect_error(ErrorKind::usage, "a plane to write has 1 values, planes of the picture read have",
+               [&] {
+                 file.write(folder + "/x.exr", {{1}, {1}, {1}});
+               });
+  expect_error(ErrorKind::usage, "coc has 0 values, planes of the picture read have",
                [&] { file.write_plane(folder + "/x.exr", "coc", {}); });
   expect_error(ErrorKind::usage, "x.gif", [&] { file.write(folder + "/x.gif", result.colour); });
   expect_error(ErrorKind::output, "nowhere",

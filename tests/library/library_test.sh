@@ -72,6 +72,16 @@ app/build/app scene/pinhole.exr cmake.exr
 app/app scene/pinhole.exr pkg_config.exr
 same cmake.exr cli.exr
 same pkg_config.exr cli.exr
+# With alpha, grey, or a part of a larger frame.
+defray scene cutout -o cutout --alpha --width 96 --height 64 --truth-samples 1 >scene.log
+oiiotool scene/pinhole.exr --ch Y=G,Z -o grey.exr
+oiiotool cutout/pinhole.exr --ch Y=G,A,Z -o grey_alpha.exr
+oiiotool scene/pinhole.exr --fullsize 128x90-10-20 -o window.exr
+for picture in cutout/pinhole grey grey_alpha window; do
+  defray render $picture.exr -o cli.exr --focus 1.2 --aperture-diameter 35 --focal-length 50 -q
+  app/app $picture.exr app.exr
+  same app.exr cli.exr
+done
 if app/app missing.exr x.exr 2>error; then complain "a missing file is no error"; fi
 grep -q 'missing.exr' error || complain "a missing file is not named: $(cat error)"
 

@@ -19,7 +19,7 @@ struct Window {
 struct Picture {
   Window data;     ///< The pixels that there are; overscan lies outside the display window.
   Window display;  ///< The frame that the lens sees; empty: the data window.
-  /// R G B, or R G B A: linear light, premultiplied by alpha. One or two planes are light, too.
+  /// R G B or Y, linear light; or R G B A or Y A, premultiplied by alpha.
   std::vector<std::span<const float>> colour;
   /// Scene units along the camera's axis, unless Options::depth says otherwise; infinity is
   /// background. Empty for Method::tiltshift.
