@@ -45,10 +45,11 @@ TEST_F(OutputCommand, RefusesWhatAFormatHasNot) {
     const std::string command = "render in.exr -o " + options + lens;
     expect_refusal(defray(folder_, command), 2, words, command);
   };
-  refuse("o.exr --compression rlee", {"--compression 'rlee' is none of .exr's",
-                                      "Did you mean 'rle'?", "Known: none rle zips zip piz"});
-  refuse("o.tif --compression piz", {"none of .tif's", "Known: none lzw zip packbits"});
-  refuse("o.exr --coc-out c.tif --compression piz", {"none of .tif's"});
+  refuse("o.exr --compression rlee", {"o.exr: --compression 'rlee' is not known.",
+                                      "Did you mean 'rle'?", "Allowed: none rle zips zip piz"});
+  refuse("o.tif --compression piz",
+         {"o.tif: --compression 'piz' is not known", "Allowed: none lzw zip packbits"});
+  refuse("o.exr --coc-out c.tif --compression piz", {"c.tif: --compression 'piz' is not known"});
   refuse("o.png --compression zip", {"--compression goes with .exr and .tif, not with o.png"});
 }
 
