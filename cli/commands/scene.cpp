@@ -80,6 +80,10 @@ void report_noise(const SceneOptions& o, const Truth& truth) {
 }
 
 /// Writes the truth of each setting asked for.
+std::string truth_name(const Scene& scene, const std::string& setting) {
+  return scene.settings.size() == 1 ? "truth" : "truth_" + setting;
+}
+
 void write_truths(const SceneOptions& o, const Scene& scene,
                   const std::vector<FocusSetting>& settings, FrameNumber frame, Noise& noise) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -88,8 +92,7 @@ void write_truths(const SceneOptions& o, const Scene& scene,
                                      [&](double share) { bar.update(i, share); });
     bar.clear();
     const std::string& setting = settings[i].name;
-    const std::string name = scene.settings.size() == 1 ? "truth" : "truth_" + setting;
-    write_truth(o, path_of(o, name, frame), truth, scene);
+    write_truth(o, path_of(o, truth_name(scene, setting), frame), truth, scene);
     if (!truth.noise) continue;
     const auto [known, is_new] = noise.insert({setting, *truth.noise});
     if (!is_new && truth.noise->psnr_srgb_db < known->second.psnr_srgb_db) {
@@ -128,6 +131,21 @@ std::vector<FrameNumber> frames_of(const SceneOptions& o) {
 }
 
 /// Throws Error(usage) before anything is written.
+std::string camera_path(const SceneOptions& o) { return o.folder + "/camera.json"; }
+
+/// Throws Error(output) before anything is rendered.
+void check_places(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
+  check_can_write(camera_path(o));
+  for (const FrameNumber frame : frames) {
+    const Scene scene = scene_of(o, frame);
+    check_can_write(path_of(o, "pinhole", frame));
+    if (o.hidden) check_can_write(path_of(o, "hidden", frame));
+    for (const FocusSetting& setting : settings_of(o, scene)) {
+      check_can_write(path_of(o, truth_name(scene, setting.name), frame));
+    }
+  }
+}
+
 void check(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
   check_samples("truth_samples", o.truth_samples);
   check_samples("pinhole_samples", o.pinhole.samples);
@@ -142,10 +160,10 @@ int run(const SceneOptions& o) {
   const std::vector<FrameNumber> frames = frames_of(o);
   check(o, frames);
   create_folder(o.folder);
-  check_can_write(path_of(o, "pinhole", frames.front()));
+  check_places(o, frames);
   Noise noise;
   for (const FrameNumber frame : frames) write_frame(o, frame, noise);
-  const std::string camera = o.folder + "/camera.json";
+  const std::string camera = camera_path(o);
   write_text(camera, camera_json(scene_of(o, frames.front()), noise));
   fmt::print("{}\n", camera);
   return 0;
