@@ -155,6 +155,15 @@ CameraValues eye_of(const EyeOptions& e) {
   return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
 }
 
+std::string note_on_eye(const EyeOptions& e, const CameraValues& stated) {
+  const bool has_aperture = stated.fstop || stated.aperture_diameter_mm;
+  if (!e.eye || !stated.focal_length_mm || !has_aperture) return "";
+  return fmt::format(
+      "of --eye only its {:g} px per metre are used: the aperture and the focal length given "
+      "beside it win",
+      eye_of(e).pixels_per_metre.value_or(0));
+}
+
 OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated) {
   return {"--max-coc",
           lens_value({[&max_coc_px](double px) { max_coc_px = coc_limit(px); },

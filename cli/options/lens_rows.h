@@ -47,6 +47,10 @@ std::vector<OptionRow> eye_rows(EyeOptions& eye, AnimatedLens& animated);
 /// What the eye says; nothing without one. Throws Error(usage).
 CameraValues eye_of(const EyeOptions& eye);
 
+/// A note where its pixels per metre are all that `stated`, which wins, leaves of the eye. Else
+/// empty.
+std::string note_on_eye(const EyeOptions& eye, const CameraValues& stated);
+
 /// --max-coc.
 OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated);
 

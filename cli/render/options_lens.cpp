@@ -122,6 +122,8 @@ RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
     value.set(lens, value.curve.at(*frame));
   }
   s.camera = camera_at(job, lens.eye, frame).overridden_by(lens.camera);
+  const std::string of_eye = note_on_eye(lens.eye, lens.camera);
+  if (!of_eye.empty()) s.camera.notes.push_back(of_eye);
   s.max_coc_px = lens.max_coc_px;
   if (chain) {
     validate(lens.aperture);
