@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "commands.h"
 #include "image/image_file.h"
 #include "image/safe_output.h"
@@ -79,11 +80,11 @@ void report_noise(const SceneOptions& o, const Truth& truth) {
   }
 }
 
-/// Writes the truth of each setting asked for.
 std::string truth_name(const Scene& scene, const std::string& setting) {
   return scene.settings.size() == 1 ? "truth" : "truth_" + setting;
 }
 
+/// Writes the truth of each setting asked for.
 void write_truths(const SceneOptions& o, const Scene& scene,
                   const std::vector<FocusSetting>& settings, FrameNumber frame, Noise& noise) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
@@ -130,7 +131,6 @@ std::vector<FrameNumber> frames_of(const SceneOptions& o) {
   return frames;
 }
 
-/// Throws Error(usage) before anything is written.
 std::string camera_path(const SceneOptions& o) { return o.folder + "/camera.json"; }
 
 /// Throws Error(output) before anything is rendered.
@@ -146,6 +146,7 @@ void check_places(const SceneOptions& o, const std::vector<FrameNumber>& frames)
   }
 }
 
+/// Throws Error(usage) before anything is written.
 void check(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
   check_samples("truth_samples", o.truth_samples);
   check_samples("pinhole_samples", o.pinhole.samples);
@@ -169,6 +170,12 @@ int run(const SceneOptions& o) {
   return 0;
 }
 
+std::vector<std::string> names_of_scenes() {
+  std::vector<std::string> names;
+  for (const SceneInfo& info : scene_list()) names.push_back(info.name);
+  return names;
+}
+
 std::string list_of_scenes() {
   std::string text = "Scenes:\n";
   for (const SceneInfo& info : scene_list()) {
@@ -186,7 +193,7 @@ Run add_scene(CLI::App& app) {
       "Write a built-in scene: pinhole.exr (R G B Z), the truth through a real lens for each focus "
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
   auto o = std::make_shared<SceneOptions>();
-  command->add_option("name", o->name, "One of the scenes below")->required();
+  command->add_option("name", o->name, "One of " + join(names_of_scenes(), ", "))->required();
   command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");

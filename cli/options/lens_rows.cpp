@@ -40,13 +40,13 @@ LensNumber number_of(CameraValues& camera, CameraField field) {
           [field](FrameLens& lens, double v) { lens.camera.*field = v; }};
 }
 
-void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const OptionText& option,
                      const std::string& text) {
-  Curve curve(name, text);
+  Curve curve(option, text);
   if (curve.is_constant()) {
     number.of_all(curve.at(0));
   } else {
-    animated->push_back({name, std::move(curve), number.of_frame});
+    animated->push_back({option.name, std::move(curve), number.of_frame});
   }
 }
 
@@ -55,8 +55,8 @@ OptionValue lens_value(LensNumber number, AnimatedLens* animated, std::string de
   return {[read](CLI::App& c, const std::string& name) {
             return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
           },
-          [read, number = std::move(number), animated](const std::string& name) {
-            set_lens_number(number, animated, name, *read);
+          [read, number = std::move(number), animated](const OptionText& option) {
+            set_lens_number(number, animated, option, *read);
           },
           std::move(default_text)};
 }

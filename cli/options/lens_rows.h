@@ -23,7 +23,7 @@ LensNumber number_of(CameraValues& camera, CameraField field);
 
 /// What was typed for a number of the lens; one that changes over a sequence goes to `animated`.
 /// Throws Error(usage) that begins with the option's name.
-void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const OptionText& option,
                      const std::string& text);
 
 /// An option of such a number. Null: it may not change.

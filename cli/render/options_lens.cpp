@@ -32,8 +32,8 @@ void set_range(RenderCommand& job, const std::string& text) {
   }
   const std::string ending = is_smooth ? ",smooth" : "";
   const auto set = [&](CameraField field, const std::vector<std::string>& numbers) {
-    set_lens_number(number_of(job.settings.camera, field), &job.animated, "--focus-range",
-                    join(numbers, ",") + ending);
+    set_lens_number(number_of(job.settings.camera, field), &job.animated,
+                    {"--focus-range", "scene units"}, join(numbers, ",") + ending);
   };
   set(&CameraValues::focus_distance_units, near);
   set(&CameraValues::focus_end_units, far);
