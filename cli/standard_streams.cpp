@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "image/file_format.h"
 
 namespace defray::cli {
 namespace {
@@ -35,20 +36,6 @@ std::string read_all(int file) {
 bool is_pipe_without_reader(int file) {
   pollfd state{file, 0, 0};
   return poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
-}
-
-/// By the first bytes; empty for what is none that defray reads.
-std::string extension_of(const std::string& bytes) {
-  const std::pair<const char*, const char*> formats[] = {{"\x76\x2f\x31\x01", ".exr"},
-                                                         {"\x89PNG", ".png"},
-                                                         {"\xff\xd8\xff", ".jpg"},
-                                                         {"II*", ".tif"},
-                                                         {"MM", ".tif"},
-                                                         {"#?", ".hdr"}};
-  for (const auto& [start, extension] : formats) {
-    if (bytes.starts_with(start)) return extension;
-  }
-  return "";
 }
 
 }  // namespace
@@ -89,7 +76,7 @@ PictureStreams::PictureStreams(std::string& input, std::string& output) {
   std::string extension = ".exr";
   if (input == name) {
     const std::string bytes = read_all(STDIN_FILENO);
-    const std::string found = extension_of(bytes);
+    const std::string found = extension_of_content(bytes);
     if (found.empty()) {
       fail(ErrorKind::input, "standard input: {}; a picture is EXR, PNG, JPEG, TIFF or HDR",
            bytes.empty() ? "is empty" : "is no picture");

@@ -38,8 +38,7 @@ std::vector<std::string> chosen_names(const std::vector<std::string>& words) {
   bool is_all = false;
   for (const std::string& word : words) {
     if (std::find(known.begin(), known.end(), word) == known.end()) {
-      fail(ErrorKind::usage, "unknown experiment '{}'.{} There are: {}", word,
-           did_you_mean(word, known), join(known, " "));
+      fail(ErrorKind::usage, "{}", not_known("experiment", word, known));
     }
     is_all = is_all || word == "all";
   }

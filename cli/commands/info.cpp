@@ -37,6 +37,10 @@ void print_part(const PartInfo& part, std::size_t index) {
 }
 
 void print_depth(const DepthCandidate& d) {
+  if (!d.place) {
+    fmt::print("  depth {}: nothing but background, {} px\n", d.channel.full, d.background);
+    return;
+  }
   fmt::print("  depth {}: {:.6g} to {:.6g}, background {} px{}{}\n", d.channel.full, d.smallest,
              d.largest, d.background,
              d.negative > 0 ? fmt::format(", negative {} px", d.negative) : "",
@@ -59,7 +63,12 @@ void print_text(const FileInfo& info) {
     const std::string why = with_field_names(info.no_colour, option_of_field);
     fmt::print("  {}\n", why.substr(why.starts_with(info.path + ": ") ? info.path.size() + 2 : 0));
   }
-  if (info.depth.empty()) fmt::print("  no depth: give it with --depth FILE\n");
+  if (info.unnamed_depth) {
+    fmt::print("  no depth by its name: is it {0}? --depth-channel {0}, or --depth FILE\n",
+               info.unnamed_depth->channel.full);
+  } else if (info.depth.empty()) {
+    fmt::print("  no depth: give it with --depth FILE\n");
+  }
   for (const DepthCandidate& d : info.depth) print_depth(d);
   for (const FoundAttribute& found : info.camera) {
     fmt::print("  {} {} ({}, {}){}\n", found.attribute.field, value_of(found), found.name,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "commands.h"
 #include "image/image_file.h"
 #include "image/safe_output.h"
@@ -79,6 +80,10 @@ void report_noise(const SceneOptions& o, const Truth& truth) {
   }
 }
 
+std::string truth_name(const Scene& scene, const std::string& setting) {
+  return scene.settings.size() == 1 ? "truth" : "truth_" + setting;
+}
+
 /// Writes the truth of each setting asked for.
 void write_truths(const SceneOptions& o, const Scene& scene,
                   const std::vector<FocusSetting>& settings, FrameNumber frame, Noise& noise) {
@@ -88,8 +93,7 @@ void write_truths(const SceneOptions& o, const Scene& scene,
                                      [&](double share) { bar.update(i, share); });
     bar.clear();
     const std::string& setting = settings[i].name;
-    const std::string name = scene.settings.size() == 1 ? "truth" : "truth_" + setting;
-    write_truth(o, path_of(o, name, frame), truth, scene);
+    write_truth(o, path_of(o, truth_name(scene, setting), frame), truth, scene);
     if (!truth.noise) continue;
     const auto [known, is_new] = noise.insert({setting, *truth.noise});
     if (!is_new && truth.noise->psnr_srgb_db < known->second.psnr_srgb_db) {
@@ -127,6 +131,21 @@ std::vector<FrameNumber> frames_of(const SceneOptions& o) {
   return frames;
 }
 
+std::string camera_path(const SceneOptions& o) { return o.folder + "/camera.json"; }
+
+/// Throws Error(output) before anything is rendered.
+void check_places(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
+  check_can_write(camera_path(o));
+  for (const FrameNumber frame : frames) {
+    const Scene scene = scene_of(o, frame);
+    check_can_write(path_of(o, "pinhole", frame));
+    if (o.hidden) check_can_write(path_of(o, "hidden", frame));
+    for (const FocusSetting& setting : settings_of(o, scene)) {
+      check_can_write(path_of(o, truth_name(scene, setting.name), frame));
+    }
+  }
+}
+
 /// Throws Error(usage) before anything is written.
 void check(const SceneOptions& o, const std::vector<FrameNumber>& frames) {
   check_samples("truth_samples", o.truth_samples);
@@ -142,13 +161,19 @@ int run(const SceneOptions& o) {
   const std::vector<FrameNumber> frames = frames_of(o);
   check(o, frames);
   create_folder(o.folder);
-  check_can_write(path_of(o, "pinhole", frames.front()));
+  check_places(o, frames);
   Noise noise;
   for (const FrameNumber frame : frames) write_frame(o, frame, noise);
-  const std::string camera = o.folder + "/camera.json";
+  const std::string camera = camera_path(o);
   write_text(camera, camera_json(scene_of(o, frames.front()), noise));
   fmt::print("{}\n", camera);
   return 0;
+}
+
+std::vector<std::string> names_of_scenes() {
+  std::vector<std::string> names;
+  for (const SceneInfo& info : scene_list()) names.push_back(info.name);
+  return names;
 }
 
 std::string list_of_scenes() {
@@ -168,7 +193,7 @@ Run add_scene(CLI::App& app) {
       "Write a built-in scene: pinhole.exr (R G B Z), the truth through a real lens for each focus "
       "setting (truth.exr, or truth_SETTING.exr where there are several), camera.json");
   auto o = std::make_shared<SceneOptions>();
-  command->add_option("name", o->name, "One of the scenes below")->required();
+  command->add_option("name", o->name, "One of " + join(names_of_scenes(), ", "))->required();
   command->add_option("-o,--output", o->folder, "Folder, made if missing")->required();
   command->add_option("--width", o->width, "Pixels");
   command->add_option("--height", o->height, "Pixels");

@@ -10,9 +10,28 @@
 namespace defray::cli {
 namespace {
 
-std::string depth_options(const FileInfo& info, const DepthCandidate& depth) {
+std::string colour_options(const FileInfo& info) {
   std::string options;
-  const bool is_clear = info.depth.size() == 1 || info.depth[1].is_mist;
+  if (!info.request.layer.empty()) options += " --layer " + shell_quoted(info.request.layer);
+  if (!info.request.view.empty()) options += " --view " + shell_quoted(info.request.view);
+  return options;
+}
+
+/// The first that has a depth somewhere; null: none.
+const DepthCandidate* usable_depth(const FileInfo& info) {
+  const auto found = std::find_if(info.depth.begin(), info.depth.end(),
+                                  [](const auto& depth) { return !depth.is_mist && depth.place; });
+  if (found != info.depth.end()) return &*found;
+  return info.unnamed_depth && info.unnamed_depth->place ? &*info.unnamed_depth : nullptr;
+}
+
+std::string depth_options(const FileInfo& info) {
+  const DepthCandidate* found = usable_depth(info);
+  if (!found) return " --depth FILE";
+  const DepthCandidate& depth = *found;
+  std::string options;
+  const bool is_first = !info.depth.empty() && found == &info.depth.front();
+  const bool is_clear = is_first && (info.depth.size() == 1 || info.depth[1].is_mist);
   if (!is_clear) options += " --depth-channel " + shell_quoted(depth.channel.full);
   if (2 * depth.negative > depth.pixels - depth.background) options += " --depth-kind negative-z";
   return options;
@@ -26,9 +45,7 @@ bool has(const FileInfo& info, const std::string& field) {
 
 /// The pixel to focus on: what there is in the frame's middle, or nearest to it.
 PixelPlace place_to_focus(const FileInfo& info, const PartInfo& part) {
-  if (!info.depth.empty() && !info.depth.front().is_mist && info.depth.front().place) {
-    return *info.depth.front().place;
-  }
+  if (const DepthCandidate* depth = usable_depth(info)) return *depth->place;
   const auto nearest = [](int size, int first, int count) {
     return std::clamp(size / 2, first, first + count - 1);
   };
@@ -59,12 +76,11 @@ std::string lens_options(const FileInfo& info, const PartInfo& part) {
 }  // namespace
 
 std::string suggested_command(const FileInfo& info) {
-  if (!info.colour) return "";
-  const bool has_depth = !info.depth.empty() && !info.depth.front().is_mist;
-  const PartInfo& part = info.parts[static_cast<std::size_t>(info.colour->part)];
-  return fmt::format("defray render {} -o out.exr{}{}", shell_quoted(info.path),
-                     has_depth ? depth_options(info, info.depth.front()) : " --depth FILE",
-                     lens_options(info, part));
+  const std::optional<ColourChoice>& colour = info.any_colour();
+  if (!colour) return "";
+  const PartInfo& part = info.parts[static_cast<std::size_t>(colour->part)];
+  return fmt::format("defray render {} -o out.exr{}{}{}", shell_quoted(info.path),
+                     colour_options(info), depth_options(info), lens_options(info, part));
 }
 
 }  // namespace defray::cli

@@ -21,12 +21,12 @@ std::optional<double> number_in(std::string_view text) {
 
 }  // namespace
 
-Curve::Curve(const std::string& option, const std::string& text) {
+Curve::Curve(const OptionText& option, const std::string& text) {
   const auto refuse = [&](const std::string& part, const char* why) {
     fail(ErrorKind::usage,
-         "{}: '{}' {}; write a number, or 3:1,2.2:24 for 3 at frame 1 and 2.2 at frame 24 (with "
-         ",smooth at the end for a soft start and stop)",
-         option, part, why);
+         "{}: '{}' {}; write a number like 2.5, without a unit ({}), or 3:1,2.2:24 for 3 at frame "
+         "1 and 2.2 at frame 24 (with ,smooth at the end for a soft start and stop)",
+         option.name, part, why, option.help);
   };
   std::vector<std::string> parts = split(text, ',');
   if (parts.size() > 1 && parts.back() == "smooth") {

@@ -8,6 +8,7 @@
 
 #include "defray/options.h"
 #include "lens/camera.h"
+#include "options/option_text.h"
 
 namespace defray::cli {
 
@@ -16,7 +17,7 @@ namespace defray::cli {
 class Curve {
  public:
   /// Throws Error(usage) that begins with the option's name.
-  Curve(const std::string& option, const std::string& text);
+  Curve(const OptionText& option, const std::string& text);
 
   bool is_constant() const { return keys_.size() == 1 && !has_frames_; }
   double at(double frame) const;

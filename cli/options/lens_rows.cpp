@@ -40,13 +40,13 @@ LensNumber number_of(CameraValues& camera, CameraField field) {
           [field](FrameLens& lens, double v) { lens.camera.*field = v; }};
 }
 
-void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const OptionText& option,
                      const std::string& text) {
-  Curve curve(name, text);
+  Curve curve(option, text);
   if (curve.is_constant()) {
     number.of_all(curve.at(0));
   } else {
-    animated->push_back({name, std::move(curve), number.of_frame});
+    animated->push_back({option.name, std::move(curve), number.of_frame});
   }
 }
 
@@ -55,8 +55,8 @@ OptionValue lens_value(LensNumber number, AnimatedLens* animated, std::string de
   return {[read](CLI::App& c, const std::string& name) {
             return c.add_option(name, *read)->type_name("NUMBER[:FRAME,...]");
           },
-          [read, number = std::move(number), animated](const std::string& name) {
-            set_lens_number(number, animated, name, *read);
+          [read, number = std::move(number), animated](const OptionText& option) {
+            set_lens_number(number, animated, option, *read);
           },
           std::move(default_text)};
 }
@@ -153,6 +153,15 @@ CameraValues eye_of(const EyeOptions& e) {
   const double distance = above_zero("--display-distance", e.display_distance_m);
   const double resolution = above_zero("--display-resolution", e.display_px_per_metre);
   return e.eye ? eye_values(*e.eye, distance, resolution) : CameraValues{};
+}
+
+std::string note_on_eye(const EyeOptions& e, const CameraValues& stated) {
+  const bool has_aperture = stated.fstop || stated.aperture_diameter_mm;
+  if (!e.eye || !stated.focal_length_mm || !has_aperture) return "";
+  return fmt::format(
+      "of --eye only its {:g} px per metre are used: the aperture and the focal length given "
+      "beside it win",
+      eye_of(e).pixels_per_metre.value_or(0));
 }
 
 OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated) {

@@ -23,7 +23,7 @@ LensNumber number_of(CameraValues& camera, CameraField field);
 
 /// What was typed for a number of the lens; one that changes over a sequence goes to `animated`.
 /// Throws Error(usage) that begins with the option's name.
-void set_lens_number(const LensNumber& number, AnimatedLens* animated, const std::string& name,
+void set_lens_number(const LensNumber& number, AnimatedLens* animated, const OptionText& option,
                      const std::string& text);
 
 /// An option of such a number. Null: it may not change.
@@ -46,6 +46,10 @@ std::vector<OptionRow> eye_rows(EyeOptions& eye, AnimatedLens& animated);
 
 /// What the eye says; nothing without one. Throws Error(usage).
 CameraValues eye_of(const EyeOptions& eye);
+
+/// A note where its pixels per metre are all that `stated`, which wins, leaves of the eye. Else
+/// empty.
+std::string note_on_eye(const EyeOptions& eye, const CameraValues& stated);
 
 /// --max-coc.
 OptionRow max_coc_row(double& max_coc_px, AnimatedLens& animated);

@@ -64,7 +64,7 @@ bool OptionTable::is_given(const std::string& name) const {
 
 void OptionTable::set() const {
   for (const Entry& entry : entries_) {
-    if (entry.is_given()) entry.row.value.set(entry.name());
+    if (entry.is_given()) entry.row.value.set({entry.name(), entry.row.help});
   }
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "options/option_text.h"
 #include "options/words.h"
 
 namespace defray::cli {
@@ -18,8 +19,8 @@ namespace defray::cli {
 struct OptionValue {
   /// Adds an option of this name that reads it.
   std::function<CLI::Option*(CLI::App&, const std::string& name)> add;
-  /// Puts what was read where it belongs; `name` is the option's, for an Error(usage).
-  std::function<void(const std::string& name)> set;
+  /// Puts what was read where it belongs; the option's text is for an Error(usage).
+  std::function<void(const OptionText&)> set;
   std::string default_text;  ///< For --help; empty: nothing to tell.
 };
 
@@ -28,7 +29,7 @@ template <typename T>
 OptionValue parsed(std::function<void(const T&)> use, std::string default_text = "") {
   const auto read = std::make_shared<T>();
   return {[read](CLI::App& c, const std::string& name) { return c.add_option(name, *read); },
-          [read, use](const std::string&) { use(*read); }, std::move(default_text)};
+          [read, use](const OptionText&) { use(*read); }, std::move(default_text)};
 }
 
 /// A number or a text. What stands in `target` before is its default.
@@ -58,7 +59,7 @@ OptionValue values(std::vector<T>& target) {
 inline OptionValue flag(bool& target, bool to = true) {
   const auto read = std::make_shared<bool>();
   return {[read](CLI::App& c, const std::string& name) { return c.add_flag(name, *read); },
-          [read, &target, to](const std::string&) { target = *read == to; }, ""};
+          [read, &target, to](const OptionText&) { target = *read == to; }, ""};
 }
 
 /// One of some words.
@@ -70,7 +71,7 @@ OptionValue word(std::function<void(const T&)> use, WordTable<T> words, std::str
             for (const auto& [word, meaning] : words) names.push_back(word);
             return c.add_option(name, *read)->type_name(join(names, "|"));
           },
-          [read, words, use](const std::string& name) { use(choice<T>(name, *read, words)); },
+          [read, words, use](const OptionText& o) { use(choice<T>(o.name, *read, words)); },
           std::move(default_text)};
 }
 
@@ -85,12 +86,11 @@ template <typename T>
 OptionValue optional_word(std::optional<T>& target, WordTable<T> words,
                           const std::string& implied) {
   const auto read = std::make_shared<std::string>();
-  return {
-      [read, implied](CLI::App& c, const std::string& name) {
-        return c.add_flag(name + "{" + implied + "}", *read);
-      },
-      [read, words, &target](const std::string& name) { target = choice<T>(name, *read, words); },
-      ""};
+  return {[read, implied](CLI::App& c, const std::string& name) {
+            return c.add_flag(name + "{" + implied + "}", *read);
+          },
+          [read, words, &target](const OptionText& o) { target = choice<T>(o.name, *read, words); },
+          ""};
 }
 
 /// The same with another default to tell: what an empty value stands for, or nothing.

@@ -33,7 +33,7 @@ double parse_unit(const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size()) {
-    return choice("--unit", short_name(text), metres_in);
+    return choice("--unit", short_name(text), metres_in, ", or its length in metres");
   }
   if (!(number > 0) || std::isinf(number)) {
     fail(ErrorKind::usage, "--unit: the scene unit is {} m: it must be a finite number above 0",

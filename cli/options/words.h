@@ -13,16 +13,17 @@ namespace defray::cli {
 template <typename T>
 using WordTable = std::vector<std::pair<std::string, T>>;
 
-/// The value that `word` names; an Error(usage) with the allowed words otherwise.
+/// The value that `word` names; an Error(usage) with the allowed words otherwise, and what else is:
+/// ", or ...".
 template <typename T>
-T choice(const std::string& option, const std::string& word, const WordTable<T>& of) {
+T choice(const std::string& option, const std::string& word, const WordTable<T>& of,
+         const std::string& others = "") {
   std::vector<std::string> words;
   for (const auto& [name, value] : of) {
     if (name == word) return value;
     words.push_back(name);
   }
-  fail(ErrorKind::usage, "{} '{}' is not known.{} Allowed: {}", option, word,
-       did_you_mean(word, words), join(words, " "));
+  fail(ErrorKind::usage, "{}{}", not_known(option, word, words), others);
 }
 
 /// The word for a value; empty where there is none.

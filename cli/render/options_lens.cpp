@@ -32,8 +32,8 @@ void set_range(RenderCommand& job, const std::string& text) {
   }
   const std::string ending = is_smooth ? ",smooth" : "";
   const auto set = [&](CameraField field, const std::vector<std::string>& numbers) {
-    set_lens_number(number_of(job.settings.camera, field), &job.animated, "--focus-range",
-                    join(numbers, ",") + ending);
+    set_lens_number(number_of(job.settings.camera, field), &job.animated,
+                    {"--focus-range", "scene units"}, join(numbers, ",") + ending);
   };
   set(&CameraValues::focus_distance_units, near);
   set(&CameraValues::focus_end_units, far);
@@ -122,6 +122,8 @@ RenderSettings settings_at(const RenderCommand& job, std::optional<int> frame) {
     value.set(lens, value.curve.at(*frame));
   }
   s.camera = camera_at(job, lens.eye, frame).overridden_by(lens.camera);
+  const std::string of_eye = note_on_eye(lens.eye, lens.camera);
+  if (!of_eye.empty()) s.camera.notes.push_back(of_eye);
   s.max_coc_px = lens.max_coc_px;
   if (chain) {
     validate(lens.aperture);

@@ -19,7 +19,7 @@ OptionValue place(std::optional<std::array<double, 3>>& target) {
   return {[read](CLI::App& c, const std::string& name) {
             return c.add_option(name, *read)->type_name("X,Y,Z");
           },
-          [read, &target](const std::string& name) { target = parse_point(name, *read); }, ""};
+          [read, &target](const OptionText& o) { target = parse_point(o.name, *read); }, ""};
 }
 
 OptionGroup main_rows(SplatCommand& job) {

@@ -64,6 +64,8 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
                  eye_of(lens.eye).overridden_by(lens.camera),
                  lens.max_coc_px,
                  {}};
+  const std::string of_eye = note_on_eye(lens.eye, lens.camera);
+  if (!of_eye.empty()) shot.camera.notes.push_back(of_eye);
   if (job.camera_file.empty()) return shot;
   const std::string file = frame ? frame_path(job.camera_file, *frame) : job.camera_file;
   shot.camera =

@@ -105,8 +105,7 @@ void check(const TuneCommand& job) {
     std::vector<std::string> names;
     for (const Launch& launch : launch_table()) names.push_back(launch.kernel);
     if (std::find(names.begin(), names.end(), kernel) != names.end()) continue;
-    fail(ErrorKind::usage, "--kernel: none is called '{}'.{} There are: {}", kernel,
-         did_you_mean(kernel, names), join(names, " "));
+    fail(ErrorKind::usage, "{}", not_known("--kernel", kernel, names));
   }
 }
 

@@ -75,4 +75,10 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return nearest.empty() ? "" : " Did you mean '" + nearest + "'?";
 }
 
+std::string not_known(const std::string& what, const std::string& word,
+                      const std::vector<std::string>& allowed) {
+  return what + " '" + word + "' is not known." + did_you_mean(word, allowed) +
+         " Allowed: " + join(allowed, " ");
+}
+
 }  // namespace defray

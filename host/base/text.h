@@ -21,4 +21,8 @@ std::string nearest_spelling(const std::string& word, const std::vector<std::str
 /// " Did you mean 'x'?", or an empty string when nothing is near.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
 
+/// "WHAT 'x' is not known. Did you mean 'y'? Allowed: y z".
+std::string not_known(const std::string& what, const std::string& word,
+                      const std::vector<std::string>& allowed);
+
 }  // namespace defray

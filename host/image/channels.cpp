@@ -70,14 +70,20 @@ std::string colour_listing(const std::vector<ColourChoice>& choices) {
 
 }  // namespace
 
+std::vector<ColourChoice> all_colours(const std::vector<PartInfo>& parts) {
+  const std::vector<ChannelName> names = channel_names(parts);
+  const std::vector<ColourChoice> colours = colour_candidates(names);
+  return colours.empty() ? grey_candidates(names) : colours;
+}
+
 ColourChoice choose_colour(const std::string& path, const std::vector<PartInfo>& parts,
                            const ChannelRequest& request) {
-  const std::vector<ChannelName> names = channel_names(parts);
-  std::vector<ColourChoice> all = colour_candidates(names);
-  if (all.empty()) all = grey_candidates(names);
+  const std::vector<ColourChoice> all = all_colours(parts);
   if (all.empty()) {
-    fail(ErrorKind::input, "{}: no colour: no layer has channels R, G and B. It has: {}", path,
-         channel_listing(names));
+    fail(ErrorKind::input,
+         "{}: no colour: no layer has channels R, G and B. Give a file that has them, or Y alone "
+         "for grey. It has: {}",
+         path, channel_listing(channel_names(parts)));
   }
   std::vector<ColourChoice> left;
   for (const ColourChoice& c : all) {

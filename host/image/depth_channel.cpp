@@ -164,4 +164,11 @@ std::vector<ChannelName> depth_candidates(const std::vector<PartInfo>& parts,
   return candidates;
 }
 
+std::optional<ChannelName> only_other_channel(const std::vector<PartInfo>& parts,
+                                              const ColourChoice& colour) {
+  std::vector<ChannelName> others = channel_names(parts);
+  std::erase_if(others, [&](const ChannelName& name) { return is_of(colour, name); });
+  return others.size() == 1 ? std::optional(others.front()) : std::nullopt;
+}
+
 }  // namespace defray

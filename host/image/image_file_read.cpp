@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/window.h"
+#include "image/file_format.h"
 #include "image/image_file_part.h"
 #include "image/sequence.h"
 
@@ -69,6 +70,7 @@ ImageFile ImageFile::read(const std::string& path, Content content) {
     fail(ErrorKind::input, "{}: no such file{}", path, about_missing(path));
   }
   check_readable(path);
+  check_format_is_as_named(path);
   if (!is_ldr_path(path)) return read_linear_file(path);
   const LdrPicture picture = read_ldr(path, content);
   require_allowed_size(path + ":", picture.width, picture.height);

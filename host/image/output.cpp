@@ -127,8 +127,7 @@ void check_compression(const std::vector<std::string>& paths, const std::string&
     is_of_use = true;
     const std::vector<std::string>& known = is_exr(path) ? exr_compressions : tiff_compressions;
     if (std::find(known.begin(), known.end(), compression) != known.end()) continue;
-    fail(ErrorKind::usage, "{} '{}' is none of {}'s.{} Known: {}", field("compression"),
-         compression, lower_extension(path), did_you_mean(compression, known), join(known, " "));
+    fail(ErrorKind::usage, "{}", not_known(path + ": " + field("compression"), compression, known));
   }
   if (is_of_use) return;
   fail(ErrorKind::usage, "{} goes with .exr and .tif, not with {}", field("compression"),

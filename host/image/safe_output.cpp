@@ -1,6 +1,7 @@
 #include "image/safe_output.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -157,6 +158,17 @@ std::string behind_links(const std::string& path) {
   return at.string();
 }
 
+/// Renaming needs no more than a folder that may be written in: the file itself is to be asked,
+/// too. Root may write any, but who took the right from all means it.
+void refuse_protected(const std::string& path) {
+  struct stat about {};
+  if (stat(path.c_str(), &about) != 0 || !S_ISREG(about.st_mode)) return;
+  const bool nobody_may = (about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0;
+  if (!nobody_may && (access(path.c_str(), W_OK) == 0 || errno == EROFS)) return;
+  fail(ErrorKind::output,
+       "{}: is write-protected; allow writing it (chmod u+w) or name another file", path);
+}
+
 }  // namespace
 
 void create_folder(const std::string& path) {
@@ -175,6 +187,7 @@ void check_can_write(const std::string& to, const std::string& hint) {
   if (fs::exists(to, names_nothing) && !fs::is_regular_file(to, names_nothing)) {
     fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", to);
   }
+  refuse_protected(to);
   const std::string path = behind_links(to);
   remove_stale_files(folder_of(path));
   const std::string probe = temporary_name(path, '+');
@@ -200,6 +213,7 @@ void check_can_make(const std::string& path) {
 }
 
 void write_safely(const std::string& to, const std::function<void(const std::string&)>& write) {
+  refuse_protected(to);
   const std::string path = behind_links(to);
   const std::string name = temporary_name(path);
   const Temporary temporary(name);

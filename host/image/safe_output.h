@@ -9,15 +9,17 @@ namespace defray {
 void create_folder(const std::string& path);
 
 /// Throws Error(output) unless a file could be created where `path` is to go, without touching
-/// what is there. For finding out before the work rather than after. Removes what killed processes
-/// of this machine left behind in that folder. `hint`: how a missing folder is made.
+/// what is there, which must not be write-protected. For finding out before the work rather than
+/// after. Removes what killed processes of this machine left behind in that folder. `hint`: how a
+/// missing folder is made.
 void check_can_write(const std::string& path, const std::string& hint = "");
 
 /// The same where missing folders will be made.
 void check_can_make(const std::string& path);
 
 /// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it
-/// to `path`. When anything fails, the temporary file is removed and an old `path` stays.
+/// to `path`, which it refuses to do with a write-protected file. When anything fails, the
+/// temporary file is removed and an old `path` stays.
 void write_safely(const std::string& path, const std::function<void(const std::string&)>& write);
 
 /// write_safely for a text.

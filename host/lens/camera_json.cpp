@@ -97,10 +97,24 @@ const std::vector<std::string> camera_keys{"focal_length_mm", "sensor_width_mm",
                                            "fov_deg",         "sensor_fit",      "focus_settings",
                                            "from_m",          "look_at_m",       "up"};
 const std::vector<std::string> focus_keys{"focus_distance_m", "aperture_diameter_m", "f_stop"};
-const std::set<std::string> other_keys{"scene",  "width",          "height",
-                                       "frame",  "camera",         "pixel_focal_px",
-                                       "blades", "defray_options", "truth_noise_psnr_srgb_db",
-                                       "notes",  "blender",        "truth_noise_psnr_linear_db"};
+const std::set<std::string> other_keys{"scene",
+                                       "width",
+                                       "height",
+                                       "frame",
+                                       "camera",
+                                       "pixel_focal_px",
+                                       "notes",
+                                       "defray_options",
+                                       "truth_noise_psnr_srgb_db",
+                                       "blender",
+                                       "truth_noise_psnr_linear_db"};
+
+/// An iris is no part of a camera.json; other programs state one, 0 for a circle.
+void note_blades(const std::string& path, const json& blades, std::vector<std::string>& notes) {
+  if (!blades.is_number() || !(blades.get<double>() > 0)) return;
+  notes.push_back(fmt::format("{}: key 'blades' is not used: {} {} is such an aperture", path,
+                              field("blades"), blades.get<double>()));
+}
 
 /// Notes the keys of an object that are none of its own: those of another place, `there`, and those
 /// of none.
@@ -116,6 +130,10 @@ void note_unknown_keys(const std::string& path, const json& object,
   for (const auto& item : object.items()) {
     const std::string& key = item.key();
     if (has(own, key) || other_keys.count(key) > 0) continue;
+    if (key == "blades") {
+      note_blades(path, item.value(), notes);
+      continue;
+    }
     if (has(others, key)) {
       notes.push_back(fmt::format("{}: key '{}' is ignored here: it belongs {}", path, key, there));
       continue;

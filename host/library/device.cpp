@@ -90,8 +90,7 @@ void Device::set_work_group(const std::string& kernel, std::size_t x, std::size_
   Session& session = *state_on_device("work_group").session;
   const std::vector<std::string> kernels = session.kernel_names();
   if (std::find(kernels.begin(), kernels.end(), kernel) == kernels.end()) {
-    fail(ErrorKind::usage, "{}: no kernel is called '{}'.{} There are: {}", field("work_group"),
-         kernel, did_you_mean(kernel, kernels), join(kernels, " "));
+    fail(ErrorKind::usage, "{}", not_known(field("work_group") + ": kernel", kernel, kernels));
   }
   session.set_work_group(kernel, x, y);
 }

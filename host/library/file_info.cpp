@@ -39,6 +39,19 @@ DepthCandidate candidate_of(const ImageFile& file, const ChannelName& channel) {
   return d;
 }
 
+/// By a layer or view, one of several colours among which none is the first.
+void choose_by_name(FileInfo& info) {
+  for (const ColourChoice& choice : all_colours(info.parts)) {
+    const ChannelRequest request{choice.layer, choice.view, ""};
+    try {
+      info.colour_by_name = choose_colour(info.path, info.parts, request);
+      info.request = request;
+      return;
+    } catch (const Error&) {  // its names are others', too
+    }
+  }
+}
+
 }  // namespace
 
 const FoundAttribute* FileInfo::found(const std::string& field) const {
@@ -48,18 +61,27 @@ const FoundAttribute* FileInfo::found(const std::string& field) const {
   return same == camera.end() ? nullptr : &*same;
 }
 
+const std::optional<ColourChoice>& FileInfo::any_colour() const {
+  return colour ? colour : colour_by_name;
+}
+
 FileInfo describe_file(const std::string& path) {
   const ImageFile file = ImageFile::read(path);
-  FileInfo info{path, file.parts(), {}, {}, {}, {}};
+  FileInfo info;
+  info.path = path;
+  info.parts = file.parts();
   try {
     info.colour = choose_colour(path, info.parts, {});
   } catch (const Error& error) {
     info.no_colour = error.marked();
+    choose_by_name(info);
   }
-  for (const ChannelName& name :
-       depth_candidates(info.parts, info.colour.value_or(ColourChoice{}))) {
+  const ColourChoice colour = info.any_colour().value_or(ColourChoice{});
+  for (const ChannelName& name : depth_candidates(info.parts, colour)) {
     info.depth.push_back(candidate_of(file, name));
   }
+  const auto other = only_other_channel(info.parts, colour);
+  if (info.depth.empty() && other) info.unnamed_depth = candidate_of(file, *other);
   for (const CameraAttribute& attribute : camera_attributes()) {
     if (info.found(attribute.field)) continue;
     if (const auto found = find_attribute(file, attribute)) info.camera.push_back(*found);

@@ -26,8 +26,16 @@ struct FileInfo {
   std::vector<PartInfo> parts;
   std::optional<ColourChoice> colour;
   std::string no_colour;  ///< Why there is none.
+  /// The colour that `request`, a layer or view, chooses; none where names tell no two apart.
+  std::optional<ColourChoice> colour_by_name;
+  ChannelRequest request;
   std::vector<DepthCandidate> depth;
+  /// Without depth by name: the only channel that is no colour.
+  std::optional<DepthCandidate> unnamed_depth;
   std::vector<FoundAttribute> camera;  ///< The first of each field, usable or not.
+
+  /// `colour`, or `colour_by_name`.
+  const std::optional<ColourChoice>& any_colour() const;
 
   /// What `camera` has of this field; null: nothing.
   const FoundAttribute* found(const std::string& field) const;

@@ -23,6 +23,11 @@ void note_depth(const DepthPlane& depth, const DepthSettings& settings, const De
                 std::vector<std::string>& notes) {
   const bool is_range =
       settings.kind == DepthKind::normalized || settings.kind == DepthKind::zbuffer;
+  if (report.nearest_units == 0 && report.behind_camera == 0) {
+    notes.push_back(fmt::format(
+        "all of {} is background{}, nothing has a depth: is it the right channel?", depth.channel,
+        report.not_a_number > 0 ? fmt::format(" ({} px NaN)", report.not_a_number) : ""));
+  }
   if (depth.integer_bits == 8 && !depth.is_smoothed) {
     notes.push_back(
         "the depth has 8 bits, 256 steps: surfaces become terraces; render it as 32-bit float");

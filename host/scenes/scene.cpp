@@ -54,8 +54,7 @@ const Builtin& find_builtin(const std::string& name) {
   for (const Builtin& builtin : builtins()) {
     if (builtin.info.name == name) return builtin;
   }
-  fail(ErrorKind::usage, "unknown scene '{}'.{} There are: {}", name,
-       did_you_mean(name, scene_names()), join(scene_names(), " "));
+  fail(ErrorKind::usage, "{}", not_known("scene", name, scene_names()));
 }
 
 nlohmann::ordered_json setting_json(const Scene& scene, const FocusSetting& setting,

@@ -164,8 +164,7 @@ PointCloud model_cloud(const std::string& name, std::size_t points) {
     }
     names.emplace_back(model.name);
   }
-  fail(ErrorKind::usage, "there is no model '{}'; there are {}.{}", name, join(names, ", "),
-       did_you_mean(name, names));
+  fail(ErrorKind::usage, "{}", not_known("model", name, names));
 }
 
 }  // namespace defray

@@ -100,7 +100,7 @@ void read_word(Case& c, const std::string& word) {
     if (name == "jitter")
       fail(ErrorKind::usage, "{}: jitter takes no value, '{}' has one", defray::field("case"),
            word);
-    fail(ErrorKind::usage, "{}: '{}' is not known.{} Known are WIDTHxHEIGHT and {}",
+    fail(ErrorKind::usage, "{}: '{}' is not known.{} Allowed: WIDTHxHEIGHT {}",
          defray::field("case"), word, did_you_mean(name, known), join(known, " "));
   }
 }

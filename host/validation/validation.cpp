@@ -148,8 +148,7 @@ const KernelCheck& find_check(const std::string& kernel) {
     if (kernel == check.name) return check;
     names.push_back(check.name);
   }
-  fail(ErrorKind::usage, "{} '{}' is not known.{} Known: {}", field("kernel"), kernel,
-       did_you_mean(kernel, names), join(names, " "));
+  fail(ErrorKind::usage, "{}", not_known(field("kernel"), kernel, names));
 }
 
 Outcome run_kernel(Session& session, const KernelCheck& check, const Case& c, const Input& input) {

@@ -36,8 +36,7 @@ std::vector<std::string> known_tables() {
 void check_known(const std::string& name, ErrorKind kind, const std::string& where) {
   const std::vector<std::string> known = known_tables();
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  fail(kind, "{}unknown table '{}'.{} There are: {}", where, name, did_you_mean(name, known),
-       join(known, " "));
+  fail(kind, "{}", not_known(where + "table", name, known));
 }
 
 /// The tables to measure. Throws Error(usage, input) on names that are not there.

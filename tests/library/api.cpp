@@ -227,7 +227,7 @@ void check_messages(Device& device) {
   expect_error(ErrorKind::device, "no OpenCL device is called 'abacus'",
                [] { Device::open("abacus"); });
   expect_error(ErrorKind::usage, "memory is 0", [&] { device.set_memory(0); });
-  expect_error(ErrorKind::usage, "no kernel is called 'mixd'. Did you mean 'mixed'?",
+  expect_error(ErrorKind::usage, "work_group: kernel 'mixd' is not known. Did you mean 'mixed'?",
                [&] { device.set_work_group("mixd", 8, 8); });
   expect_error(ErrorKind::usage, "work-items", [&] { device.set_work_group(100000, 1); });
   expect_error(ErrorKind::usage, "no quality 9", [] { defray::settings_for(defray::Quality(9)); });

@@ -148,7 +148,10 @@ TEST_F(Info, WhereAChoiceIsToBeMadeOrSomethingIsMissing) {
   write("normals.exr", {"N.X", "N.Y", "N.Z"}, {0.1f, 0.2f, 0.3f});
   EXPECT_NE(text("normals.exr").find("\n  no colour: no layer has channels R"), std::string::npos);
   write("nothing.exr", {"R", "G", "B", "Z"}, {0.1f, 0.2f, 0.3f, 1e10f});
-  expect_lines("nothing.exr", {"  depth Z: 0 to 0, background 64 px"});
+  expect_lines("nothing.exr", {"  depth Z: nothing but background, 64 px"});
+  EXPECT_NE(text("nothing.exr").find("-o out.exr --depth FILE --focus-at 4,4"), std::string::npos);
+  write("second.exr", {"R", "G", "B", "Z", "back.Z"}, {0.1f, 0.2f, 0.3f, 1e10f, 4});
+  EXPECT_EQ(suggested("second.exr")["depth_channel"], "back.Z");
   expect_refusal(defray(folder, "info none.exr"), 3, {"none.exr: no such file"}, "info");
 }
 
@@ -220,6 +223,24 @@ TEST_F(Info, OfAPointCloud) {
   expect_refusal(defray(folder, "info none.ply"), 3, {"none.ply: no such file"}, "none");
   expect_refusal(defray(folder, "splat s.####.ply -o o.####.png --fstop 2"), 2,
                  {"s.####.ply: one cloud goes with all frames"}, "frames");
+}
+
+TEST_F(Info, SuggestsTheOnlyChannelThatCouldBeDepth) {
+  write("french.exr", {"red", "green", "blue", "profondeur"}, {0.1f, 0.2f, 0.3f, 4});
+  expect_lines("french.exr", {"  no depth by its name: is it profondeur? --depth-channel "
+                              "profondeur, or --depth FILE"});
+  EXPECT_EQ(suggested("french.exr")["focus_distance_units"], 4);
+  write("more.exr", {"R", "G", "B", "one", "two"}, {0.1f, 0.2f, 0.3f, 4, 4});
+  expect_lines("more.exr", {"  no depth: give it with --depth FILE"});
+}
+
+TEST_F(Info, SuggestsALayerWhereSeveralCouldBeMeant) {
+  write("two.exr", {"a.R", "a.G", "a.B", "b.R", "b.G", "b.B", "Z"},
+        {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 4});
+  EXPECT_NE(text("two.exr").find("choose with --layer or --view\n"), std::string::npos);
+  const std::string command = data("two.exr")["command"];
+  EXPECT_NE(command.find(" --layer a --focus-at "), std::string::npos) << command;
+  EXPECT_EQ(suggested("two.exr")["colour_channels"], (json{"a.R", "a.G", "a.B"}));
 }
 
 }  // namespace

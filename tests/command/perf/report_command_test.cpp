@@ -145,7 +145,7 @@ TEST_F(ReportCommand, ScriptsPutTheirTablesBetweenTheirMarkers) {
   EXPECT_EQ(text_of("a.md"),
             "Before\n" + marked("own.py", rows) + marked("speed", "kept\n") + "After\n");
   // Those of scripts are no tables of `report`'s, nor the other way round.
-  expect_refused("--update a.md --table own.py", 2, {"unknown table 'own.py'"});
+  expect_refused("--update a.md --table own.py", 2, {"table 'own.py' is not known"});
   write("b.md", marked("speed"));
   const Result none = shell(folder, "python3 own.py b.md");
   EXPECT_EQ(none.code, 1);

@@ -45,6 +45,15 @@ TEST_F(Messages, OfNumbersAndWords) {
   expect_refused("render in.exr --background far" + lens, 2,
                  {"--background 'far' is neither a number nor none"});
   expect_refused("validate --kernel coc -o v --case 64,ties", 2, {"--case: '64' is not valid"});
+  expect_refused(
+      "validate --kernel coc -o v --case 8x8,tise", 2,
+      {"--case: 'tise' is not known. Did you mean 'ties'? Allowed: WIDTHxHEIGHT jitter"});
+  expect_refused("validate --kernel rdb_mrege -o v", 2,
+                 {"--kernel 'rdb_mrege' is not known. Did you mean 'rdb_merge'? Allowed: "});
+  expect_refused("tune --kernel fil", 2,
+                 {"--kernel 'fil' is not known. Did you mean 'fill'? Allowed: "});
+  expect_refused("scene plat1 -o .", 2,
+                 {"scene 'plat1' is not known. Did you mean 'plate1'? Allowed: plate1 plate2"});
   expect_refused("validate --kernel coc -o v --case 8x8,ties,group=4", 2,
                  {"--case: 'group=4' is not valid: write two numbers as 64x48"});
 }

@@ -135,7 +135,7 @@ TEST_F(Sequences, CurvesAreReadStrictly) {
   refused("3:1,2", "'2' has no frame");
   refused("3,smooth", "'3' has no frame");
   refused("3:a", "'3:a' has no frame number");
-  refused("x", "'x' cannot be read as a number; write a number, or 3:1,2.2:24");
+  refused("x", "'x' cannot be read as a number; write a number like 2.5, without a unit (");
   refused("3:1,4:1", "has a frame twice");
   refused("inf:1,3:2", "'inf:1' cannot be animated");
   expect_refused("wide.exr -o o.exr --focus 3:1,2:9 --fstop 2 --focal-length 50", 2,

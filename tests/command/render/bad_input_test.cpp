@@ -44,7 +44,9 @@ TEST_F(BadInput, Files) {
 TEST_F(BadInput, Channels) {
   expect_render_refused("flat.exr -o out.exr" + lens, 3, {"flat.exr", "no depth", "--depth"});
   expect_render_refused("normals.exr -o out.exr" + lens, 3, {"no depth", "N.Z"});
-  expect_render_refused("depth.exr -o out.exr" + lens, 3, {"no colour"});
+  expect_render_refused(
+      "depth.exr -o out.exr" + lens, 3,
+      {"no colour", "Give a file that has them, or Y alone for grey. It has: Z\n"});
   expect_render_refused("two.exr -o out.exr" + lens, 3, {"depth.Z, zdepth.Z", "--depth-channel"});
   expect_render_refused(
       "in.exr -o out.exr --layer beauty" + lens, 3,

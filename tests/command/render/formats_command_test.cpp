@@ -108,5 +108,30 @@ TEST(RenderFormats, LinearAndDisplayEncodedInputsAgree) {
   }
 }
 
+TEST(RenderFormats, AFormatThatTheNameDoesNotSay) {
+  const Folder folder;
+  write_picture_file(folder, "in.exr", {"R", "G", "B", "Z"});
+  for (const std::string format : {"png", "jpg", "tif", "hdr"}) {
+    expect_ok(defray(folder, "render in.exr -o in." + format + lens));
+  }
+  const auto named = [&](const std::string& file, const std::string& name) {
+    expect_ok(shell(folder, "cp " + file + " " + name));
+    return defray(folder, "render " + name + " --depth in.exr -o o.exr" + lens);
+  };
+  const auto refused = [&](const std::string& file, const std::string& name,
+                           const std::string& what) {
+    expect_refusal(named(file, name), 3, {name + ": is " + what}, name);
+  };
+  refused("in.exr", "wrong.png", "an OpenEXR file by its content: name it .exr\n");
+  refused("in.tif", "wrong.jpg", "a TIFF file by its content: name it .tif\n");
+  refused("in.hdr", "wrong.jpeg", "a Radiance HDR file by its content: name it .hdr\n");
+  refused("in.png", "wrong.exr", "a PNG file by its content: name it .png\n");
+  refused("in.jpg", "wrong.tif", "a JPEG file by its content: name it .jpg\n");
+  // Where nothing is read otherwise.
+  expect_ok(named("in.exr", "picture"));
+  expect_ok(named("in.jpg", "right.png"));
+  expect_ok(named("in.tif", "right.exr"));
+}
+
 }  // namespace
 }  // namespace defray::test::formats_command_test

@@ -159,6 +159,27 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
   expect_note(camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
                          "f_stop": 2, "colour": "red"}}})"),
               "camera.json: key 'colour' is not known, and ignored\n");
+  const std::string unused = "camera.json: key 'blades' is not used: ";
+  const std::string iris = unused + "--blades 6 is such an aperture";
+  expect_note(camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2, "blades": 6})"),
+              iris);
+  const std::string of_a_setting =
+      camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
+                 "f_stop": 2, "blades": 6}}})");
+  expect_note(of_a_setting, iris);
+  const auto said_by = [&](const std::string& command) {
+    return defray(folder_, command + " --camera camera.json").err;
+  };
+  for (const std::string other :
+       {"splat --model plane --model-points 400 -o p.exr", "psf --depth 4"}) {
+    EXPECT_EQ(said_by(other),
+              "defray: note: " + unused + "render's --blades 6 is such an aperture\n");
+  }
+  const std::string trade = said_by("trade in.exr -o trade");
+  EXPECT_TRUE(trade.starts_with("defray: note: " + iris + "\n")) << trade;
+  const std::string round =
+      camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "f_stop": 2, "blades": 0})");
+  EXPECT_EQ(said(round).find("key '"), std::string::npos);
   // What is known, but of another place.
   const std::string misplaced =
       camera(R"({"focal_length_mm": 50, "f_stop": 2, "fstopp": 2, "focus_settings": {"a":
@@ -236,6 +257,34 @@ TEST_F(Mistakes, WeakSpellings) {
                      "render in.exr -o o.exr --focus 900 --fstop 2 --focal-length 50 "
                      "--unit " +
                          unit));
+  }
+}
+
+TEST_F(Mistakes, ADepthOfNothingButBackground) {
+  const std::string note = "nothing has a depth: is it the right channel?\n";
+  for (const float nothing : {0.0f, NAN, INFINITY}) {
+    write("in.exr", {"Z"}, {Plane(pixels, nothing)});
+    const std::string of_it = std::isnan(nothing) ? " (384 px NaN), " : ", ";
+    expect_note("in.exr -o o.exr" + usual_, "all of Z is background" + of_it + note);
+  }
+  Plane one(pixels, 0.0f);
+  one[5] = 4;
+  write("in.exr", {"Z"}, {one});
+  EXPECT_EQ(said("in.exr -o o.exr" + usual_).find("is background"), std::string::npos);
+}
+
+TEST_F(Mistakes, AnEyeOfWhichLittleIsLeft) {
+  write("in.exr", {"Z"}, {Plane(pixels, 4.0f)});
+  const std::string note =
+      "of --eye only its 28000 px per metre are used: the aperture and the "
+      "focal length given beside it win\n";
+  for (const std::string aperture : {"--fstop 1", "--aperture-diameter 20"}) {
+    const std::string eye = "--eye --focus 3 --focal-length 50 " + aperture;
+    expect_note("in.exr -o o.exr " + eye, note);
+    EXPECT_EQ(defray(folder_, "splat --model plane --model-points 400 -o p.exr " + eye).err,
+              "defray: note: " + note);
+    EXPECT_EQ(said("in.exr -o o.exr --eye --focus 3 " + aperture).find("of --eye"),
+              std::string::npos);
   }
 }
 

@@ -109,7 +109,8 @@ TEST_F(OptionsCommand, WrongWorkGroupsAreRefused) {
   }
   refused("64,32", {"that of all kernels for the second time"});
   refused("fill=8,fill=9", {"says fill for the second time"});
-  refused("fil=8x8", {"no kernel is called 'fil'", "Did you mean 'fill'?", "rdb_merge"});
+  refused("fil=8x8",
+          {"--work-group: kernel 'fil' is not known. Did you mean 'fill'? Allowed: ", "rdb_merge"});
   refused("fill=4096x4096", {"work-group 4096x4096", "allows at most"});
 }
 

@@ -160,7 +160,7 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "no such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,
-          {"no model 'figur'", "Did you mean 'figure'?"});
+          {"model 'figur' is not known. Did you mean 'figure'? Allowed: plane figure"});
   refused("splat --model figure --model-points 1000000000000 -o o.exr " + wide_lens, 3,
           {"model figure: says it has 1000000000000 points, which need about 381469727 MiB"});
   refused(figure + "-o o.abc " + wide_lens, 2, {"o.abc"});

@@ -1,6 +1,10 @@
 // Files are written beside and renamed: what is left of them, whatever happens.
 #include "image/safe_output.h"
 
+#include <grp.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -99,6 +103,61 @@ TEST(SafeOutput, UnwritablePlacesAreFoundEarly) {
   expect_error(ErrorKind::output, {"is a folder"}, [&] { check_can_write(folder.path()); });
   expect_error(ErrorKind::output, {"cannot write in folder", "too long"},
                [&] { check_can_write(folder / (std::string(300, 'a') + ".exr")); });
+}
+
+TEST(SafeOutput, AWriteProtectedFileIsNotReplaced) {
+  const Folder folder;
+  const std::string path = folder / "kept.txt";
+  std::ofstream(path) << "old";
+  std::filesystem::create_symlink("kept.txt", folder / "link.txt");
+  std::filesystem::permissions(path, std::filesystem::perms(0444));
+  for (const std::string& name : {path, folder / "link.txt"}) {  // root is told, too
+    const std::vector<std::string> words{name + ": is write-protected; allow writing it (chmod"};
+    expect_error(ErrorKind::output, words, [&] { check_can_write(name); });
+    expect_error(ErrorKind::output, words, [&] { check_can_make(name); });
+    expect_error(ErrorKind::output, words, [&] { write_text(name, "new"); });
+  }
+  EXPECT_EQ(text_of(path), "old");
+  std::filesystem::permissions(path, std::filesystem::perms(0200));
+  write_text(path, "new");
+  std::filesystem::permissions(path, std::filesystem::perms(0600));
+  EXPECT_EQ(text_of(path), "new");
+}
+
+/// What a user who is neither the file's owner nor of its group is told; empty: nothing.
+std::string said_to_another(const Folder& folder, const std::string& path) {
+  const std::string told = folder / "told.txt";
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr unsigned nobody = 65534;
+    const bool is_root = geteuid() == 0;
+    if (is_root && (setgroups(0, nullptr) != 0 || setgid(nobody) != 0 || setuid(nobody) != 0)) {
+      _exit(1);
+    }
+    try {
+      check_can_write(path);
+    } catch (const Error& error) {
+      std::ofstream(told) << error.what();
+    }
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  return std::filesystem::exists(told) ? text_of(told) : "";
+}
+
+TEST(SafeOutput, AFileOfAnotherUserIsNotReplaced) {
+  const Folder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
+  const std::string path = folder / "theirs.txt";
+  std::ofstream(path) << "old";
+  std::filesystem::permissions(path, std::filesystem::perms(0464));  // the owner, too, may not
+  const std::string said = said_to_another(folder, path);
+  EXPECT_NE(said.find("theirs.txt: is write-protected; allow"), std::string::npos) << said;
+  std::filesystem::remove(folder / "told.txt");
+  std::filesystem::permissions(path, std::filesystem::perms(0666));
+  EXPECT_EQ(said_to_another(folder, path), "");
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(Scene, AccumulationIsTheMeanOfItsViews) {
 }
 
 TEST(Scene, RefusesWhatIsUnknown) {
-  expect_error(ErrorKind::usage, {"unknown scene 'plat1'", "Did you mean 'plate1'?", "blocks-lake"},
+  expect_error(ErrorKind::usage,
+               {"scene 'plat1' is not known", "Did you mean 'plate1'?", "blocks-lake"},
                [] { make_scene("plat1", 64, 48); });
   expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 0, 48); });
   expect_error(ErrorKind::usage, {"scene size"}, [] { make_scene("plate1", 64, 16385); });
