@@ -86,7 +86,9 @@ TEST_F(Mistakes, WholeNumbersMakePoorDepths) {
       << "asked for";
   EXPECT_EQ(said("in.exr -o o.exr" + usual_).find("bits"), std::string::npos);
   expect_refused("in.exr --depth rgb.png -o o.exr" + usual_,
-                 {"rgb.png: no depth", "--depth-channel R where the depth is stored as grey"});
+                 {"rgb.png: no depth",
+                  "Name its file with --depth, or its channel with --depth-channel (R where the "
+                  "depth is stored as grey). It has: R G B"});
   EXPECT_NE(said("in.exr --depth rgb.png --depth-channel R -o o.exr" + range + usual_)
                 .find("depth R, 4.10588"),
             std::string::npos);
