@@ -180,12 +180,12 @@ TEST_F(Mistakes, KeysOfACameraFileThatNoOneReads) {
   camera(R"({"focal_length_mm": 50, "focus_distance_m": 3, "fstopp": 2})");
   const std::string splat =
       defray(folder_, "splat --model plane -o p.exr --camera camera.json").err;
+  EXPECT_NE(splat.find("'fstopp'"), std::string::npos) << splat;
   EXPECT_EQ(splat.find("'fstopp'"), splat.rfind("'fstopp'")) << "said once: " << splat;
   camera(R"({"focal_length_mm": 50, "focus_settings": {"a": {"focus_distance_m": 3,
              "f_stop": 2, "colour": "red"}}})");
   for (const std::string command :
-       {"splat --model plane --model-points 400 -o p.exr --camera camera.json --focus-setting a",
-        "compare in.exr in.exr --depth in.exr --camera camera.json --focus-setting a",
+       {"compare in.exr in.exr --depth in.exr --camera camera.json --focus-setting a",
         "psf --depth 4 --camera camera.json --focus-setting a",
         "trade in.exr -o trade --camera camera.json --focus-setting a"}) {
     const Result result = defray(folder_, command);
