@@ -128,6 +128,26 @@ TEST_F(ErrorCommand, ATargetsQualityGoesOnFromFrameToFrame) {
             (Qualities{"high", "high", "preview"}));
 }
 
+/// Of an aperture of 0, or where all is in focus.
+TEST_F(ErrorCommand, ACopyIsSaidToBeRight) {
+  const Plane noise = random_plane({32, 32}, 5), near(1024, 2);
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {noise, noise, noise, near}, 32, 32)
+      .write(folder / "noise.exr");
+  const auto said = [&](const std::string& optics) {
+    return defray(folder, "render noise.exr -o out.exr --focal-length 50 " + optics).out;
+  };
+  const std::string none = "expected: no difference that a display would show";
+  EXPECT_NE(said("--focus 3 --aperture-diameter 0").find(none), std::string::npos);
+  EXPECT_NE(said("--focus 2 --fstop 1").find(none), std::string::npos);
+  EXPECT_EQ(said("--focus 3 --fstop 0.2").find(none), std::string::npos);
+  const auto report = nlohmann::json::parse(
+      said("--focus 2 --fstop 1 --error-out error.exr --target-db 60 --json"));
+  EXPECT_EQ(report["expected"]["psnr_srgb_db"], 90);
+  EXPECT_EQ(report["expected"]["detail"], 0);
+  EXPECT_EQ(report["expected"]["quality"], "preview");
+  EXPECT_EQ(ImageFile::read(folder / "error.exr").plane(0, 0), Plane(1024, 0));
+}
+
 TEST_F(ErrorCommand, NothingToBeSeenIsSaidSo) {
   const Plane black(64, 0), near(64, 2);
   ImageFile::from_planes({"R", "G", "B", "Z"}, {black, black, black, near}, 8, 8)
