@@ -46,10 +46,16 @@ std::string quality_options(Quality quality, int cells_per_side) {
   return fmt::format("--quality {} --rdb {}", to_string(quality), cells_per_side);
 }
 
-std::string expected_line(const ExpectedError& e) {
+std::string expected_line(const ExpectedError& e, bool is_copy) {
   const std::string chosen =
       e.quality ? quality_options(*e.quality, e.cells_per_side) + ": " : std::string();
   if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
+  if (is_copy) {
+    return fmt::format(
+        "{}expected {:.1f} dB ({:.1f} to {:.1f}): a copy, as good as the pinhole picture is "
+        "sampled",
+        chosen, e.psnr_db, e.low_db, e.high_db);
+  }
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
       "{:.0f} % edges, {:.0f} % detail",
@@ -200,7 +206,8 @@ void print_text(const FrameOutcome& o, const std::vector<std::string>& notes,
                quality_options(r.budget->quality, r.budget->cells_per_side), r.budget->expected_ms,
                1000 * r.render_seconds, r.budget->budget_ms);
   }
-  if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));
+  const bool is_copy = r.nearest_coc_px == 0 && r.farthest_coc_px == 0;
+  if (r.expected) fmt::print("  {}\n", expected_line(*r.expected, is_copy));
   print_notes(notes);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);

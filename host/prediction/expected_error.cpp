@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "lens/coc.h"
 #include "lens/lens_grid.h"
 
 namespace defray {
@@ -54,12 +53,6 @@ Prediction::Prediction(const Frame& frame, const ChainSettings& settings,
       across_((frame.width + block_px - 1) / block_px),
       making_(making_of(settings, result.report->lens_points)) {
   const int rows = block_rows(frame);
-  if (largest_coc(frame.coc_quanta.host()) == 0) {
-    // A copy: what its own sampling lacks, any lens's picture of it lacks.
-    if (wants_planes) squares_.resize(size(across_) * size(rows));
-    of_frame_ = expected_from(0);
-    return;
-  }
   for (int y = 0; y < rows; y += strip_height) {
     add_rows(frame, result, {y, std::min(rows, y + strip_height)}, wants_planes);
   }

@@ -60,8 +60,7 @@ struct ChainReport {
 /// pictures look. It stands for cameras and scenes like those that it was learnt from: opaque
 /// surfaces, colour anti-aliased, depth not.
 struct ExpectedError {
-  /// PSNR of the whole frame as `defray compare` gives it: sRGB-encoded, clipped. At most 90,
-  /// which a picture has where no CoC changes it.
+  /// PSNR of the whole frame as `defray compare` gives it: sRGB-encoded, clipped. At most 90.
   double psnr_db = 0;
   double low_db = 0, high_db = 0;  ///< Between these in nine of ten scenes.
   /// Of the squared error: too few lens points; made-up surfaces; edges, and rims of highlights;
