@@ -67,6 +67,19 @@ int print_and_end(const CLI::App& app, const CLI::Success& what) {
              : code;
 }
 
+/// As tables of options have them: "Pixels; default 640" instead of "INT=640".
+void put_defaults_into_texts(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      const std::string text = option->get_default_str();
+      if (!text.empty() && text != "[]") {  // no values
+        option->description(option->get_description() + "; default " + text);
+      }
+      option->default_str("");
+    }
+  }
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app{what_it_is, "defray"};
   app.footer(examples);
@@ -78,6 +91,7 @@ int run_command(int argc, char** argv) {
     const Run command = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), command);
   }
+  put_defaults_into_texts(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -25,21 +25,39 @@ install_missing() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build FOLDER [CMAKE OPTIONS]: configures and builds; the log is shown only if that fails.
+# Keeps what it reads in LOG, and shows ninja's count in it: on a terminal in one line that is
+# rewritten, else in a line a minute.
+show_count() {
+  local log=$1 line count said=$SECONDS
+  while IFS= read -r line; do
+    printf '%s\n' "$line"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    count="${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps"
+    if [ -t 3 ]; then
+      printf '\r\033[KBuilding: %s' "$count" >&3
+    elif [ $((SECONDS - said)) -ge "${BUILD_SAYS_EVERY:-60}" ]; then
+      printf 'Building: %s\n' "$count" >&3
+      said=$SECONDS
+    fi
+  done 3>&1 >"$log"
+  [ ! -t 1 ] || printf '\r\033[K'
+}
+
+# build FOLDER [CMAKE OPTIONS]: configures and builds; the log, FOLDER/build.log, is shown only if
+# that fails.
 build() {
-  local folder=$1
+  local folder=$1 log=$1/build.log
   shift
-  local log
-  log=$(mktemp)
-  [ -d "$folder/bin" ] || echo "Building in $folder; the first time takes a few minutes"
-  if ! { cmake -S "$project" -B "$folder" -G Ninja "$@" && cmake --build "$folder"; } >"$log" 2>&1
+  mkdir -p "$folder"
+  [ -d "$folder/bin" ] ||
+    echo "Building in $folder; the first time takes several minutes (log: $log)"
+  if ! { cmake -S "$project" -B "$folder" -G Ninja "$@" && cmake --build "$folder"; } 2>&1 |
+    show_count "$log"
   then
-    cat "$log" >&2
-    rm -f "$log"
-    echo "The build in $folder failed; its log is above." >&2
+    tail -n 200 "$log" >&2
+    echo "The build in $folder failed; the end of its log, $log, is above." >&2
     return 1
   fi
-  rm -f "$log"
 }
 
 install_missing

@@ -90,6 +90,7 @@ set_tests_properties(readme_perf PROPERTIES DEPENDS "rusticl;validate_all")
 add_check(library 20 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
           ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
 add_check(demo 20 full bash ${here}/demo_test.sh ${PROJECT_BINARY_DIR})
+add_check(build 1 both bash ${here}/build_test.sh)
 add_check(format 1 both bash ${here}/format.sh ${PROJECT_SOURCE_DIR})
 add_check(includes 1 both bash ${here}/includes.sh ${PROJECT_SOURCE_DIR})
 add_check(alone 60 full bash ${here}/alone.sh ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})

@@ -11,6 +11,7 @@
 #include "image/image_file.h"
 #include "image/safe_output.h"
 #include "image/sequence.h"
+#include "options/option_value.h"
 #include "progress.h"
 #include "scenes/tracing/render.h"
 
@@ -22,7 +23,7 @@ struct SceneOptions {
   int width = 640, height = 480, truth_samples = 256;
   PinholeSampling pinhole{16, false};  ///< Anti-aliased, as productions have it.
   std::uint32_t seed = 1;
-  bool hidden = false, alpha = false;
+  bool hidden = false, alpha = false, quiet = false;
 };
 
 /// How noisy truths are, by setting; of several frames, the noisiest.
@@ -37,12 +38,13 @@ std::string path_of(const SceneOptions& o, const std::string& name, FrameNumber 
   return frame_path(o.folder + "/" + name + ".####.exr", *frame);
 }
 
-void write_planes(const std::string& path, const std::vector<std::string>& channels,
-                  const std::vector<Plane>& planes, const Scene& scene) {
+void write_planes(const SceneOptions& o, const std::string& path,
+                  const std::vector<std::string>& channels, const std::vector<Plane>& planes,
+                  const Scene& scene) {
   const ImageFile file =
       ImageFile::from_planes(channels, planes, scene.width, scene.height, Sample::single_float);
   write_safely(path, [&](const std::string& name) { file.write(name); });
-  fmt::print("{}\n", path);
+  if (!o.quiet) fmt::print("{}\n", path);
 }
 
 void write_picture(const SceneOptions& o, const std::string& path, ScenePicture picture,
@@ -55,7 +57,7 @@ void write_picture(const SceneOptions& o, const std::string& path, ScenePicture 
   }
   channels.push_back("Z");
   planes.push_back(std::move(picture.depth));
-  write_planes(path, channels, planes, scene);
+  write_planes(o, path, channels, planes, scene);
 }
 
 void write_truth(const SceneOptions& o, const std::string& path, const Truth& truth,
@@ -66,7 +68,7 @@ void write_truth(const SceneOptions& o, const std::string& path, const Truth& tr
     channels.push_back("A");
     planes.push_back(truth.alpha);
   }
-  write_planes(path, channels, planes, scene);
+  write_planes(o, path, channels, planes, scene);
 }
 
 void report_noise(const SceneOptions& o, const Truth& truth) {
@@ -88,7 +90,7 @@ std::string truth_name(const Scene& scene, const std::string& setting) {
 void write_truths(const SceneOptions& o, const Scene& scene,
                   const std::vector<FocusSetting>& settings, FrameNumber frame, Noise& noise) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    ProgressBar bar(settings.size(), "truths", true);
+    ProgressBar bar(settings.size(), "truths", !o.quiet);
     const Truth truth = render_truth(scene, lens_of(scene, settings[i]), o.truth_samples, o.seed,
                                      [&](double share) { bar.update(i, share); });
     bar.clear();
@@ -99,7 +101,7 @@ void write_truths(const SceneOptions& o, const Scene& scene,
     if (!is_new && truth.noise->psnr_srgb_db < known->second.psnr_srgb_db) {
       known->second = *truth.noise;
     }
-    report_noise(o, truth);
+    if (!o.quiet) report_noise(o, truth);
   }
 }
 
@@ -166,7 +168,7 @@ int run(const SceneOptions& o) {
   for (const FrameNumber frame : frames) write_frame(o, frame, noise);
   const std::string camera = camera_path(o);
   write_text(camera, camera_json(scene_of(o, frames.front()), noise));
-  fmt::print("{}\n", camera);
+  if (!o.quiet) fmt::print("{}\n", camera);
   return 0;
 }
 
@@ -214,6 +216,7 @@ Run add_scene(CLI::App& app) {
   command->add_option("--seed", o->seed, "Seed of the truth's samples");
   command->add_flag("--hidden", o->hidden,
                     "Also hidden.exr (R G B Z): what lies next behind the first surface");
+  command->add_flag("-q,--quiet", o->quiet, quiet_help);
   command->footer(list_of_scenes() + "Example: defray scene plate1 -o plate1 --truth-samples 1024");
   return [o] { return run(*o); };
 }

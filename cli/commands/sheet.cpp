@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "commands/colour_file.h"
 #include "image/display.h"
+#include "options/option_value.h"
 
 namespace defray::cli {
 namespace {
@@ -16,6 +17,7 @@ struct SheetOptions {
   std::string output, windows = "union", crop;
   int zoom = 1;
   double exposure = 0;
+  bool quiet = false;
 };
 
 /// Each pixel so many times across and down.
@@ -64,7 +66,7 @@ int run(const SheetOptions& o) {
     panels.push_back(std::move(panel));
   }
   write_sheet(o.output, panels, data.width * o.zoom, data.height * o.zoom);
-  fmt::print("{}\n", o.output);
+  if (!o.quiet) fmt::print("{}\n", o.output);
   return 0;
 }
 
@@ -84,6 +86,7 @@ Run add_sheet(CLI::App& app) {
   command->add_option("--crop", o->crop, "Only this part, 320x200+100+50, of the display window");
   command->add_option("--zoom", o->zoom, "Each pixel so many times as large, 1 to 64");
   command->add_option("--exposure", o->exposure, "Brighter by so many stops");
+  command->add_flag("-q,--quiet", o->quiet, quiet_help);
   command->footer(
       "Example: defray sheet in.exr out.exr truth.exr -o sheet.png --captions "
       "pinhole,result,truth");

@@ -16,6 +16,9 @@
 
 namespace defray::cli {
 
+/// What --quiet does, whatever the command.
+inline constexpr const char* quiet_help = "No text and no progress bar, errors excepted";
+
 struct OptionValue {
   /// Adds an option of this name that reads it.
   std::function<CLI::Option*(CLI::App&, const std::string& name)> add;

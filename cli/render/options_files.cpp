@@ -171,7 +171,7 @@ OptionGroup terminal_options(RenderCommand& job) {
             {.scope = of_chain,
              .needs = {[&job](const Given&) { return !job.json && !job.quiet; },
                        "goes without --json, which has it all, and without --quiet"}}},
-           {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
+           {"-q,--quiet", flag(job.quiet), quiet_help},
            {"--show", flag(job.show),
             "Show the last picture in a window; keys and mouse change focus and f-number, q ends "
             "and prints "

@@ -73,18 +73,30 @@ std::vector<std::optional<int>> frames_of(const RenderCommand& job) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// A camera file a frame: that one is missing must not show hours later.
-void check_camera_files(const RenderCommand& job, const std::vector<std::optional<int>>& frames) {
-  if (job.skip_bad_frames || !frames.front() || !has_frame_pattern(job.camera)) return;
-  std::vector<std::string> missing;
-  for (const std::optional<int>& frame : frames) {
-    const std::string path = frame_path(job.camera, *frame);
-    if (!is_skipped(job, frame) && !std::filesystem::exists(path)) missing.push_back(path);
+/// A link is there, wherever it leads: to a frame that is still to be written, for one.
+bool is_missing(const std::string& path) {
+  std::error_code unknown;
+  const auto status = std::filesystem::symlink_status(path, unknown);
+  return status.type() == std::filesystem::file_type::not_found;
+}
+
+/// A file a frame: that one is missing must not show hours later.
+void check_frame_files(const RenderCommand& job, const std::vector<std::optional<int>>& frames) {
+  if (job.skip_bad_frames || frames.size() == 1) return;
+  const std::pair<const char*, std::string> patterns[] = {
+      {"picture", job.paths.input}, {"depth", job.paths.depth}, {"camera", job.camera}};
+  for (const auto& [what, pattern] : patterns) {
+    if (!has_frame_pattern(pattern)) continue;
+    std::vector<std::string> missing;
+    for (const std::optional<int>& frame : frames) {
+      const std::string path = frame_path(pattern, *frame);
+      if (is_missing(path) && !is_skipped(job, frame)) missing.push_back(path);
+    }
+    if (missing.empty()) continue;
+    fail(ErrorKind::input,
+         "{}: no such file: {} of {} frames have no {}; --skip-bad-frames leaves them out",
+         missing.front(), missing.size(), frames.size(), what);
   }
-  if (missing.empty()) return;
-  fail(ErrorKind::input,
-       "{}: no such file: {} of {} frames have no camera; --skip-bad-frames leaves them out",
-       missing.front(), missing.size(), frames.size());
 }
 
 /// The focus of --focus-frame, for all frames.
@@ -118,7 +130,7 @@ int run(const OptionTable& options, RenderCommand& job) {
     options.refuse_idle({job.settings.method.method, job.is_literal, job.is_on_reference()});
     finish(job);
     check_lens(job, frames);
-    check_camera_files(job, frames);
+    check_frame_files(job, frames);
     take_focus_of_frame(job);
     SequenceRun sequence(job, frames);
     sequence.render();

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "base/window.h"
+#include "frame_report.h"
 #include "options/option_table.h"
 
 namespace defray::cli {
@@ -25,18 +26,6 @@ std::string depth_line(const FrameReport& r) {
   }
   if (r.depth.not_a_number > 0) line += fmt::format(" ({} of them NaN)", r.depth.not_a_number);
   return line;
-}
-
-std::string lens_line(const FrameReport& r) {
-  const Lens& l = r.lens;
-  return fmt::format("{:.6g} mm, aperture {:.6g} mm{}, {}, focus {:.6g} units of {:.6g} m",
-                     l.focal_length_mm, l.aperture_diameter_mm,
-                     l.aperture_diameter_mm > 0
-                         ? fmt::format(" (f/{:.4g})", l.focal_length_mm / l.aperture_diameter_mm)
-                         : "",
-                     l.pixels_per_metre > 0 ? fmt::format("{:.6g} px/m", l.pixels_per_metre)
-                                            : fmt::format("sensor {:.6g} mm", l.sensor_width_mm),
-                     l.focus_distance_units, l.metres_per_unit);
 }
 
 std::string chain_line(const ChainReport& d) {
@@ -57,10 +46,16 @@ std::string quality_options(Quality quality, int cells_per_side) {
   return fmt::format("--quality {} --rdb {}", to_string(quality), cells_per_side);
 }
 
-std::string expected_line(const ExpectedError& e) {
+std::string expected_line(const ExpectedError& e, bool is_copy) {
   const std::string chosen =
       e.quality ? quality_options(*e.quality, e.cells_per_side) + ": " : std::string();
   if (e.psnr_db >= 90) return chosen + "expected: no difference that a display would show";
+  if (is_copy) {
+    return fmt::format(
+        "{}expected {:.1f} dB ({:.1f} to {:.1f}): a copy, as good as the pinhole picture is "
+        "sampled",
+        chosen, e.psnr_db, e.low_db, e.high_db);
+  }
   return fmt::format(
       "{}expected {:.1f} dB ({:.1f} to {:.1f}); of the error {:.0f} % sampling, {:.0f} % hidden, "
       "{:.0f} % edges, {:.0f} % detail",
@@ -109,30 +104,6 @@ nlohmann::ordered_json chain_json(const ChainReport& d) {
 std::vector<std::string> own_notes(const FrameReport& r) {
   std::vector<std::string> notes;
   for (const std::string& note : r.notes) notes.push_back(with_field_names(note, option_of_field));
-  return notes;
-}
-
-std::vector<std::string> notes_of(const FrameReport& r) {
-  std::vector<std::string> notes = own_notes(r);
-  if (r.nonfinite > 0) {
-    notes.push_back(fmt::format("{} NaN or Inf colour values {}", r.nonfinite,
-                                r.nonfinite_kept ? "kept" : "set to 0"));
-  }
-  if (r.depth.outside_range > 0) {
-    notes.push_back(fmt::format("{} stored depths lie outside 0...1: are they of this kind?",
-                                r.depth.outside_range));
-  }
-  if (r.coc_limited > 0) {
-    notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
-  }
-  if (r.chain && r.chain->repaired > 0) {
-    notes.push_back(fmt::format(
-        "depth looks anti-aliased: {} px repaired (--repair off leaves them)", r.chain->repaired));
-  }
-  if (r.chain && r.chain->border_is_cut) {
-    notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",
-                                r.chain->border_px));
-  }
   return notes;
 }
 
@@ -189,7 +160,32 @@ nlohmann::ordered_json report_json(const FrameReport& r) {
 
 }  // namespace
 
-void print_text(const FrameOutcome& o, const std::string& device) {
+std::vector<std::string> notes_of(const FrameReport& r) {
+  std::vector<std::string> notes = own_notes(r);
+  if (r.nonfinite > 0) {
+    notes.push_back(fmt::format("{} NaN or Inf colour values {}", r.nonfinite,
+                                r.nonfinite_kept ? "kept" : "set to 0"));
+  }
+  if (r.depth.outside_range > 0) {
+    notes.push_back(fmt::format("{} stored depths lie outside 0...1: are they of this kind?",
+                                r.depth.outside_range));
+  }
+  if (r.coc_limited > 0) {
+    notes.push_back(fmt::format("CoC limited in {} px", r.coc_limited));
+  }
+  if (r.chain && r.chain->repaired > 0) {
+    notes.push_back(fmt::format(
+        "depth looks anti-aliased: {} px repaired (--repair off leaves them)", r.chain->repaired));
+  }
+  if (r.chain && r.chain->border_is_cut) {
+    notes.push_back(fmt::format("the border goes on for {} px: rays from further out do not count",
+                                r.chain->border_px));
+  }
+  return notes;
+}
+
+void print_text(const FrameOutcome& o, const std::vector<std::string>& notes,
+                const std::string& device) {
   if (o.status == "skipped") {
     fmt::print("{}: exists, skipped\n", o.paths.output);
     return;
@@ -202,7 +198,7 @@ void print_text(const FrameOutcome& o, const std::string& device) {
     fmt::print("  data of the nearest hit {}\n", join(r.data_channels, " "));
   }
   fmt::print("  data window {}, display window {}\n", to_string(r.data), to_string(r.display));
-  if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r));
+  if (!r.depth_channel.empty()) fmt::print("  lens {}\n", lens_line(r.lens));
   fmt::print("  CoC radius {:.4g} to {:.4g} px\n", r.nearest_coc_px, r.farthest_coc_px);
   if (r.chain) fmt::print("  {}\n", chain_line(*r.chain));
   if (r.budget) {
@@ -210,8 +206,9 @@ void print_text(const FrameOutcome& o, const std::string& device) {
                quality_options(r.budget->quality, r.budget->cells_per_side), r.budget->expected_ms,
                1000 * r.render_seconds, r.budget->budget_ms);
   }
-  if (r.expected) fmt::print("  {}\n", expected_line(*r.expected));
-  for (const std::string& note : notes_of(r)) fmt::print("  note: {}\n", note);
+  const bool is_copy = r.nearest_coc_px == 0 && r.farthest_coc_px == 0;
+  if (r.expected) fmt::print("  {}\n", expected_line(*r.expected, is_copy));
+  print_notes(notes);
   fmt::print("  read {:.3f} s, {} {:.3f} s on {}, write {:.3f} s\n", r.read_seconds,
              to_string(r.method), r.render_seconds, device, r.write_seconds);
 }

@@ -70,6 +70,11 @@ void print_chosen(const RenderCommand& job, const FrameOutcome& outcome) {
   fmt::print("  the same again: {}\n", line);
 }
 
+/// The frame's camera file, where each has its own.
+std::string own_camera(const RenderCommand& job, std::optional<int> frame) {
+  return frame && has_frame_pattern(job.camera) ? frame_path(job.camera, *frame) : "";
+}
+
 /// Of a picture, what has just been caught, whatever it is.
 Error error_in_hand(const std::string& path) {
   try {
@@ -204,7 +209,8 @@ void SequenceRun::report(FrameOutcome outcome) {
     if (job_.json) {
       print_json_line(outcome, device_->name());
     } else if (!job_.quiet) {
-      print_text(outcome, device_->name());
+      print_text(outcome, notes_.take(notes_of(about), own_camera(job_, outcome.frame)),
+                 device_->name());
       if (job_.stats && outcome.status == "ok") {
         print_stats(outcome.report);
         print_chosen(job_, outcome);

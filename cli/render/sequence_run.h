@@ -8,6 +8,7 @@
 
 #include "base/plane.h"
 #include "defray/defray.h"
+#include "frame_report.h"
 #include "progress.h"
 #include "render/render_command.h"
 #include "render/render_report.h"
@@ -63,7 +64,8 @@ class SequenceRun {
   std::optional<Device> device_;  ///< Opened while the first frame is read.
   std::size_t failed_ = 0, missed_ = 0;
   std::optional<ExpectedError> before_;  ///< Of the last frame: where a target's search goes on.
-  bool is_mute_ = false;                 ///< Standard output takes no more.
+  FrameNotes notes_;
+  bool is_mute_ = false;  ///< Standard output takes no more.
   std::vector<Plane> last_;
   Window last_data_, last_display_;
 };

@@ -22,9 +22,9 @@ constexpr const char* splat_footer =
 one is); focal length (50 unless given), sensor and aperture in millimetres; the picture is as wide as the sensor.
 
 Examples:
-  defray splat scan.ply -o out.exr --fstop 2.8
-  defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 1.4 --fov 40
-  defray splat --model figure -o turn.####.exr --turntable 36 --size 512x512 --fstop 2 --focal-length 50)";
+  defray splat scan.ply -o out.exr --aperture-diameter 300
+  defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 0.2 --fov 40
+  defray splat --model figure -o turn.####.exr --turntable 36 --size 512x512 --fstop 0.2 --focal-length 50)";
 
 SplatModel model_of(const SplatCommand& job, bool has_bar) {
   if (job.input.empty() == job.model.empty()) {
@@ -77,8 +77,10 @@ int run(const SplatCommand& job) {
   Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
   const SplatModel model = model_of(job, !job.quiet && !job.json);
   const std::string source = job.input.empty() ? "model " + job.model : job.input;
-  for (const std::string& note : model.notes()) {
-    print_error("defray: note: " + source + ": " + note);
+  if (!job.quiet) {
+    for (const std::string& note : model.notes()) {
+      print_error("defray: note: " + source + ": " + note);
+    }
   }
   SplatRun splats(job, device, model, source);
   splats.draw(shots);

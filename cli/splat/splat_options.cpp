@@ -133,7 +133,7 @@ OptionGroup output_rows(SplatCommand& job) {
        {"--no-tuning", flag(job.no_tuning),
         "Do not use the work-groups that 'defray tune' found: the same picture"},
        {"--json", flag(job.json), "One JSON line a frame instead of text"},
-       {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"},
+       {"-q,--quiet", flag(job.quiet), quiet_help},
        {"--show", flag(job.show), "Show the last picture in a window; q closes it"}}};
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "frame_report.h"
+
 namespace defray::cli {
 
 namespace {
@@ -60,9 +62,9 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
   print_line(line);
 }
 
-void print_text(const SplatShot& shot, const SplatOutcome& outcome) {
+void print_text(const SplatShot& shot, const SplatOutcome& outcome,
+                const std::vector<std::string>& notes) {
   const SplatReport& r = outcome.report;
-  const Lens& lens = outcome.camera.lens;
   fmt::print("{}\n", shot.output);
   fmt::print("  {} points drawn as {} splats, {} seen, {:.0f} fragments\n", r.points, r.drawn,
              r.seen, r.fragments);
@@ -70,8 +72,8 @@ void print_text(const SplatShot& shot, const SplatOutcome& outcome) {
     fmt::print("  depth {:.6g} to {:.6g} units, CoC radius {:.4g} to {:.4g} px\n", r.nearest_units,
                r.farthest_units, r.nearest_coc_px, r.farthest_coc_px);
   }
-  fmt::print("  lens {:.6g} mm, aperture {:.6g} mm, focus {:.6g} units\n", lens.focal_length_mm,
-             lens.aperture_diameter_mm, lens.focus_distance_units);
+  fmt::print("  lens {}\n", lens_line(outcome.camera.lens));
+  print_notes(notes);
   fmt::print("  {:.3f} s on {}\n", outcome.render_seconds, outcome.device);
 }
 

@@ -23,6 +23,8 @@ void print_skipped(const SplatCommand& job, const SplatShot& shot);
 /// One JSON line.
 void print_json(const SplatShot& shot, const SplatOutcome& outcome);
 
-void print_text(const SplatShot& shot, const SplatOutcome& outcome);
+/// With these notes.
+void print_text(const SplatShot& shot, const SplatOutcome& outcome,
+                const std::vector<std::string>& notes);
 
 }  // namespace defray::cli

@@ -1,12 +1,15 @@
 #include "splat/splat_run.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/stopwatch.h"
 #include "base/text.h"
 #include "image/output.h"
 #include "image/safe_output.h"
-#include "standard_streams.h"
+#include "image/sequence.h"
+#include "library/frame_notes.h"
 
 namespace defray::cli {
 namespace {
@@ -41,8 +44,15 @@ std::vector<std::string> write_splats(const std::string& path, const SplatComman
 }
 
 /// What to know about a picture; `written` about its file.
-std::vector<std::string> splat_notes(const SplatReport& report, std::vector<std::string> written) {
-  std::vector<std::string> notes = std::move(written);
+std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatReport& report,
+                                     const std::vector<std::string>& written) {
+  std::vector<std::string> notes = camera.notes;
+  notes.insert(notes.end(), written.begin(), written.end());
+  if (report.seen > 0) {
+    note_small_coc(camera.lens,
+                   std::max(std::abs(report.nearest_coc_px), std::abs(report.farthest_coc_px)),
+                   notes);
+  }
   if (report.from_behind > mostly_behind) {
     notes.push_back(fmt::format(
         "{:.0f} % of what is before the camera is seen from behind and not drawn: --two-sided "
@@ -95,22 +105,21 @@ std::future<WrittenSplats> SplatRun::write_later(const SplatShot& shot, SplatCam
   return std::async(std::launch::async, [=, this, result = std::move(result)]() mutable {
     const std::vector<std::string> notes = write_splats(shot.output, job_, result);
     SplatOutcome outcome{source_,       device_.name(), camera,
-                         result.report, seconds,        splat_notes(result.report, notes)};
+                         result.report, seconds,        splat_notes(camera, result.report, notes)};
     return WrittenSplats{shot, std::move(outcome), std::move(result.colour)};
   });
 }
 
 void SplatRun::finish(std::future<WrittenSplats>& writing) {
   const WrittenSplats& written = last_.emplace(writing.get());
-  if (!job_.quiet) {
-    for (const std::string& note : written.outcome.notes) {
-      print_error(fmt::format("defray: note: {}: {}", written.shot.output, note));
-    }
-  }
   if (job_.json) {
     print_json(written.shot, written.outcome);
   } else if (!job_.quiet) {
-    print_text(written.shot, written.outcome);
+    const bool has_own_camera = written.shot.frame && has_frame_pattern(job_.camera_file);
+    print_text(
+        written.shot, written.outcome,
+        notes_.take(written.outcome.notes,
+                    has_own_camera ? frame_path(job_.camera_file, *written.shot.frame) : ""));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/plane.h"
+#include "frame_report.h"
 #include "progress.h"
 #include "splat/splat_report.h"
 #include "splat/splat_shots.h"
@@ -44,6 +45,7 @@ class SplatRun {
   const SplatModel& model_;
   const std::string source_;
   std::optional<WrittenSplats> last_;
+  FrameNotes notes_;
 };
 
 }  // namespace defray::cli

@@ -8,7 +8,6 @@
 #include "base/vec3.h"
 #include "image/sequence.h"
 #include "lens/camera.h"
-#include "options/camera_file.h"
 #include "options/lens_rows.h"
 
 namespace defray::cli {
@@ -69,15 +68,15 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
   if (job.camera_file.empty()) return shot;
   const std::string file = frame ? frame_path(job.camera_file, *frame) : job.camera_file;
   shot.camera =
-      read_camera_file(file, job.focus_setting, job.metres_per_unit).overridden_by(shot.camera);
+      read_camera_json(file, job.focus_setting, job.metres_per_unit).overridden_by(shot.camera);
   shot.stated = read_camera_pose(file, job.metres_per_unit);
   return shot;
 }
 
-/// The lens; without a focus it is on what is looked at, `focus` away. A field of view alone is
-/// that of a camera whose sensor is as wide as the default one; without one the focal length is the
-/// default one.
-Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
+/// Without a focus it is on what is looked at, `focus` away. A field of view alone is that of a
+/// camera whose sensor is as wide as the default one; without one the focal length is the default
+/// one.
+CameraValues values_of(const SplatShot& shot, double focus) {
   CameraValues values = shot.camera;
   if (!values.focal_length_mm) {
     const double fov = values.fov_deg.value_or(0);  // make_lens says what is wrong with others
@@ -86,8 +85,13 @@ Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
                                  : Lens().focal_length_mm;
   }
   if (!values.focus_distance_units) values.focus_distance_units = focus;
+  return values;
+}
+
+Lens lens_of(const SplatCommand& job, const SplatShot& shot, double focus) {
   const Window display{0, 0, job.settings.width, job.settings.height};
-  return make_lens(values, job.metres_per_unit, LensModel::cg, shot.max_coc_px, display);
+  return make_lens(values_of(shot, focus), job.metres_per_unit, LensModel::cg, shot.max_coc_px,
+                   display);
 }
 
 /// What is wrong with it is said before points are read.
@@ -138,7 +142,12 @@ SplatCamera camera_of(const SplatCommand& job, const SplatShot& shot, const Spla
   const CameraPose start = pose_of(job, shot, model, far);
   const double distance = length(vec(start.look_at) - vec(start.from));
   const double share = job.turntable > 0 ? static_cast<double>(*shot.frame - 1) / job.turntable : 0;
-  return {turned(start, share), lens_of(job, shot, distance > 0 ? distance : 1)};
+  const double focus = distance > 0 ? distance : 1;
+  std::vector<std::string> notes = shot.camera.notes;
+  for (std::string& note : notes_on_extremes(values_of(shot, focus))) {
+    notes.push_back(std::move(note));
+  }
+  return {turned(start, share), lens_of(job, shot, focus), std::move(notes)};
 }
 
 }  // namespace defray::cli

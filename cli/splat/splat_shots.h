@@ -24,6 +24,7 @@ std::vector<SplatShot> shots_of(const SplatCommand& job);
 struct SplatCamera {
   CameraPose pose;
   Lens lens;
+  std::vector<std::string> notes;  ///< On the camera file, and on what no real lens has.
 };
 
 /// Options win over the camera file, and that over a view of all of the model in which what is

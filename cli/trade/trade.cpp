@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "base/temporary_folder.h"
 #include "chain/quality.h"
 #include "commands.h"
 #include "commands/colour_file.h"
@@ -117,7 +118,7 @@ std::vector<OptionGroup> trade_options(TradeCommand& job) {
           device_options(job),
           {"Terminal",
            {{"--json", flag(job.json), "JSON instead of text"},
-            {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"}}}};
+            {"-q,--quiet", flag(job.quiet), quiet_help}}}};
 }
 
 /// The same picture by `render`.
@@ -150,16 +151,16 @@ double true_db_of(ColourFile truth, const FrameResult& result) {
   return compare(own.planes, truth.planes, own.data.width).psnr_srgb_db;
 }
 
-/// Renders it so many times.
+/// Renders it so many times, into this folder.
 TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                     const RenderSettings& common, const std::optional<ColourFile>& truth,
-                    Device& device, const Progress& progress) {
+                    const std::string& folder, Device& device, const Progress& progress) {
   RenderSettings settings = common;
   settings.method = candidate.method;
   settings.error.wants_expected = true;
   settings.error.target_db = candidate.target_db;
   FramePaths paths = job.paths;
-  paths.output = job.folder + "/" + candidate.name + ".png";
+  paths.output = folder + "/" + candidate.name + ".png";
   std::vector<double> seconds;
   FrameResult result;
   for (int run = 0; run < job.runs; ++run) {
@@ -178,7 +179,8 @@ TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                    median,
                    (seconds.back() - seconds.front()) / median,
                    result.report.expected,
-                   {}};
+                   {},
+                   candidate.target_db.has_value()};
   if (truth) point.true_db = true_db_of(*truth, result);
   return point;
 }
@@ -258,13 +260,14 @@ int run(const OptionTable& options, TradeCommand& job) {
   const RenderSettings settings = settings_at(job, std::nullopt);
   ProgressBar bar(all.size(), "pictures", !job.quiet && !job.json);
   Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
+  const TemporaryFolder made("defray-trade");  // a run that is interrupted changes nothing
   for (std::size_t i = 0; i < all.size(); ++i) {
-    trade.points.push_back(measured(job, all[i], settings, truth, device,
+    trade.points.push_back(measured(job, all[i], settings, truth, made.path(), device,
                                     [&](double share) { bar.update(i, share); }));
   }
   bar.clear();
   recommend(trade, job.target_db);
-  write_report(job.folder, trade);
+  write_report(job.folder, trade, made.path());
   if (job.json) {
     print_json(trade);
   } else if (!job.quiet) {

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "base/error.h"
+#include "image/safe_output.h"
 #include "measure/html_report.h"
-#include "measure/plot.h"
 
 namespace defray::cli {
 namespace {
@@ -53,18 +56,13 @@ Table table_of(const Trade& trade) {
   return table;
 }
 
-Plot plot_of(const Trade& trade) {
-  Plot plot{"Error against time", "seconds", "PSNR, sRGB, dB", true, false, {}};
-  Series expected{"expected, without a truth", {}, true, true}, truly{"true", {}, false, true};
-  for (const TradePoint& p : trade.points) {
-    if (p.expected) expected.points.push_back({p.seconds, p.expected->psnr_db, p.name});
-    if (p.true_db && std::isfinite(*p.true_db))
-      truly.points.push_back({p.seconds, *p.true_db, p.name});
-  }
-  for (Series& series : {std::ref(expected), std::ref(truly)}) {
-    if (!series.points.empty()) plot.series.push_back(std::move(series));
-  }
-  return plot;
+void copy_picture(const std::string& from, const std::string& to) {
+  write_safely(to, [&](const std::string& name) {
+    std::error_code error;
+    std::filesystem::copy_file(from, name, std::filesystem::copy_options::overwrite_existing,
+                               error);
+    if (error) fail(ErrorKind::output, "{}: cannot be written: {}", to, error.message());
+  });
 }
 
 }  // namespace
@@ -72,6 +70,24 @@ Plot plot_of(const Trade& trade) {
 std::optional<double> TradePoint::db() const {
   if (true_db || !expected) return true_db;
   return expected->psnr_db;
+}
+
+Plot plot_of(const Trade& trade) {
+  Plot plot{"Error against time", "seconds", "PSNR, sRGB, dB", true, false, {}};
+  Series expected{"expected, without a truth", {}, true, true}, truly{"true", {}, false, true},
+      target{"expected, with a target", {}, false, true};
+  for (const TradePoint& p : trade.points) {
+    Series& series = p.is_target ? target : expected;
+    if (p.expected) series.points.push_back({p.seconds, p.expected->psnr_db, p.name});
+    if (p.true_db && std::isfinite(*p.true_db))
+      truly.points.push_back({p.seconds, *p.true_db, p.name});
+  }
+  std::stable_sort(expected.points.begin(), expected.points.end(),
+                   [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+  for (Series* series : {&expected, &truly, &target}) {
+    if (!series->points.empty()) plot.series.push_back(std::move(*series));
+  }
+  return plot;
 }
 
 void recommend(Trade& trade, std::optional<double> target_db) {
@@ -127,7 +143,10 @@ void print_json(const Trade& trade) {
   fmt::print("{}\n", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-void write_report(const std::string& folder, const Trade& trade) {
+void write_report(const std::string& folder, const Trade& trade, const std::string& made) {
+  for (const TradePoint& p : trade.points) {
+    copy_picture(made + "/" + p.name + ".png", folder + "/" + p.name + ".png");
+  }
   write_plot(folder + "/trade.png", plot_of(trade));
   Section section{"Error against time", "", {}, {table_of(trade)}, {}};
   section.findings.push_back("Recommended, " + trade.why + ": " +

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "defray/report.h"
+#include "measure/plot.h"
 
 namespace defray::cli {
 
@@ -15,6 +16,7 @@ struct TradePoint {
   double seconds = 0, spread = 0;  ///< Median; (largest - smallest) / median.
   std::optional<ExpectedError> expected;
   std::optional<double> true_db;  ///< Against the truth, where there is one.
+  bool is_target = false;         ///< It looks for its quality: no point of the front.
 
   /// By what points are compared: the true error, or the one that is expected.
   std::optional<double> db() const;
@@ -35,7 +37,10 @@ void recommend(Trade& trade, std::optional<double> target_db);
 void print_text(const Trade& trade);
 void print_json(const Trade& trade);
 
-/// trade.png, index.html and trade.csv, beside the points' pictures.
-void write_report(const std::string& folder, const Trade& trade);
+/// Error over time: what is expected joined in the order of time, but for what has a target.
+Plot plot_of(const Trade& trade);
+
+/// The points' pictures, which lie in `made`, trade.png, index.html and trade.csv.
+void write_report(const std::string& folder, const Trade& trade, const std::string& made);
 
 }  // namespace defray::cli

@@ -84,7 +84,7 @@ std::vector<OptionGroup> tune_options(TuneCommand& job) {
       device,
       {"Terminal",
        {{"--json", flag(job.json), "JSON instead of text"},
-        {"-q,--quiet", flag(job.quiet), "No text and no progress bar, errors excepted"}}}};
+        {"-q,--quiet", flag(job.quiet), quiet_help}}}};
 }
 
 void check(const TuneCommand& job) {

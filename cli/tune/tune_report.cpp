@@ -64,6 +64,27 @@ std::string intro_of(const TuneReport& report) {
       report.key.device, report.key.platform, report.key.driver);
 }
 
+/// What looks faster, but was not run often enough to be used; empty: nothing.
+std::string unsure_of(const std::vector<Finding>& all) {
+  std::size_t count = 0, most = 0;
+  for (const Finding& f : all) {
+    count += f.runs_missing > 0;
+    most = std::max(most, f.runs_missing);
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      "{} of the best {} not used yet: up to {} more {} needed to be sure; 'defray tune' again, or "
+      "a larger --budget, goes on from here",
+      count, count == 1 ? "is" : "are", most, most == 1 ? "run is" : "runs are");
+}
+
+/// "yes", "no", "no: 3 runs are missing".
+std::string use_of(const Finding& f) {
+  if (f.runs_missing == 0) return f.is_adopted ? "yes" : "no";
+  return fmt::format("no: {} missing",
+                     f.runs_missing == 1 ? "1 run is" : fmt::format("{} runs are", f.runs_missing));
+}
+
 }  // namespace
 
 void print_text(const TuneReport& report) {
@@ -85,6 +106,7 @@ void print_text(const TuneReport& report) {
                f.is_adopted ? "best" : "own");
   }
   fmt::print("  gains are of the shortest runs, quartiles of runs in pairs\n  {}\n", report.path);
+  if (const std::string unsure = unsure_of(all); !unsure.empty()) fmt::print("  {}\n", unsure);
 }
 
 void print_json(const TuneReport& report) {
@@ -101,7 +123,8 @@ void print_json(const TuneReport& report) {
                     {"gain_low", 1 - f.high},
                     {"gain_high", 1 - f.low},
                     {"tried", f.tried},
-                    {"used", f.is_adopted}});
+                    {"used", f.is_adopted},
+                    {"runs_missing", f.runs_missing}});
   }
   const nlohmann::ordered_json json = {{"device", report.key.device},
                                        {"platform", report.key.platform},
@@ -124,7 +147,7 @@ void write_report(const std::string& folder, const TuneReport& report) {
     table.rows.push_back({f.place.frame_class, f.place.picture, f.place.kernel, to_string(f.own),
                           fmt::format("{:.3f}", f.own_ms), to_string(f.best),
                           fmt::format("{:.3f}", f.best_ms), gain_of(f), std::to_string(f.tried),
-                          f.is_adopted ? "yes" : "no"});
+                          use_of(f)});
     write_heat_map(folder + "/" + file_of(i, f), map_of(report, f));
     section.figures.push_back(
         {file_of(i, f),

@@ -11,6 +11,7 @@
 #include "image/safe_output.h"
 #include "opencl/device.h"
 #include "options/math_words.h"
+#include "options/option_value.h"
 #include "progress.h"
 #include "validate/case_command.h"
 #include "validation/report.h"
@@ -79,8 +80,9 @@ void print_device(const DeviceResult& d) {
   }
 }
 
-DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& settings) {
-  ProgressBar bar(1, info.name.c_str(), true);
+DeviceResult validate_with_progress(const DeviceInfo& info, const Settings& settings,
+                                    bool has_bar) {
+  ProgressBar bar(1, info.name.c_str(), has_bar);
   return validate_device(info, settings,
                          [&](double share, const std::string&) { bar.update(0, share); });
 }
@@ -90,7 +92,7 @@ const char* level_of(const ValidateOptions& o) {
   return o.full ? "full" : o.tiny ? "tiny" : "quick";
 }
 
-std::string title_of(const std::vector<DeviceResult>& results) {
+std::string summary_of(const std::vector<DeviceResult>& results) {
   std::size_t checks = 0, failed = 0, cases = 0;
   for (const DeviceResult& d : results) {
     for (const KernelResult& k : d.kernels) {
@@ -99,8 +101,8 @@ std::string title_of(const std::vector<DeviceResult>& results) {
       cases += k.cases;
     }
   }
-  return failed == 0 ? fmt::format("defray: {} of {} checks pass, {} cases", checks, checks, cases)
-                     : fmt::format("defray: {} of {} checks FAIL, {} cases", failed, checks, cases);
+  return failed == 0 ? fmt::format("{} of {} checks pass, {} cases", checks, checks, cases)
+                     : fmt::format("{} of {} checks FAIL, {} cases", failed, checks, cases);
 }
 
 std::string intro_of(const ValidateOptions& o) {
@@ -123,18 +125,19 @@ int run(const ValidateOptions& o) {
   std::vector<DeviceResult> results;
   bool passed = true;
   for (const DeviceInfo& info : chosen_devices(o, notes)) {
-    results.push_back(validate_with_progress(info, settings));
+    results.push_back(validate_with_progress(info, settings, !o.quiet));
     passed = passed && results.back().passed();
-    if (!o.json) print_device(results.back());
+    if (o.has_text()) print_device(results.back());
     std::fflush(stdout);
   }
-  if (!o.json) {
+  if (o.has_text()) {
     for (const std::string& note : notes) fmt::print("{}\n", note);
   }
   const TemporaryFolder pictures("defray-report");
-  const Page page{title_of(results), intro_of(o),
+  const Page page{"defray: " + summary_of(results), intro_of(o),
                   to_sections(results, notes, pictures.path(), case_command)};
   write_reports(o, page, pictures, to_json(results, notes, level_of(o), case_command));
+  if (o.has_text()) fmt::print("{}\n", summary_of(results));
   return passed ? ExitCode::ok : ExitCode::failed;
 }
 
@@ -172,6 +175,7 @@ Run add_validate(CLI::App& app) {
       ->excludes(only)
       ->excludes(math);
   command->add_flag("--json", o->json, "Print report.json instead of text");
+  command->add_flag("-q,--quiet", o->quiet, quiet_help);
   command->footer(
       "PASS: every value within the kernel's rule, and the same bits in a second run.\n"
       "Exit code: 0 all pass, 1 a kernel fails.\n"

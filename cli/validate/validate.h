@@ -14,6 +14,10 @@ struct ValidateOptions {
   std::string device, folder, only_case, math = "strict";
   std::vector<std::string> kernels;
   bool all = false, quick = false, full = false, tiny = false, arithmetic = false, json = false;
+  bool quiet = false;
+
+  /// Text, but for the words of progress.
+  bool has_text() const { return !quiet && !json; }
 };
 
 /// Measures what relaxed arithmetic buys and costs; the exit code.

@@ -26,7 +26,7 @@ void write_reports(const ValidateOptions& o, const Page& page, const TemporaryFo
   write_text(o.folder + "/report.json", json);
   if (o.json) {
     fmt::print("{}", json);
-  } else {
+  } else if (!o.quiet) {
     fmt::print("{}/report.html\n{}/report.json\n", o.folder, o.folder);
   }
 }
@@ -34,12 +34,12 @@ void write_reports(const ValidateOptions& o, const Page& page, const TemporaryFo
 int run_arithmetic(const ValidateOptions& o) {
   const DeviceInfo info = select_device(o.device);
   const auto results = [&] {
-    ProgressBar bar(1, "arithmetic", true);
+    ProgressBar bar(1, "arithmetic", !o.quiet);
     const int width = o.full ? 1280 : 640;
     return measure_arithmetic(info, width, width * 3 / 4, o.full ? 21 : 9, Level::quick,
                               [&](double share) { bar.update(0, share); });
   }();
-  if (!o.json) {
+  if (o.has_text()) {
     for (const VariantResult& r : results) {
       for (const MethodFigures& m : r.methods) {
         fmt::print(

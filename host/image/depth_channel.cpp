@@ -74,8 +74,7 @@ std::string about_grey(const std::vector<ChannelName>& names) {
   for (const ChannelName& name : names) bases.push_back(name.full);
   const bool is_rgb = bases == std::vector<std::string>{"R", "G", "B"} ||
                       bases == std::vector<std::string>{"R", "G", "B", "A"};
-  return is_rgb ? fmt::format(" ({} R where the depth is stored as grey)", field("depth_channel"))
-                : "";
+  return is_rgb ? " (R where the depth is stored as grey)" : "";
 }
 
 ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& parts,
@@ -136,8 +135,8 @@ ChannelName choose_depth(const std::string& path, const std::vector<PartInfo>& p
   }
   if (best.empty()) {
     fail(ErrorKind::input,
-         "{}: no depth: no channel is called Z or depth (a Z beside X and Y is a vector). Give "
-         "{} FILE or {} NAME{}. It has: {}{}",
+         "{}: no depth: no channel is called Z or depth (a Z beside X and Y is a vector). Name "
+         "its file with {}, or its channel with {}{}. It has: {}{}",
          path, field("depth"), field("depth_channel"), about_grey(names), channel_listing(names),
          with_stop(about_mist(names)));
   }

@@ -73,16 +73,18 @@ void note_focus(const Lens& lens, const DepthReport& report, std::vector<std::st
                               "nothing there is sharp; is the unit right?"));
 }
 
+void note_small_coc(const Lens& lens, double largest_px, std::vector<std::string>& notes) {
+  if (lens.aperture_diameter_mm == 0 || largest_px >= smallest_seen_px) return;
+  notes.push_back(
+      fmt::format("all CoC radii are below half a pixel, the largest is {:.3g} px: nothing is "
+                  "blurred visibly",
+                  largest_px));
+}
+
 void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int display_width,
               std::vector<std::string>& notes) {
   if (lens.aperture_diameter_mm == 0 || coc_quanta.empty()) return;
-  const double largest = largest_coc(coc_quanta) * static_cast<double>(px_per_quantum);
-  if (largest < smallest_seen_px) {
-    notes.push_back(
-        fmt::format("all CoC radii are below half a pixel, the largest is {:.3g} px: nothing is "
-                    "blurred visibly",
-                    largest));
-  }
+  note_small_coc(lens, largest_coc(coc_quanta) * static_cast<double>(px_per_quantum), notes);
   const double limit = huge_radius * display_width;
   const auto huge = std::count_if(coc_quanta.begin(), coc_quanta.end(), [&](std::int32_t q) {
     return std::abs(static_cast<double>(q)) * static_cast<double>(px_per_quantum) > limit;

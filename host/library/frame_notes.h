@@ -19,6 +19,9 @@ void note_depth(const DepthPlane& depth, const DepthSettings& settings, const De
 /// On a focus outside all depths.
 void note_focus(const Lens& lens, const DepthReport& report, std::vector<std::string>& notes);
 
+/// On CoCs of which the largest is too small to be seen, unless it is a pinhole's.
+void note_small_coc(const Lens& lens, double largest_px, std::vector<std::string>& notes);
+
 /// On CoCs that are too small to be seen, or larger than anything but a mistake makes them.
 void note_coc(const Lens& lens, std::span<const std::int32_t> coc_quanta, int display_width,
               std::vector<std::string>& notes);

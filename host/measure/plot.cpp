@@ -185,7 +185,7 @@ int Chart::ink(const cv::Rect& place) const {
   return place.area() - cv::countNonZero(free);
 }
 
-/// At that corner of the point where it covers least.
+/// At that corner of the point where it covers least, or above or below that.
 void Chart::draw_label(const PlotPoint& point) {
   if (point.label.empty()) return;
   const double scale = 0.45;
@@ -193,8 +193,12 @@ void Chart::draw_label(const PlotPoint& point) {
   const cv::Point at = position(point);
   const int right = at.x + 8, left = at.x - 8 - size.width;
   const int above = at.y - 6 - size.height, below = at.y + 6;
-  const std::vector<cv::Rect> places = {
-      {{right, above}, size}, {{left, above}, size}, {{right, below}, size}, {{left, below}, size}};
+  std::vector<cv::Rect> places;
+  for (int off = 0; off < 3 * (size.height + 4); off += size.height + 4) {
+    for (const int y : {above - off, below + off}) {
+      for (const int x : {right, left}) places.push_back({{x, y}, size});
+    }
+  }
   const cv::Rect place =
       *std::min_element(places.begin(), places.end(),
                         [this](const cv::Rect& a, const cv::Rect& b) { return ink(a) < ink(b); });

@@ -55,7 +55,7 @@ class PlyBody {
   void read_row(const PlyElement& element, std::uint64_t index, std::vector<double>& row) {
     row.clear();
     const auto next = [&](PlyType type) {
-      const double value = format_ == PlyFormat::ascii ? word(element, index) : binary(type);
+      const double value = format_ == PlyFormat::ascii ? word(element) : binary(type);
       if (!file_) {
         fail(ErrorKind::input, "{}: ends within element '{}', at {} of {}: it is cut off", path_,
              element.name, index, element.count);
@@ -98,16 +98,26 @@ class PlyBody {
   }
 
   /// By strtod, which reads nan and inf where a stream does not.
-  double word(const PlyElement& element, std::uint64_t index) {
+  double word(const PlyElement& element) {
     std::string text;
     if (!(file_ >> text)) return 0;
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (*end != '\0') {
-      fail(ErrorKind::input, "{}: has '{}' where a number should be, in element '{}', at {} of {}",
-           path_, text.substr(0, 40), element.name, index, element.count);
+      fail(ErrorKind::input, "{}: line {} has '{}' where a number of element '{}' should be", path_,
+           line(), text.substr(0, 40), element.name);
     }
     return value;
+  }
+
+  /// Of the file, counted from 1, that reading has come to.
+  std::ptrdiff_t line() {
+    file_.clear();  // the file may end there
+    const std::streamoff read = file_.tellg();
+    file_.seekg(0);
+    std::string text(static_cast<std::size_t>(read), '\0');
+    file_.read(text.data(), read);
+    return 1 + std::count(text.begin(), text.end(), '\n');
   }
 
   std::istream& file_;

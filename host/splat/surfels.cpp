@@ -75,9 +75,12 @@ void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t
     if (points[i].spacing > 0) known.push_back(points[i].spacing);
   }
   if (known.empty()) {
+    const std::size_t lost = given_cloud.positions.size() - kept.size();
     fail(ErrorKind::input,
-         "the cloud's {} all lie in one place, and say nothing of their size: give them a radius",
-         points.size() == 1 ? "points (one)" : "points");
+         "the cloud's points ({}{}) all lie in one place, and say nothing of their size: give them "
+         "a radius",
+         points.size() == 1 ? "one" : std::to_string(points.size()),
+         lost == 0 ? "" : fmt::format("; {} without a finite place are left out", lost));
   }
   if (without > 0) {
     out.notes.push_back(

@@ -56,8 +56,9 @@ void compare(const Result& own, const Result& best, Finding& f) {
   std::sort(ratios.begin(), ratios.end());
   f.low = ratios[pairs / 4];
   f.high = ratios[pairs - 1 - pairs / 4];
-  f.is_adopted =
-      best.shape != own.shape && pairs >= least_runs && f.gain() >= least_gain && f.high < 1;
+  const bool is_faster = best.shape != own.shape && f.gain() >= least_gain;
+  f.is_adopted = is_faster && pairs >= least_runs && f.high < 1;
+  if (is_faster && pairs < least_runs) f.runs_missing = least_runs - pairs;
 }
 
 }  // namespace

@@ -57,6 +57,8 @@ struct Finding {
   double low = 1, high = 1;  ///< Quartiles of best / own: pairs of runs.
   std::size_t tried = 0;     ///< Work-groups.
   bool is_adopted = false;   ///< Best is used instead of own.
+  /// Of best and own before best, which seems faster, may be used; 0: enough, or it is not.
+  std::size_t runs_missing = 0;
 
   double gain() const { return 1 - best_ms / own_ms; }
 };

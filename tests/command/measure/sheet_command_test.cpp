@@ -9,7 +9,8 @@ TEST(Sheet, ShowsAPartLargeAndBright) {
   const Folder folder;
   write_picture_file(folder, "a.exr", {"R", "G", "B"});
   write_picture_file(folder, "b.exr", {"B", "R", "G"});
-  expect_ok(defray(folder, "sheet a.exr b.exr -o plain.png"));
+  EXPECT_EQ(defray(folder, "sheet a.exr b.exr -o plain.png").out, "plain.png\n");
+  EXPECT_EQ(defray(folder, "sheet a.exr b.exr -o plain.png -q").out, "");
   expect_ok(defray(folder, "sheet a.exr b.exr -o part.png --crop 8x6+2+0 --zoom 3"));
   expect_ok(defray(folder, "sheet a.exr b.exr -o bright.png --exposure 2"));
   const LdrPicture part = read_ldr(folder / "part.png", Content::data);

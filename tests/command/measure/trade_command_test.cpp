@@ -40,6 +40,19 @@ class TradeCommand : public testing::Test {
   }
 };
 
+/// Terminated when there is a picture, it leaves what was there.
+TEST_F(TradeCommand, InterruptedItChangesNothing) {
+  std::filesystem::create_directories(folder / "tmp");
+  std::filesystem::create_directories(folder / "t");
+  std::ofstream(folder / "t/preview.png") << "old";
+  shell(folder, "TMPDIR=\"$PWD/tmp\" " + program() + " trade pinhole.exr -o t --runs 1000" + lens +
+                    "& job=$!; for i in $(seq 200); do sleep 0.1; "
+                    "ls tmp/defray-trade-*/preview.png >/dev/null 2>&1 && break; done; "
+                    "kill $job; wait $job");
+  EXPECT_EQ(std::filesystem::file_size(folder / "t/preview.png"), 3u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "t"), {}), 1);
+}
+
 TEST_F(TradeCommand, WithoutATruthErrorsAreExpected) {
   const Result result = defray(folder, "trade pinhole.exr -o t --json" + lens);  // 3 runs
   ASSERT_EQ(result.code, 0) << result.err;
@@ -293,6 +306,22 @@ TEST(Trade, RecommendsTheFastestThatWillDo) {
   EXPECT_EQ(recommended({}), "preview");
   trade.points[1] = {"unknown", "", 0.5, 0, {}, {}};
   EXPECT_EQ(recommended(1), "preview");
+}
+
+TEST(Trade, PlotsTheFrontInTheOrderOfTimeAndATargetAlone) {
+  Trade trade{"in.exr", "device", false, {}, 0, ""};
+  trade.points = {point("preview", 1, 30), point("high", 4, 41), point("normal", 3, 40, 39),
+                  point("target", 2, 30)};
+  trade.points[3].is_target = true;
+  const Plot plot = cli::plot_of(trade);
+  ASSERT_EQ(plot.series.size(), 3u);
+  std::string joined;
+  for (const PlotPoint& p : plot.series[0].points) joined += p.label + " ";
+  EXPECT_TRUE(plot.series[0].lines);
+  EXPECT_EQ(joined, "preview normal high ");
+  EXPECT_EQ(plot.series[1].points.size(), 1u);
+  EXPECT_FALSE(plot.series[2].lines);
+  EXPECT_EQ(plot.series[2].points[0].label, "target");
 }
 
 }  // namespace

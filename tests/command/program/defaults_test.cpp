@@ -52,7 +52,10 @@ TEST(Defaults, OfScenesAreThoseThatHelpStates) {
   for (const std::string file : {"/pinhole.exr", "/truth_bg.exr"}) {
     EXPECT_EQ(file_hash(folder / ("brief" + file)), file_hash(folder / ("whole" + file))) << file;
   }
-  expect_ok(defray(folder, "scene points -o large --truth-samples 1 --pinhole-samples 1"));
+  const Result quiet =
+      defray(folder, "scene points -o large --truth-samples 1 --pinhole-samples 1 --quiet");
+  expect_ok(quiet);
+  EXPECT_EQ(quiet.out + quiet.err, "");
   const ImageFile large = ImageFile::read(folder / "large/pinhole.exr");
   EXPECT_EQ(large.parts()[0].data.width, 640);
   EXPECT_EQ(large.parts()[0].data.height, 480);

@@ -171,6 +171,13 @@ TEST(Help, ShowsUnitsDefaultsAndExamples) {
        {"--focus", "mm", "px", "Examples", "default 9", "default 512", "Units"}) {
     EXPECT_NE(render.out.find(word), std::string::npos) << word << "\n" << render.out;
   }
+  for (const std::string command : {"compare", "sheet", "scene", "validate", "psf", "trade"}) {
+    const std::string help = defray(folder, command + " --help").out;
+    EXPECT_NE(help.find("; default "), std::string::npos) << help;
+    for (const char* other : {"TEXT=", "INT=", "FLOAT=", "default []"}) {
+      EXPECT_EQ(help.find(other), std::string::npos) << command << ": " << other;
+    }
+  }
   EXPECT_EQ(defray(folder, "--version").code, 0);
   EXPECT_EQ(defray(folder, "").code, 2);
 }

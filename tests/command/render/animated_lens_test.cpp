@@ -173,6 +173,32 @@ TEST_F(Sequences, ACameraFileAFrame) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "p.0001.exr"));
 }
 
+/// Of a camera file a frame, too; each JSON line has all.
+TEST_F(Sequences, ANoteIsSaidOnce) {
+  for (int i = 1; i <= 3; ++i) {
+    std::ofstream(folder_ / fmt::format("camera.000{}.json", i))
+        << R"({"focal_length_mm": 50, "f_stop": 2, "focus_distance_m": 4, "colour": 1})";
+  }
+  const std::string note = "key 'colour' is not known, and ignored";
+  const auto times_said = [&](const std::string& command) {
+    const std::string text = defray(folder_, command).out;
+    std::size_t count = 0;
+    for (std::size_t at = text.find(note); at != std::string::npos; at = text.find(note, at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  const std::string render = "render s.####.exr -o o.####.exr --camera ";
+  EXPECT_EQ(times_said(render + "camera.####.json"), 1u);
+  EXPECT_EQ(times_said(render + "camera.0001.json"), 1u);
+  EXPECT_EQ(times_said(render + "camera.####.json --json"), 3u);
+  const std::string splat =
+      "splat --model plane --model-points 400 --size 16x16 --frames 1-3 -o o.####.exr --camera ";
+  EXPECT_EQ(times_said(splat + "camera.####.json"), 1u);
+  EXPECT_EQ(times_said(splat + "camera.0001.json"), 1u);
+  EXPECT_EQ(times_said(splat + "camera.####.json --json"), 3u);
+}
+
 TEST_F(Sequences, FocusOnAPlace) {
   const std::string optics = " --fstop 2 --focal-length 50 ";
   for (int i = 1; i <= 3; ++i) {

@@ -128,6 +128,23 @@ TEST_F(ErrorCommand, ATargetsQualityGoesOnFromFrameToFrame) {
             (Qualities{"high", "high", "preview"}));
 }
 
+/// Of an aperture of 0, or where all is in focus: no lens can help what was sampled too little.
+TEST_F(ErrorCommand, ACopyIsCalledOne) {
+  const Plane noise = random_plane({32, 32}, 5), near(1024, 2);
+  ImageFile::from_planes({"R", "G", "B", "Z"}, {noise, noise, noise, near}, 32, 32)
+      .write(folder / "noise.exr");
+  const auto said = [&](const std::string& optics) {
+    return defray(folder, "render noise.exr -o out.exr --focal-length 50 " + optics).out;
+  };
+  const std::string copy = "): a copy, as good as the pinhole picture is sampled\n";
+  for (const std::string optics : {"--focus 3 --aperture-diameter 0", "--focus 2 --fstop 1"}) {
+    const std::string text = said(optics);
+    EXPECT_NE(text.find(copy), std::string::npos) << text;
+    EXPECT_EQ(text.find("of the error"), std::string::npos) << text;
+  }
+  EXPECT_EQ(said("--focus 3 --fstop 0.2").find(copy), std::string::npos);
+}
+
 TEST_F(ErrorCommand, NothingToBeSeenIsSaidSo) {
   const Plane black(64, 0), near(64, 2);
   ImageFile::from_planes({"R", "G", "B", "Z"}, {black, black, black, near}, 8, 8)

@@ -65,7 +65,7 @@ FrameOutcome outcome() {
 
 std::string text_of(const FrameOutcome& o) {
   testing::internal::CaptureStdout();
-  print_text(o, "device");
+  print_text(o, cli::notes_of(o.report), "device");
   std::fflush(stdout);
   return testing::internal::GetCapturedStdout();
 }

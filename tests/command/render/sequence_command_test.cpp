@@ -1,4 +1,5 @@
 // defray render over sequences: frames found, skipped, failed, reported.
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -88,9 +89,25 @@ TEST(Sequence, AFrameThatIsMissingCanBeLeftOut) {
   const Folder folder;
   write_picture_file(folder, "s.0001.exr", {"R", "G", "B", "Z"});
   expect_refusal(defray(folder, "render s.####.exr -o a.####.exr --frames 1-2 -q" + lens), 3,
-                 {"s.0002.exr: no such file; --skip-bad-frames leaves such frames out\n"}, "two");
+                 {"s.0002.exr: no such file: 1 of 2 frames have no picture; --skip-bad-frames "
+                  "leaves them out\n"},
+                 "two");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.0001.exr"));
   expect_refusal(defray(folder, "render s.####.exr -o a.####.exr --frames 2" + lens), 3,
                  {"s.0002.exr: no such file\n"}, "one");
+  std::ofstream(folder / "s.0003.exr") << "no picture";
+  expect_refusal(defray(folder, "render s.####.exr -o a.####.exr --frames 1,3 -q" + lens), 3,
+                 {"s.0003.exr: ", "; --skip-bad-frames leaves such frames out\n"}, "damaged");
+  for (const char* name : {"s.0003.exr", "a.0001.exr"}) std::filesystem::remove(folder / name);
+  write_picture_file(folder, "s.0002.exr", {"R", "G", "B"});
+  write_picture_file(folder, "z.0002.exr", {"Z"});
+  const std::string with_depth = "render s.####.exr -o a.####.exr --depth z.####.exr";
+  expect_refusal(defray(folder, with_depth + lens), 3,
+                 {"z.0001.exr: no such file: 1 of 2 frames have no depth; --skip-bad-frames"},
+                 "depth");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.0002.exr"));
+  EXPECT_EQ(defray(folder, with_depth + " --skip-bad-frames" + lens).code, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.0002.exr"));
 }
 
 TEST(Sequence, AFrameThatCannotBeWrittenEndsTheRunAfterThoseBeforeIt) {

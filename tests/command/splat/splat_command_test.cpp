@@ -56,14 +56,38 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   expect_ok(text);
   EXPECT_NE(text.out.find("2000 points drawn as "), std::string::npos) << text.out;
   const std::string nothing = "nothing of the cloud is in the picture: see --from, --look-at";
-  for (const std::string flag : {"--json ", "--depth "}) {
-    const Result away =
-        defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + flag + wide_lens);
-    EXPECT_EQ(away.err, "defray: note: o.exr: " + nothing + "\n");
-  }
-  EXPECT_EQ(render("--from 0,0,9 --look-at 0,0,20 " + wide_lens)["notes"], json::array({nothing}));
+  const Result away =
+      defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + wide_lens);
+  EXPECT_NE(away.out.find("  note: " + nothing + "\n"), std::string::npos) << away.out;
+  EXPECT_EQ(away.err, "");
+  EXPECT_EQ(render("--from 0,0,9 --look-at 0,0,20 --aperture-diameter 500")["notes"],
+            json::array({nothing}));
   EXPECT_TRUE(sharp["notes"].empty() && sharp["fragments"].is_number_integer());
   EXPECT_TRUE(sharp["render_s"] > 0.0 && sharp["stages_s"]["resolve"] >= 0.0);
+}
+
+/// In the words of render.
+TEST_F(SplatCommand, TheReportSaysWhatTheLensIs) {
+  const auto said = [&](const std::string& optics) {
+    const Result result = defray(folder_, figure + "-o o.exr " + optics);
+    expect_ok(result);
+    return result.out;
+  };
+  const std::string narrow = said("--fstop 2.8 --focus 3 --sensor-width 24 --unit 10");
+  EXPECT_NE(narrow.find("  lens 50 mm, aperture 17.8571 mm (f/2.8), sensor 24 mm, focus 3 units of "
+                        "10 m\n"),
+            std::string::npos)
+      << narrow;
+  EXPECT_NE(narrow.find("  note: all CoC radii are below half a pixel, the largest is 0."),
+            std::string::npos)
+      << narrow;
+  const std::string wide = said("--aperture-diameter 5000");
+  EXPECT_NE(wide.find("  note: f-number 0.01 is ten times off any real one (0.7 to 64): is it "
+                      "right?\n"),
+            std::string::npos)
+      << wide;
+  EXPECT_EQ(wide.find("half a pixel"), std::string::npos) << wide;
+  EXPECT_EQ(said("--aperture-diameter 0").find("note:"), std::string::npos);
 }
 
 TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
@@ -74,11 +98,11 @@ TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
   points.close();
   const Result result = defray(folder_, inside);
   expect_ok(result);
-  EXPECT_NE(result.err.find("note: o.exr: 100 % of what is before the camera is seen from behind"),
+  EXPECT_NE(result.out.find("  note: 100 % of what is before the camera is seen from behind"),
             std::string::npos)
-      << result.err;
-  EXPECT_EQ(defray(folder_, inside + "--two-sided").err, "");
-  EXPECT_EQ(defray(folder_, inside + "-q").err, "");
+      << result.out;
+  EXPECT_EQ(defray(folder_, inside + "--two-sided").out.find("behind"), std::string::npos);
+  EXPECT_EQ(defray(folder_, inside + "-q").out, "");
   const json report = render(wide_lens);
   EXPECT_GT(report["from_behind"], 0.2);
   EXPECT_LT(report["from_behind"], 0.8);
@@ -93,6 +117,7 @@ TEST_F(SplatCommand, FilesAreRead) {
   expect_ok(result);
   EXPECT_NE(result.err.find("note: p.xyz: 1 of 401 points have no finite place"),
             std::string::npos);
+  EXPECT_EQ(defray(folder_, "splat p.xyz -q -o o.exr --size 48x32 " + wide_lens).err, "");
   const ImageFile file = ImageFile::read(folder_ / "o.exr");
   EXPECT_GT(file.plane(0, 3)[16 * 48 + 24], 0.95f);
   // Seen from behind, too: estimated normals have no outside.

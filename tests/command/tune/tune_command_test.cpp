@@ -33,13 +33,13 @@ class TuneCommand : public testing::Test {
     return folder / ("cache/defray/" + std::filesystem::path(path).filename().string());
   }
   /// As if a tuner had found it.
-  void keep(const std::string& frame_class, const std::string& kernel) const {
+  void keep(const std::string& frame_class, const std::string& kernel, std::size_t runs = 5) const {
     const tuning::Place place{frame_class, "a picture", kernel};
     const tuning::Validity correct = tuning::Validity::correct;
-    tuning::add(
-        file(), tuning::key_of(device_under_test()), device_under_test().max_work_group,
-        {{place, tuning::own_shape(kernel, device_under_test().is_gpu()), correct, {9, 9, 9, 9, 9}},
-         {place, {2, 2}, correct, {5, 5, 5, 5, 5}}});
+    tuning::add(file(), tuning::key_of(device_under_test()), device_under_test().max_work_group,
+                {{place, tuning::own_shape(kernel, device_under_test().is_gpu()), correct,
+                  std::vector<double>(runs, 9)},
+                 {place, {2, 2}, correct, std::vector<double>(runs, 5)}});
   }
   void expect_refused(const std::string& arguments, int code,
                       const std::vector<std::string>& words) {
@@ -127,6 +127,32 @@ TEST_F(TuneCommand, IsUsedByRenderAndSplatUnlessRefused) {
       "--focal-length 50";
   EXPECT_EQ(parsed(cloud)["tuned"], json{"splat_resolve=2x2"});
   EXPECT_EQ(parsed(cloud + " --no-tuning")["tuned"], json::array());
+}
+
+/// What a short budget leaves unsure.
+TEST_F(TuneCommand, WhatNeedsMoreRunsIsSaid) {
+  const std::string line = " more run";
+  keep("small narrow", "fill");
+  EXPECT_EQ(run("tune --show").out.find(line), std::string::npos);
+  EXPECT_EQ(parsed("tune --show")["kernels"][0]["runs_missing"], 0);
+  keep("small narrow", "split", 4);
+  std::string said = run("tune --show").out;
+  EXPECT_NE(said.find("\n  1 of the best is not used yet: up to 1 more run is needed to be sure; "
+                      "'defray tune' again, or a larger --budget, goes on from here\n"),
+            std::string::npos)
+      << said;
+  keep("small wide", "split", 2);
+  said = run("tune --show").out;
+  EXPECT_NE(said.find("  2 of the best are not used yet: up to 3 more runs are needed to be sure"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(parsed("tune --show")["kernels"][2]["runs_missing"], 3);
+  parsed(linear + "--budget 0.01s -o report");
+  std::ifstream table(folder / "report/tuning.csv");
+  const std::string rows(std::istreambuf_iterator<char>(table), {});
+  for (const char* use : {",yes\n", ",no: 1 run is missing\n", ",no: 3 runs are missing\n"}) {
+    EXPECT_NE(rows.find(use), std::string::npos) << use << "\n" << rows;
+  }
 }
 
 TEST_F(TuneCommand, ADamagedFileIsOneNote) {

@@ -42,7 +42,9 @@ TEST_F(ValidateCommand, WritesBothReportsAndPasses) {
   const Result result = defray(folder, two_kernels);
   expect_ok(result);
   EXPECT_TRUE(contains(result.out, "PASS  rdb_merge")) << result.out;
-  EXPECT_TRUE(contains(result.out, "report/report.html\nreport/report.json\n")) << result.out;
+  EXPECT_TRUE(contains(result.out, "report/report.html\nreport/report.json\n2 of 2 checks pass, "))
+      << result.out;
+  EXPECT_TRUE(result.out.ends_with(" cases\n")) << result.out;
   EXPECT_TRUE(contains(text_of("report/report.html"), " checks pass, "));
   const json all = report();
   EXPECT_EQ(all["level"], "quick");
@@ -101,6 +103,7 @@ TEST_F(ValidateCommand, JsonPrintsTheReportAlone) {
   expect_ok(result);
   EXPECT_EQ(result.out, text_of("report/report.json"));
   EXPECT_EQ(result.err, "");
+  EXPECT_EQ(defray(folder, two_kernels + "-q --case 13x7,ties").out, "");
 }
 
 TEST_F(ValidateCommand, FastArithmeticsReportAgreesWithItsExitCode) {
@@ -108,6 +111,7 @@ TEST_F(ValidateCommand, FastArithmeticsReportAgreesWithItsExitCode) {
   const json device = report()["devices"][0];
   EXPECT_EQ(device["math"], "fast");
   EXPECT_EQ(result.code, device["passed"] ? 0 : 1);
+  EXPECT_EQ(contains(result.out, " of 2 checks FAIL, "), result.code == 1) << result.out;
   bool all_pass = true;
   for (const json& kernel : device["kernels"]) {
     const bool passed = kernel["passed"];

@@ -60,9 +60,12 @@ TEST(Channels, OtherNamesOfDepth) {
 }
 
 TEST(Channels, AVectorsZIsNoDepth) {
-  expect_error(ErrorKind::input, {"no depth", "N.Z", "depth_channel"}, [] {
-    depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})});
-  });
+  expect_error(
+      ErrorKind::input,
+      {"no depth", "N.Z", "Name its file with depth, or its channel with depth_channel. It has"},
+      [] {
+        depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z"})});
+      });
   EXPECT_EQ(depth({part({"R", "G", "B", "N.X", "N.Y", "N.Z", "Z"})}), "Z");
 }
 

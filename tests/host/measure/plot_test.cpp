@@ -191,6 +191,14 @@ TEST(Plot, LabelsKeepClearOfEachOtherAndOfTheBorder) {
   const LdrPicture both = drawn(plot), unlabelled = drawn(plot_of({{0, 0}, {5, 5}, {10, 10}}));
   EXPECT_GT(changed(both, unlabelled, x + 8, y - 20, x + 50, y), 20);
   EXPECT_GT(changed(both, unlabelled, x - 50, y - 20, x - 8, y), 20);
+  // So are those of more than four at one place.
+  std::vector<PlotPoint> points{{0, 0}, {5, 5, "label"}, {10, 10}};
+  const int one = changed(drawn(plot_of(points)), unlabelled, 0, 0, 1000, 640);
+  for (int i = 0; i < 5; ++i) {
+    const LdrPicture before = drawn(plot_of(points));
+    points.push_back({5, 5, "label"});
+    EXPECT_GE(changed(drawn(plot_of(points)), before, 0, 0, 1000, 640), one) << i;
+  }
   // A line is not written over: its point's label goes to the other side.
   plot = plot_of({{0, 0}, {5, 5, "one"}, {10, 10}});
   plot.series[0].lines = true;

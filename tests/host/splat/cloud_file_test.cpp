@@ -173,7 +173,9 @@ TEST_F(CloudFile, WhatIsWrongIsSaid) {
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "1 2 3 4.0000 5\n",
                "ends within element 'vertex', at 1 of 2");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "1 two 3\n",
-               "has 'two' where a number should be, in element 'vertex', at 0 of 1");
+               "line 8 has 'two' where a number of element 'vertex' should be");
+  expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "1 2 3\n4 5 6\n7 8 9x",
+               "line 10 has '9x' where a number of element 'vertex' should be");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\n" + xyz + "1 2 3\n4 5 6\n",
                "goes on after the 1 rows of element 'vertex': its header is wrong");
   const std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 1\n" + xyz;

@@ -208,7 +208,14 @@ TEST(Surfels, WhatItRefuses) {
   PointCloud nowhere = slope(1);
   nowhere.positions[0][2] = NAN;
   refused(nowhere, ErrorKind::input, "no points with a finite place");
-  refused(slope(1), ErrorKind::input, "give them a radius");
+  refused(slope(1), ErrorKind::input,
+          "the cloud's points (one) all lie in one place, and say nothing of their size: give them "
+          "a radius");
+  PointCloud lost = slope(2);
+  lost.positions[0][0] = NAN;
+  lost.positions[1][1] = lost.positions[3][2] = INFINITY;
+  refused(lost, ErrorKind::input,
+          "the cloud's points (one; 3 without a finite place are left out) all lie in one place");
   PointCloud sized = slope(1);
   sized.radii = {1};
   EXPECT_EQ(make_surfels(sized).points.size(), 1u);

@@ -194,6 +194,11 @@ TEST(Findings, AreUsedOnlyWhereTheyAreSure) {
   EXPECT_TRUE(found({10, 10, 10, 10, 10}, {9.7, 9.7, 9.7, 9.7, 9.7}).is_adopted);
   EXPECT_FALSE(found({10, 10, 10, 10, 10}, {9.8, 9.8, 9.8, 9.8, 9.8}).is_adopted);  // too little
   EXPECT_FALSE(found({10, 10, 10, 10}, {8, 8, 8, 8}).is_adopted);                   // too few
+  EXPECT_EQ(found({10, 10, 10, 10}, {8, 8, 8, 8}).runs_missing, 1u);
+  EXPECT_EQ(found({10, 10, 10, 10, 10}, {8}).runs_missing, 4u);
+  EXPECT_EQ(found({10, 10, 10, 10, 10}, {8, 8, 8, 8, 8}).runs_missing, 0u);
+  EXPECT_EQ(found({10}, {9.8}).runs_missing, 0u) << "nothing to be sure of";
+  EXPECT_EQ(found({10}, {11}).runs_missing, 0u) << "own is best";
   // Shorter at its shortest, slower in two of five pairs.
   EXPECT_FALSE(found({10, 10, 10, 10, 10}, {8, 8, 8, 11, 11}).is_adopted);
   EXPECT_FALSE(found({10, 10, 10, 10, 10}, {11, 11, 11, 11, 11}).is_adopted);  // own is best
