@@ -37,6 +37,14 @@ float coverage_of(const Colour& c, const Colour& f, const Colour& b, float varia
   return saw_front ? 1 - (1 - mean) * fit : mean * fit;
 }
 
+/// The same of what is in focus: less the more variances and what stays unexplained amount to.
+float coverage_in_focus(const Colour& c, const Colour& f, const Colour& b, float variance) {
+  const auto [along, length2, share, misfit2] = Fit(c, f, b);
+  const float all2 = length2 + (4 * variance + 64 * misfit2);
+  if (!std::isfinite(along) || !std::isfinite(all2) || all2 == 0) return 1;
+  return 1 - (1 - share) * length2 / all2;
+}
+
 /// `best` behind F, unless another explains C twice as well.
 Colour best_behind(const Colour& c, const Colour& f, Colour best,
                    std::initializer_list<Colour> others) {
@@ -176,7 +184,17 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     float share = saw_front ? 1 : 0;
     if (found) share = coverage_of(c, found->colour, b, variance, saw_front);
     if (saw_front) {
-      if (!is_thin && std::abs(nearest) < DEFRAY_SMALL_QUANTA) return;
+      if (!is_thin && std::abs(nearest) < DEFRAY_SMALL_QUANTA) {
+        const int far = tame(behind.coc_quanta[pixel]);
+        if (std::abs(far) < 512) return;
+        const auto beyond = splitter.pure(at, far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
+        if (beyond) {
+          const Colour closest = colour_at(f.channels, beyond->source);
+          b = best_behind(c, found->colour, b, {closest, beyond->colour});
+        }
+        share = coverage_in_focus(c, found->colour, b,
+                                  found->variance + (beyond ? beyond->variance : 0));
+      }
       if (share > 1 - 0.03f) return;
       front.coverage[pixel] = stored(std::max(share, 0.25f));
       set_colour(front.channels, pixel, rest_of(c, b, 1 - share_of(front.coverage[pixel])));

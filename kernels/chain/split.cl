@@ -6,8 +6,7 @@
 // the pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha
 // counts like a colour). What the two colours do not explain goes to the surface that the depth
 // sample saw, so that both together still give C; but what lies behind gets no colour beyond C, B
-// and those of its pure pixels nearby. The edge pixels of what is in focus stay as they are, but
-// for thin things: before a lamp they would be dark dots. Where something thin crosses a lamp its
+// and those of its pure pixels nearby. Where something thin crosses a lamp its
 // own colours are those that the lamp does not light, and a pixel whose depth is its has the lamp
 // behind it.
 //
@@ -36,6 +35,15 @@
 #define NOISE 2.0f
 #define LEAST_NOISE 1e-3f
 #define MOST_NOISE 3e-2f
+// Of what is in focus an edge is sharp, and so is whatever shows through there, unless it is taken
+// apart: where what lies behind is blurred by at least 2 px, and as far as both surfaces'
+// variances, and what their colours do not explain, so many times, are small beside the difference
+// of the two. (480x300; as before, then 2 and 4, 4 and 16, 4 and 64, 16 and 16 times:
+// plate1 41.27, 42.51, 42.48, 42.48, 42.33 dB; garden post 34.74, 35.07, 35.06, 35.01, 35.01; fence
+// fence 40.12, 39.97, 40.15, 40.18, 40.22; from no blur on: lines at 96x72 -0.5 dB.)
+#define IN_FOCUS_LEAST_BLUR 512
+#define IN_FOCUS_NOISE 4.0f
+#define IN_FOCUS_MISFIT 64.0f
 
 // A surface in one pixel.
 typedef struct {
@@ -79,6 +87,15 @@ float coverage_of(const float4 c, const float4 f, const float4 b, const float va
   const float mean = (fit.share * fit.length2 + likely * unsure) / all2;
   const float explained = all2 / (all2 + fit.misfit2);
   return saw_front ? 1.0f - (1.0f - mean) * explained : mean * explained;
+}
+
+// As coverage_of, of what is in focus.
+float coverage_in_focus(const float4 c, const float4 f, const float4 b, const float variance) {
+  const Fit fit = fit_of(c, f, b);
+  const float unsure = IN_FOCUS_NOISE * variance + IN_FOCUS_MISFIT * fit.misfit2;
+  const float all2 = fit.length2 + unsure;
+  if (!isfinite(fit.along) || !isfinite(all2) || all2 == 0.0f) return 1.0f;
+  return 1.0f - (1.0f - fit.share) * fit.length2 / all2;
 }
 
 // Of what may lie behind F, what explains C: what was made up, unless another comes twice as near.
@@ -183,9 +200,20 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const float share =
       f.is_found ? coverage_of(c, f.colour, b, variance, saw_front) : (saw_front ? 1.0f : 0.0f);
   if (saw_front) {
-    if (!best.is_thin && abs(best.nearest) < DEFRAY_SMALL_QUANTA) return;
-    if (share > 1.0f - LEAST_COVERAGE) return;
-    front->coverage = stored(fmax(share, LEAST_OF_FRONT));
+    float covers = share;
+    if (!best.is_thin && abs(best.nearest) < DEFRAY_SMALL_QUANTA) {
+      const int far = tame(behind->coc);
+      if (abs(far) < IN_FOCUS_LEAST_BLUR) return;
+      const Nearby beyond = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
+                                        far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
+      if (beyond.is_found) {
+        const float4 nearest = colour_at(CHANNELS(channel), beyond.source);
+        b = best_behind(c, f.colour, b, nearest, beyond.colour);
+      }
+      covers = coverage_in_focus(c, f.colour, b, f.variance + beyond.variance);
+    }
+    if (covers > 1.0f - LEAST_COVERAGE) return;
+    front->coverage = stored(fmax(covers, LEAST_OF_FRONT));
     front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);
   } else if (share < LEAST_COVERAGE) {
     behind->inverse = -1.0f;

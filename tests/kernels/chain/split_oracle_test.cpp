@@ -95,7 +95,9 @@ Pure pure_around(const Canvas& f, const Words& mixed, int x, int y, const IsOfIt
 struct Around {
   int nearest = 1 << 30, farthest = -(1 << 30);
   bool saw_front;
-  Pure front, seen;
+  Pure front, seen;  ///< Of the surface that the depth sample saw; in focus, of what lies beyond.
+
+  bool is_in_focus() const { return saw_front && std::abs(nearest) < 256; }
 };
 
 Around around(const Canvas& f, const Words& mixed, int x, int y) {
@@ -147,6 +149,17 @@ double sought_share(const Colour& c, const Around& a, const Colour& behind) {
   return a.saw_front ? 1 - (1 - drawn) * fit : drawn * fit;
 }
 
+/// The same in focus: drawn to 1 as the surfaces' colours vary, and as both leave C unexplained.
+double sought_share_in_focus(const Colour& c, const Around& a, const Colour& behind) {
+  const auto mixed = [&](double s) { return mixture(s, a.front.mean, behind); };
+  const double share = lowest([&](double s) { return distance2(mixed(s), c); });
+  const double variance = a.front.variance + (a.seen.weights > 0 ? a.seen.variance : 0);
+  const double contrast = distance2(a.front.mean, behind);
+  const double unsure = 4 * variance + 64 * distance2(mixed(share), c);
+  return lowest(
+      [&](double s) { return contrast * (s - share) * (s - share) + unsure * (s - 1) * (s - 1); });
+}
+
 /// What lies behind, of which the pixel is a mixture: what `fill` found or, where the depth sample
 /// saw it and it comes twice as near, the nearest pure pixel of its surface, or their mean.
 Colour sought_behind(const Colour& c, const Around& a, const Colour& made_up) {
@@ -180,39 +193,46 @@ std::vector<Colour> known_behind(const Canvas& f, const Words& mixed, const Fram
 
 /// What became of mixed pixels.
 struct Counts {
-  int fronts = 0, behinds = 0, wholes = 0;
+  int fronts = 0, behinds = 0, in_focus = 0, wholes = 0;
 };
 
 void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, const Parted& s, int x,
                   int y, Counts& counts) {
   const std::size_t i = f.at(x, y);
-  const Around a = around(f, mixed, x, y);
+  Around a = around(f, mixed, x, y);
   const bool saw_front = a.saw_front;
+  if (a.is_in_focus()) {
+    a.seen = pure_around(f, mixed, x, y, [&](int coc) {
+      return std::abs(coc - filled.coc_quanta[i]) <= DEFRAY_JUMP_QUANTA;
+    });
+  }
   // Two surfaces, both in pure pixels.
   if (a.front.weights == 0 ||
       (!saw_front && std::abs(filled.coc_quanta[i] - f.coc[i]) > DEFRAY_JUMP_QUANTA))
     return;
   const Colour c = colour_of(f.view().channels, i);
   Colour made_up = colour_of(filled.channels, i);
-  if (!saw_front) made_up = sought_behind(c, a, made_up);
-  const double share = sought_share(c, a, made_up);
+  if (!saw_front || a.is_in_focus()) made_up = sought_behind(c, a, made_up);
+  const double share =
+      a.is_in_focus() ? sought_share_in_focus(c, a, made_up) : sought_share(c, a, made_up);
   if (std::fabs(share - 0.03) < 1e-3 || std::fabs(share - 0.97) < 1e-3) return;
-  const bool is_whole = saw_front ? share > 0.97 || std::abs(a.nearest) < 256 : share < 0.03;
+  const bool is_sharp = a.is_in_focus() && std::abs(filled.coc_quanta[i]) < 512;
+  const bool is_whole = saw_front ? share > 0.97 || is_sharp : share < 0.03;
   const double kept = saw_front ? std::max(share, 0.25) : std::min(share, 0.75);
   const double coverage = s.front.coverage[i] / 65536.0;
   SCOPED_TRACE(testing::Message() << x << " " << y << ", " << share);
   EXPECT_NEAR(coverage, is_whole ? 1 : kept, 1e-4);
   EXPECT_EQ(is_fragment(s.behind.depth[i]), !is_whole || saw_front);
-  const Colour front = colour_of(s.front.channels, i), behind = colour_of(s.behind.channels, i);
+  const Colour front = colour_of(s.front.channels, i);
   if (is_whole) {
     ++counts.wholes;
     EXPECT_LT(distance2(front, c), 1e-12);
     return;
   }
-  (saw_front ? counts.fronts : counts.behinds) += 1;
+  (a.is_in_focus() ? counts.in_focus : saw_front ? counts.fronts : counts.behinds) += 1;
   // What is left for the surface that was seen, once the other has its part; never below 0 nor,
   // behind, beyond the colours that are known of it.
-  Colour rest = mixture(1 / (saw_front ? coverage : 1 - coverage), c, saw_front ? behind : front);
+  Colour rest = mixture(1 / (saw_front ? coverage : 1 - coverage), c, saw_front ? made_up : front);
   for (double& v : rest) v = std::max(v, 0.0);
   if (!saw_front) {
     const std::vector<Colour> known = known_behind(f, mixed, filled, x, y);
@@ -222,7 +242,7 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
       rest[k] = std::clamp(rest[k], (*low)[k], (*high)[k]);
     }
   }
-  EXPECT_LT(distance2(saw_front ? front : behind, rest), 1e-9);
+  EXPECT_LT(distance2(saw_front ? front : colour_of(s.behind.channels, i), rest), 1e-9);
 }
 
 TEST(Split, SharesAreThoseASearchFinds) {
@@ -239,6 +259,7 @@ TEST(Split, SharesAreThoseASearchFinds) {
   }
   EXPECT_GT(counts.fronts, 50);
   EXPECT_GT(counts.behinds, 50);
+  EXPECT_GT(counts.in_focus, 20);
   EXPECT_GT(counts.wholes, 20);
 }
 

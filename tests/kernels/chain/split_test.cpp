@@ -8,7 +8,7 @@
 namespace defray::test::split_test {
 namespace {
 
-constexpr std::int32_t bar_coc = -512;  // an edge in focus would stay as it is
+constexpr std::int32_t bar_coc = -512;
 
 /// A bar over the plane whose edges cover their pixels by `share`; depth sees the bar or the plane.
 Canvas bar_with_mixed_edges(float share, bool saw_front) {
@@ -73,12 +73,44 @@ TEST(Split, WhereThreeSurfacesMeetTheOneThatWasSeenIsTakenApart) {
   }
 }
 
-TEST(Split, AnEdgeInFocusStaysAsItIs) {
-  Canvas f = bar_with_mixed_edges(0.5f, true);
+/// Such a bar in focus, before a plane of this CoC.
+Canvas sharp_bar(float share, std::int32_t coc_behind) {
+  Canvas f = bar_with_mixed_edges(share, true);
+  std::fill(f.coc.begin(), f.coc.end(), coc_behind);
   f.add_bar(24, 36, 255);
+  return f;
+}
+
+TEST(Split, AnEdgeInFocusIsTakenApartWhereTwoColoursExplainIt) {
+  for (const float share : {0.5f, 0.8f}) {
+    const Canvas f = sharp_bar(share, 1536);
+    const Parted surfaces = f.parted();
+    for (int y = 0; y < f.height; ++y) {
+      for (const int x : {24, 35}) {
+        const std::size_t i = f.at(x, y);
+        EXPECT_NEAR(surfaces.front.coverage[i] / 65536.0, share, 1e-3);
+        EXPECT_NEAR(surfaces.front.channels[0][i], 2.0f, 1e-2f);  // the bar's own colour
+      }
+    }
+  }
+}
+
+TEST(Split, AnEdgeInFocusStaysAsItIsBeforeWhatIsNearlySharp) {
+  const Canvas f = sharp_bar(0.5f, 511);
   const auto [front, behind] = f.parted();
   for (std::size_t c = 0; c < 3; ++c) expect_same_bits(front.channels[c], f.channels[c]);
   for (std::size_t i = 0; i < f.count(); ++i) EXPECT_EQ(front.coverage[i], DEFRAY_WHOLE);
+}
+
+TEST(Split, AnEdgeInFocusStaysAsItIsBeforeTexture) {
+  Canvas f = sharp_bar(0.5f, 1536);
+  const Plane noise = random_plane({60, 20}, 7);
+  f.each([&](int x, int y) {
+    const float v = noise[f.at(x, y)];
+    if (x < 24 || x > 35) f.paint(x, y, 2 * v, 1.5f * v, v);
+  });
+  const auto [front, behind] = f.parted();
+  for (int y = 0; y < f.height; ++y) EXPECT_GT(front.coverage[f.at(24, y)], 0.9 * DEFRAY_WHOLE);
 }
 
 TEST(Split, WithoutAStepNothingChanges) {
