@@ -63,6 +63,12 @@
 #define DEFRAY_FILL_CELL 4
 /// A tile for which `fill` has nothing to do: nearer than every CoC.
 #define DEFRAY_NOTHING_BEHIND (-0x7fffffff)
+/// A surface that lies farther by less than this part of how much the one in front is blurred does
+/// not show behind it for `fill`: all that does is a rim, so much narrower than its own blur, but
+/// what is made up is one layer, and would lack the surfaces beyond (bars that cross, blurred by
+/// 350 px before a sharp wall, left dark squares there). Up to 48 px of blur any surface shows that
+/// is parted at all.
+#define DEFRAY_FILL_BLUR_TO_RISE 64
 /// So many of the first pixels of what `fill` meets may be mixed.
 #define DEFRAY_FILL_MIXED 3
 /// Beyond the first pure one it looks at so many pixels, each so many further on than the last: at

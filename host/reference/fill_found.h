@@ -95,6 +95,11 @@ class Filler {
   /// How far the lens sees past the edge of a surface in front of one this much farther.
   static int reach(int step) { return step / 256 + 2; }
 
+  /// From how much farther on a surface shows behind one of the CoC `own`.
+  static int least_rise(int own) {
+    return std::max(DEFRAY_JUMP_QUANTA, std::abs(own) / DEFRAY_FILL_BLUR_TO_RISE);
+  }
+
   std::optional<Found> look_along(const Way& way, int own) const {
     int before = own;
     for (int t = 1, step = 1; t <= reach(farthest_ - own); t += step) {
@@ -102,13 +107,13 @@ class Filler {
       if (!frame_.contains(at)) return std::nullopt;
       const int coc = frame_.coc(at);
       const bool is_jump = coc - before > DEFRAY_JUMP_QUANTA * step;
-      if (is_jump && coc - own > DEFRAY_JUMP_QUANTA && t <= reach(coc - own) &&
+      if (is_jump && coc - own > least_rise(own) && t <= reach(coc - own) &&
           passes_mixed(way, t - step, t)) {
         for (int i = t; i <= t + DEFRAY_FILL_MIXED; ++i) {
           const Place further = way.after(i);
           if (!frame_.contains(further)) return std::nullopt;
           const bool is_pure = !is_mixed(frame_.index(further));
-          if (is_pure && frame_.coc(further) - own > DEFRAY_JUMP_QUANTA) {
+          if (is_pure && frame_.coc(further) - own > least_rise(own)) {
             return continued(way, i, own);
           }
         }

@@ -145,6 +145,25 @@ TEST(Fill, NothingLiesBehindTheFarthestOrBesideItself) {
 
 /// The lens sees all of what rises by more than a pixel a pixel; only from the bar on, or from
 /// pixels beside it, is it behind something.
+TEST(Fill, WhatIsHardlyFartherThanItsBlurDoesNotHideTheWallBeyond) {
+  // A post before a rail that is blurred by 3 px less: behind where they cross the rail, which
+  // shows for 3 px at most, or the wall. At 300 px of blur the wall, at 30 px the rail.
+  for (const int blur_px : {30, 300}) {
+    Canvas f(60, 40);
+    std::fill(f.coc.begin(), f.coc.end(), 0);
+    const auto add = [&](int x0, int x1, int y0, int y1, int coc, float inverse) {
+      for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) f.coc[f.at(x, y)] = coc, f.inverse[f.at(x, y)] = inverse;
+      }
+    };
+    const int rail_coc = (3 - blur_px) * 256;
+    add(0, 60, 16, 24, rail_coc, 1.6f);
+    add(26, 34, 0, 40, -blur_px * 256, 1.7f);
+    const Frame behind = f.filled();
+    EXPECT_EQ(behind.coc_quanta[f.at(27, 20)], blur_px == 30 ? rail_coc : 0) << blur_px;
+  }
+}
+
 TEST(Fill, ASteepSlopeLiesBehindABarAlone) {
   Canvas f(120, 20);
   f.each([&](int x, int y) { f.coc[f.at(x, y)] = 300 * x; });
