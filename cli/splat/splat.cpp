@@ -67,7 +67,6 @@ void check_place(const SplatCommand& job, const SplatShot& shot) {
 int run(const SplatCommand& job) {
   check_output_format(job.output);
   const std::vector<SplatShot> shots = shots_of(job);
-  for (const std::string& note : shots.front().camera.notes) print_error("defray: note: " + note);
   const auto is_left = [&](const SplatShot& shot) { return is_skipped(job, shot); };
   if (std::all_of(shots.begin(), shots.end(), is_left)) {
     for (const SplatShot& shot : shots) print_skipped(job, shot);

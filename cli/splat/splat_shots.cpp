@@ -8,6 +8,7 @@
 #include "base/vec3.h"
 #include "image/sequence.h"
 #include "lens/camera.h"
+#include "options/camera_file.h"
 #include "options/lens_rows.h"
 
 namespace defray::cli {
@@ -69,6 +70,7 @@ SplatShot shot_of(const SplatCommand& job, std::optional<int> frame) {
   const std::string file = frame ? frame_path(job.camera_file, *frame) : job.camera_file;
   shot.camera =
       read_camera_json(file, job.focus_setting, job.metres_per_unit).overridden_by(shot.camera);
+  for (std::string& note : shot.camera.notes) note = beside_render(note);
   shot.stated = read_camera_pose(file, job.metres_per_unit);
   return shot;
 }

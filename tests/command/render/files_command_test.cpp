@@ -112,7 +112,7 @@ TEST_F(Files, AGreyPictureIsNotItsOwnDepth) {
   write_picture_file(folder_, "grey.exr", {"Y"});
   write_picture_file(folder_, "ya.exr", {"Y", "A"});
   for (const std::string name : {"grey.exr", "ya.exr"}) {
-    expect_refused(name + " -o none.exr", 3, {name + ": no depth", "--depth FILE"});
+    expect_refused(name + " -o none.exr", 3, {name + ": no depth", "with --depth, or"});
     const Result info = defray(folder_, "info " + name);
     expect_ok(info);
     EXPECT_NE(info.out.find("no depth: give it with --depth FILE"), std::string::npos) << info.out;
