@@ -41,7 +41,8 @@ if [ -n "$name" ]; then
 fi
 step "Testing"
 code=0
-ctest --test-dir "$folder" --progress --output-on-failure --parallel "$(nproc)" "${which[@]}" \
+# One more than cores: a test waits now and then, for files, processes and threads of its own.
+ctest --test-dir "$folder" --progress --output-on-failure --parallel $(($(nproc) + 1)) "${which[@]}" \
   "${rest[@]}" || code=$?
 count() { cat "$folder"/results/*.json 2>/dev/null | grep -c "$1" || true; }
 echo "Of $(count '"status": "RUN"') tests $(count '"failures": \[') failed and" \

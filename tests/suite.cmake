@@ -87,7 +87,7 @@ endforeach()
 # validate's rehearsal there finds what Mesa has compiled for these.
 set_tests_properties(readme_perf PROPERTIES DEPENDS "rusticl;validate_all")
 # The installed library, as a user's project finds and uses it.
-add_check(library 20 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
+add_check(library 45 both bash ${here}/library/library_test.sh ${PROJECT_BINARY_DIR}
           ${PROJECT_SOURCE_DIR} ${CMAKE_CXX_COMPILER})
 add_check(demo 20 full bash ${here}/demo_test.sh ${PROJECT_BINARY_DIR})
 add_check(build 1 both bash ${here}/build_test.sh)
