@@ -4,37 +4,17 @@
 
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <limits>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "expectations.h"
+
 namespace {
 
 using defray::Device;
 using defray::ErrorKind;
-
-int failures = 0;
-
-void expect(bool is_true, const std::string& what) {
-  if (is_true) return;
-  std::fprintf(stderr, "not so: %s\n", what.c_str());
-  ++failures;
-}
-
-/// `call` throws an Error of this kind, whose message has all of `part`.
-void expect_error(ErrorKind kind, const std::string& part, const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const defray::Error& error) {
-    const std::string message = error.what();
-    expect(error.kind() == kind && message.find(part) != std::string::npos,
-           "'" + message + "' says '" + part + "'");
-    return;
-  }
-  expect(false, "an error that says '" + part + "'");
-}
 
 /// A ramp of colour in front of a far wall, with a near square.
 struct Scene {

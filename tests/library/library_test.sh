@@ -61,7 +61,7 @@ done
 grep -iE '/(CL|fmt|nlohmann|OpenImageIO|opencv[^/]*|Imath|kernels)/' included &&
   complain "its headers bring others"
 
-mkdir user && cp "$here"/{api.cpp,CMakeLists.txt} user
+mkdir user && cp "$here"/{api.cpp,expectations.h,CMakeLists.txt} user
 cmake -S user -B user/build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$cxx" >cmake.log
 cmake --build user/build >build.log || { cat build.log; complain "find_package"; }
 [ "$(pkg-config --modversion defray)" = "$version" ] || complain "pkg-config has another version"
