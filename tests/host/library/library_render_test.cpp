@@ -57,6 +57,14 @@ TEST(LibraryRender, TiltshiftsBandStaysSharpAndTheRestFollowsItsBlur) {
   EXPECT_EQ(rendered(memory, options).colour, memory.colour);
 }
 
+TEST(LibraryRender, TheSecondOfTwoPlanesIsAlphaAndStaysOpaqueWhereLampsAre) {
+  Memory grey;
+  Plane light = grey.colour[0];
+  for (std::size_t i = 5; i < light.size(); i += 97) light[i] = 100;
+  grey.colour = {light, Plane(light.size(), 1.0f)};
+  for (const float alpha : rendered(grey).colour[1]) EXPECT_NEAR(alpha, 1, 1e-5f);
+}
+
 TEST(LibraryRender, TheLensKnowsWhereInTheFrameThePictureLies) {
   Options options;
   options.chain->aperture.cats_eye = 1;
