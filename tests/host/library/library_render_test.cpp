@@ -62,7 +62,8 @@ TEST(LibraryRender, TheSecondOfTwoPlanesIsAlphaAndStaysOpaqueWhereLampsAre) {
   Plane light = grey.colour[0];
   for (std::size_t i = 5; i < light.size(); i += 97) light[i] = 100;
   grey.colour = {light, Plane(light.size(), 1.0f)};
-  for (const float alpha : rendered(grey).colour[1]) EXPECT_NEAR(alpha, 1, 1e-5f);
+  const RenderResult some = rendered(grey);
+  for (const float alpha : some.colour[1]) EXPECT_NEAR(alpha, 1, 1e-5f);
 }
 
 TEST(LibraryRender, TheLensKnowsWhereInTheFrameThePictureLies) {
