@@ -14,6 +14,7 @@
 #include "defray/defray.h"
 #include "end_on_signals.h"
 #include "exit_code.h"
+#include "help.h"
 #include "options/option_table.h"
 #include "standard_streams.h"
 #include "usage_error.h"
@@ -32,7 +33,7 @@ constexpr const char* examples = R"(Examples:
   defray render 'shot.####.exr' -o 'out/shot.####.exr' --frames 1-8 --camera camera.json
   defray devices
 
-'defray COMMAND --help' explains a command.
+'defray help COMMAND' explains a command.
 Exit codes: 0 done; 1 some frames failed, a bound or target was missed, or a kernel failed; 2 wrong usage;
 3 bad input; 4 output not written; 5 no OpenCL device or an OpenCL error; 70 a bug in defray;
 130, 143 interrupted, terminated.)";
@@ -82,6 +83,7 @@ void put_defaults_into_texts(CLI::App& app) {
 
 int run_command(int argc, char** argv) {
   CLI::App app{what_it_is, "defray"};
+  app.formatter(help_format());  // before the commands, which take it over
   app.footer(examples);
   app.set_version_flag("--version", std::string("defray ") + version());
   app.option_defaults()->always_capture_default();
@@ -93,7 +95,7 @@ int run_command(int argc, char** argv) {
   }
   put_defaults_into_texts(app);
   try {
-    app.parse(argc, argv);
+    app.parse(arguments_of(argc, argv, app));
   } catch (const CLI::CallForHelp& help) {
     return print_and_end(app, help);
   } catch (const CLI::CallForVersion& version) {
