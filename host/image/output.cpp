@@ -103,6 +103,7 @@ void check_output_format(const std::string& path) {
 }
 
 void check_bits(const std::string& path, Bits bits) {
+  require_named("bits", bits, Bits::single);
   if (bits == Bits::as_input) return;
   const bool is_float = bits == Bits::half || bits == Bits::single;
   const std::string allowed = is_exr(path)        ? "half float"

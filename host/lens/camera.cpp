@@ -172,6 +172,7 @@ Lens make_lens(const CameraValues& values, double metres_per_unit, LensModel mod
                double max_coc_px, const Window& display) {
   refuse_missing(values);
   refuse_doubled(values);
+  if (values.fit) require_named("fit", *values.fit, SensorFit::longer);
   refuse_idle_height(values);
   if (values.fstop && !(*values.fstop > 0)) {
     fail(ErrorKind::usage, "f-number is {}: it must be above 0", *values.fstop);

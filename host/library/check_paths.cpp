@@ -40,6 +40,7 @@ void check_outputs(const FramePaths& paths, const RenderSettings& settings) {
   };
   check_output_format(paths.output);
   check_bits(paths.output, settings.bits);
+  if (settings.grow) require_named("grow", *settings.grow, Grow::full);
   check_place(paths.output);
   std::vector<std::string> all{paths.output};
   for (const auto& [name, path] : paths.data_outputs()) {

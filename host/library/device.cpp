@@ -33,6 +33,7 @@ std::vector<DeviceProperties> Device::list() {
 }
 
 Device Device::open(const std::string& name, const DeviceOptions& options) {
+  require_named("math", options.math, Math::fast);
   if (name == "reference") return reference();
   SessionOptions session;
   session.math = options.math;

@@ -58,6 +58,10 @@ TEST(Library, RefusesNumbersThatNothingIsCalled) {
   refuses({"pattern_shifts", "is -1", "1 to 64"}, [](Options& o) { o.chain->pattern_shifts = -1; });
   refuses({"depth.kind", "is 6", "0 to 5"}, [](Options& o) { o.depth.kind = DepthKind{6}; });
   refuses({"nonfinite", "is 3", "0 to 2"}, [](Options& o) { o.nonfinite = Nonfinite{3}; });
+  for (const std::string name : {"", "reference"}) {
+    expect_error(ErrorKind::usage, {"math", "is 2", "0 to 1"},
+                 [&] { Device::open(name, {.math = Math{2}}); });
+  }
 }
 
 TEST(Library, TiltshiftNeedsNoDepth) {
