@@ -103,7 +103,7 @@ set_property(TEST faults_1 faults_2 APPEND PROPERTY ENVIRONMENT POCL_MAX_PTHREAD
 # which many kernels make, nor long comparisons with twins: validate makes them there; nor what the
 # host decides between or within whole renders. In one process: each compiles `fill` for half a minute.
 set(left_out "KernelChecks.BandsHave*:Memory.PassesOfTheRdb*:PatternSearch.LooksAt*:ValidateDevice.WorkGroupsAre*:Nearest.OnlyOnDemand:Session.PlanesStay*:*.SameBitsInBandsOfAnyHeight:*Picture*:Target.*:HighlightDisc*:Alpha*:Lamp*:Chain*:Repair.Is*:Repair.Thin*:Rdb.SameBitsForEveryMemory*")
-set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*:ExpectedError.*:Progress.*:ExtremeSums.MeansOfLight*:KernelChecks.CompareAll*:KernelChecks.ShowWhat*:Fill.BehindA*:RdbGather.*EndOfTheChain:Sparse.*BesideLamps*:Split.SharesAre*)
+set(left_out ${left_out}:RdbScatter.*Equal*:Nearest.*Equal*:Patterns.*Equal*:ExpectedError.*:Progress.*:ExtremeSums.MeansOfLight*:KernelChecks.CompareAll*:KernelChecks.ShowWhat*:Fill.BehindA*:RdbGather.*EndOfTheChain:Sparse.*BesideLamps*:Split.SharesAre*:Patterns.Differences*:Memory.Bands*)
 add_shards(rusticl 1 105 full bash -c
            "env -u DEFRAY_TEST_LONG \"$0\" --gtest_filter=\"\${GTEST_FILTER:-*}-$1\"" $<TARGET_FILE:kernels_tests> "${left_out}")
 set_property(TEST rusticl APPEND PROPERTY ENVIRONMENT "RUSTICL_ENABLE=llvmpipe"
