@@ -61,7 +61,7 @@ TEST(HelpText, IsAsWideAsATerminal) {
     return lines_of(result.out);
   };
   EXPECT_LE(longest(shown("stty cols 72; ", "psf --help")), 72u);
-  EXPECT_LE(longest(shown("stty cols 500; ", "psf --help")), 120u);
+  EXPECT_LE(longest(shown("stty cols 500; ", "scene --help")), 120u);
   // Where nobody looks each option is a line.
   const std::vector<std::string> lines = lines_of(help_of("render --help"));
   EXPECT_GT(longest(lines), 120u);
