@@ -188,6 +188,10 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
         const int far = tame(behind.coc_quanta[pixel]);
         if (std::abs(far) < 512) return;
         const auto beyond = splitter.pure(at, far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
+        if (beyond) {
+          const Colour closest = colour_at(f.channels, beyond->source);
+          b = best_behind(c, found->colour, b, {closest, beyond->colour});
+        }
         share = coverage_in_focus(c, found->colour, b,
                                   found->variance + (beyond ? beyond->variance : 0));
       }

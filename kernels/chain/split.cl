@@ -40,9 +40,7 @@
 // variances, and what their colours do not explain, so many times, are small beside the difference
 // of the two. (480x300; as before, then 2 and 4, 4 and 16, 4 and 64, 16 and 16 times:
 // plate1 41.27, 42.51, 42.48, 42.48, 42.33 dB; garden post 34.74, 35.07, 35.06, 35.01, 35.01; fence
-// fence 40.12, 39.97, 40.15, 40.18, 40.22; from no blur on: lines at 96x72 -0.5 dB. With the best
-// of what may lie behind, as elsewhere: fence fence -0.03, lines -0.05; without its variance: fence
-// fence -0.10, plate1 +0.07.)
+// fence 40.12, 39.97, 40.15, 40.18, 40.22; from no blur on: lines at 96x72 -0.5 dB.)
 #define IN_FOCUS_LEAST_BLUR 512
 #define IN_FOCUS_NOISE 4.0f
 #define IN_FOCUS_MISFIT 64.0f
@@ -208,6 +206,10 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
       if (abs(far) < IN_FOCUS_LEAST_BLUR) return;
       const Nearby beyond = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
                                         far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
+      if (beyond.is_found) {
+        const float4 nearest = colour_at(CHANNELS(channel), beyond.source);
+        b = best_behind(c, f.colour, b, nearest, beyond.colour);
+      }
       covers = coverage_in_focus(c, f.colour, b, f.variance + beyond.variance);
     }
     if (covers > 1.0f - LEAST_COVERAGE) return;

@@ -212,7 +212,7 @@ void expect_share(const Canvas& f, const Words& mixed, const Frame& filled, cons
     return;
   const Colour c = colour_of(f.view().channels, i);
   Colour made_up = colour_of(filled.channels, i);
-  if (!saw_front) made_up = sought_behind(c, a, made_up);
+  if (!saw_front || a.is_in_focus()) made_up = sought_behind(c, a, made_up);
   const double share =
       a.is_in_focus() ? sought_share_in_focus(c, a, made_up) : sought_share(c, a, made_up);
   if (std::fabs(share - 0.03) < 1e-3 || std::fabs(share - 0.97) < 1e-3) return;
