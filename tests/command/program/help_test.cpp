@@ -2,8 +2,8 @@
 #include "help.h"
 
 #include <algorithm>
+#include <sstream>
 
-#include "base/text.h"
 #include "command/program.h"
 
 namespace defray::test::help_test {
