@@ -22,9 +22,11 @@ if [ -n "$full" ]; then
   echo "All tests, sanitizers, simulator, second OpenCL implementation, faults and fuzzers included."
   export DEFRAY_TEST_LONG=1
   which=(-L 'full|both')
+  parallel=$(nproc)
 else
   echo "Every kernel, nearly every option, message and documented command (--full: all there is)."
   which=(-L 'quick|both')
+  parallel=$(($(nproc) + 1))  # a test waits now and then, for files, processes and threads of its own
 fi
 step() { echo "[$((SECONDS - begin)) s] $1"; }
 step "Building"
@@ -39,11 +41,38 @@ if [ -n "$name" ]; then
   export GTEST_FILTER="*$name*"
   which+=(-L gtest)
 fi
+# What runs for ten minutes, beyond the tests' programs: what a test that ran out of time waited for.
+note_long_ones() {
+  while sleep 60; do
+    ps -eo pid,ppid,stat,wchan:24,etimes,args | awk '$5 > 600' | grep -F "$folder" | cut -c1-200 \
+      >"$folder/long-ones.now" || continue
+    mv "$folder/long-ones.now" "$folder/long-ones"
+  done
+}
+# The ends of what failed tests said.
+show_ends() {
+  awk '/^[0-9]+\/[0-9]+ Testing: / { name = $3 }
+       /^Output:$/ { count = 0; next }
+       /^<end of output>/ { end = count }
+       { lines[count++] = substr($0, 1, 200) }
+       /^Test Failed\./ {
+         print "-- " name
+         for (i = end > 6 ? end - 6 : 1; i < end; ++i) print lines[i]
+       }' "$folder/Testing/Temporary/LastTest.log"
+}
 step "Testing"
+rm -f "$folder"/long-ones*
+note_long_ones >/dev/null 2>&1 &
+noting=$!
+trap 'kill $noting 2>/dev/null || true' EXIT
 code=0
-# One more than cores: a test waits now and then, for files, processes and threads of its own.
-ctest --test-dir "$folder" --progress --output-on-failure --parallel $(($(nproc) + 1)) "${which[@]}" \
-  "${rest[@]}" || code=$?
+ctest --test-dir "$folder" --progress --output-on-failure --parallel "$parallel" \
+  --repeat after-timeout:2 "${which[@]}" "${rest[@]}" || code=$?
+if [ $code -ne 0 ]; then
+  echo "The ends of failed tests:"
+  show_ends
+  if [ -s "$folder/long-ones" ]; then echo "Ran for ten minutes:" && cat "$folder/long-ones"; fi
+fi
 count() { cat "$folder"/results/*.json 2>/dev/null | grep -c "$1" || true; }
 echo "Of $(count '"status": "RUN"') tests $(count '"failures": \[') failed and" \
   "$(count '"result": "SKIPPED"') were skipped${full:+ for what is not installed here}."

@@ -13,7 +13,7 @@ function(add_shards name count cost label)
     add_test(NAME ${test} COMMAND ${ARGN})
     set_tests_properties(
       ${test}
-      PROPERTIES LABELS "gtest;${label}" COST ${cost} TIMEOUT 1200
+      PROPERTIES LABELS "gtest;${label}" COST ${cost} TIMEOUT 900
                  ENVIRONMENT
                  "GTEST_TOTAL_SHARDS=${count};GTEST_SHARD_INDEX=${index};GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/results/${test}.json"
     )
@@ -28,7 +28,7 @@ endfunction()
 # add_check(NAME COST LABEL COMMAND...)
 function(add_check name cost label)
   add_test(NAME ${name} COMMAND ${ARGN})
-  set_tests_properties(${name} PROPERTIES LABELS "check;${label}" COST ${cost} TIMEOUT 1200)
+  set_tests_properties(${name} PROPERTIES LABELS "check;${label}" COST ${cost} TIMEOUT 900)
 endfunction()
 
 # Left to --full: what takes seconds and looks again at what other tests look at, at more of it or in
