@@ -18,12 +18,14 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 # Left out what only costs time there, and runs without instruments: cold kernel caches, damaged
 # files once more (host_tests reads them too), twins with jitter beside those without; and the real
 # window, whose toolkit leaks; a limit of memory, which sanitizers go beyond; Blender; commands that compile kernels for each of many settings, or
-# run in processes of their own, one after the other. Long
-# tests run where DEFRAY_TEST_LONG is set: for coverage.
+# run in processes of their own, one after the other; and of commands those that take longest and
+# reach no function that no other does. Long tests run where DEFRAY_TEST_LONG is set: for coverage.
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
 left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup:Windows.AFrameTooLarge*
+left_out+=:Render.EveryOption*:Render.LensFromMetadata*:Render.ReportsWhat*:TradeCommand.ATruthTells*
+left_out+=:Defaults.OfRender*:MethodCommand.MethodsAnd*:TunerAtWork.TriesAShape*
 perf=PerfCommand.*:ReportCommand.*
 if [ "$name" = rest ]; then
   longer=Arithmetic.*:$perf:Rdb.Huge*:ChainMemory.IsNoMore*:*EqualsTwin*:*EqualTwins*

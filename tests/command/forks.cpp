@@ -7,6 +7,7 @@
 #include <wordexp.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -39,6 +40,8 @@ void end_here(int status, void*) {
 }
 
 [[noreturn]] void run_here(const Command& command) {
+  setpgid(0, 0);
+  alarm(most_seconds);
   if (chdir(command.folder.c_str()) != 0) _exit(127);
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect(command.out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
@@ -104,6 +107,10 @@ void load_implementations() {
     }
     int status = 127 << 8;
     if (child > 0) waitpid(child, &status, 0);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+      kill(-child, SIGKILL);
+      std::ofstream(command.err, std::ios::app) << "ended: it took " << most_seconds << " s\n";
+    }
     if (write(to, &status, sizeof status) != sizeof status) break;
   }
   _exit(0);

@@ -28,8 +28,9 @@ std::string program() {
 
 Result shell(const Folder& folder, const std::string& command) {
   const Folder logs;
-  const std::string line = "cd '" + folder.path() + "' && { " + command + "; } >'" +
-                           (logs / "out") + "' 2>'" + (logs / "err") + "' </dev/null";
+  std::ofstream(logs / "command") << "cd '" << folder.path() << "' && { " << command << "; }";
+  const std::string line = fmt::format("timeout -v -k 5 {} sh '{}' >'{}' 2>'{}' </dev/null",
+                                       most_seconds, logs / "command", logs / "out", logs / "err");
   const int code = code_of(std::system(line.c_str()));
   return {code, text_of(logs / "out"), text_of(logs / "err")};
 }
