@@ -11,13 +11,12 @@ inline float falloff(float power) {
   const float exponent = power * -1.44269504f;
   const auto whole = static_cast<std::int32_t>(exponent - 0.5f);
   const float x = exponent - static_cast<float>(whole);  // -1/2 to 1/2
-  const float mantissa =
-      (((((1.53533619e-4f * x + 1.33988744e-3f) * x + 9.61843736e-3f) * x + 5.55033247e-2f) * x +
-        0.240226479f) *
-           x +
-       0.693147203f) *
-          x +
-      1.0f;
+  // Pairs of terms, which do not wait for each other.
+  const float x2 = x * x;
+  const float high =
+      (1.53533619e-4f * x + 1.33988744e-3f) * x2 + (9.61843736e-3f * x + 5.55033247e-2f);
+  const float low = (0.240226479f * x2 + 0.693147203f * x) + 1.0f;
+  const float mantissa = high * (x2 * x) + low;
   return mantissa * std::bit_cast<float>((whole + 127) << 23);
 }
 

@@ -1,4 +1,5 @@
 // Kernel `splat_resolve`.
+#include "base/parallel.h"
 #include "device/device_backend.h"
 #include "opencl/launch_table.h"
 #include "splat/splats.h"
@@ -20,9 +21,15 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
   const std::uint32_t tiles_y = (params.height + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
   const std::size_t pixels = std::size_t{params.width} * params.height;
   std::array<Values<float>, 6> planes;
+  // Vectors from the start, where the device works in them: room would have to be copied to some.
+  const bool in_place = session_.works_in_host_memory();
+  if (in_place) parallel_for(6, [&](int i) { planes[size(i)] = Values<float>(pixels); });
+  const auto out = [&](Values<float>& plane) {
+    return in_place ? session_.in_out(plane) : session_.out(plane, pixels);
+  };
   std::array<cl::Buffer, 4> colour;
-  for (std::size_t c = 0; c < 4; ++c) colour[c] = session_.out(planes[c], pixels);
-  const cl::Buffer depth = session_.out(planes[4], pixels), count = session_.out(planes[5], pixels);
+  for (std::size_t c = 0; c < 4; ++c) colour[c] = out(planes[c]);
+  const cl::Buffer depth = out(planes[4]), count = out(planes[5]);
   const cl::Buffer in = session_.in(splats);
   const auto counts = splats_a_tile(splats, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
   const std::size_t most = std::min(list_bytes, session_.memory_bytes()) / sizeof(std::uint32_t);
@@ -37,11 +44,11 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
     tile += tiles.tile_count;
     if (progress) progress(static_cast<double>(tile) / static_cast<double>(counts.size()));
   }
-  SplatPlanes out;
-  for (std::size_t c = 0; c < 4; ++c) out.colour.push_back(std::move(planes[c]).take());
-  out.depth = std::move(planes[4]).take();
-  out.fragments = std::move(planes[5]).take();
-  return out;
+  SplatPlanes made;
+  for (std::size_t c = 0; c < 4; ++c) made.colour.push_back(std::move(planes[c]).take());
+  made.depth = std::move(planes[4]).take();
+  made.fragments = std::move(planes[5]).take();
+  return made;
 }
 
 }  // namespace defray

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -88,7 +89,10 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   describe(splats, params, report);
   done("order");
   SplatPlanes planes = backend.splat_resolve(splats, params, progress);
-  for (const float count : planes.fragments) report.fragments += static_cast<double>(count);
+  const float* const counts = planes.fragments.data();
+  report.fragments += parallel_sum(planes.fragments.size(), [&](std::size_t i, std::size_t end) {
+    return std::accumulate(counts + i, counts + end, 0.0);
+  });
   done("resolve");
   return planes;
 }

@@ -32,13 +32,12 @@ INLINED float16 falloff(const float16 power) {
   const float16 exponent = power * -1.44269504f;
   const int16 whole = convert_int16(exponent - 0.5f);
   const float16 x = exponent - convert_float16(whole);  // -1/2 to 1/2
-  const float16 mantissa =
-      (((((1.53533619e-4f * x + 1.33988744e-3f) * x + 9.61843736e-3f) * x + 5.55033247e-2f) * x +
-        0.240226479f) *
-           x +
-       0.693147203f) *
-          x +
-      1.0f;
+  // Pairs of terms, which do not wait for each other.
+  const float16 x2 = x * x;
+  const float16 high =
+      (1.53533619e-4f * x + 1.33988744e-3f) * x2 + (9.61843736e-3f * x + 5.55033247e-2f);
+  const float16 low = (0.240226479f * x2 + 0.693147203f * x) + 1.0f;
+  const float16 mantissa = high * (x2 * x) + low;
   return mantissa * as_float16((whole + 127) << 23);
 }
 
@@ -75,7 +74,6 @@ INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, co
 INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
                        const bool averages) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
-  if (!any_lane(hits)) return;
   const int16 begins = hits & (s->z_near > r->far);
   if (any_lane(begins)) end_layer(r, begins, averages);
   const int16 joins = hits & ~r->opaque;
@@ -89,6 +87,21 @@ INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16
   r->far = select(r->far, fmax(r->far, s->z_far), joins);
   if (s->a > 0.0f) r->depth = select(r->depth, fmin(r->depth, s->z), joins);
   r->count -= joins;
+}
+
+// Where in the list the next splat is that has pixels in a row.
+INLINED uint next_in_row(__global const DefraySplat* splats, __global const uint* list, uint i,
+                         const uint end, const int y) {
+  while (i < end && (y < splats[list[i]].first_y || y >= splats[list[i]].end_y)) ++i;
+  return i;
+}
+
+// splat_weight in the pixels of a run that are the splat's.
+INLINED float16 weight_in_run(__global const DefraySplat* s, const int16 column,
+                              const float16 centres, const float y, const DefraySplatTileParams p) {
+  const int16 inside = (column >= s->first_x) & (column < s->end_x);
+  const float16 weight = splat_weight(s, centres - s->x, y - s->y, p);
+  return select((float16)(0.0f), weight, inside);
 }
 
 __kernel void splat_resolve(const DefraySplatTileParams p, __global const DefraySplat* splats,
@@ -110,13 +123,20 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   r.opaque = 0;
   const int16 column = (int)x + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const float16 centres = convert_float16(column) + 0.5f;
-  for (uint i = first[get_global_id(0)]; i < first[get_global_id(0) + 1]; ++i) {
+  const float middle = (float)y + 0.5f;
+  const uint end = first[get_global_id(0) + 1];
+  uint i = next_in_row(splats, list, first[get_global_id(0)], end, (int)y);
+  while (i < end && !all_lanes(r.opaque)) {
+    // Two at a time: neither's weights wait for the other's.
+    const uint j = next_in_row(splats, list, i + 1, end, (int)y);
     __global const DefraySplat* s = splats + list[i];
-    if ((int)y < s->first_y || (int)y >= s->end_y) continue;
-    const int16 inside = (column >= s->first_x) & (column < s->end_x);
-    const float16 weight = splat_weight(s, centres - s->x, (float)y + 0.5f - s->y, p);
-    add_splat(&r, s, select((float16)(0.0f), weight, inside), p.averages);
-    if (all_lanes(r.opaque)) break;
+    __global const DefraySplat* next = splats + list[j < end ? j : i];
+    const float16 weight = weight_in_run(s, column, centres, middle, p);
+    const float16 next_weight = weight_in_run(next, column, centres, middle, p);
+    add_splat(&r, s, weight, p.averages);
+    if (j >= end) break;
+    add_splat(&r, next, next_weight, p.averages);
+    i = next_in_row(splats, list, j + 1, end, (int)y);
   }
   end_layer(&r, ~r.opaque, p.averages);
 

@@ -214,6 +214,11 @@ const FaultRows faults{
      {"tile / p.tiles_x * DEFRAY_SPLAT_TILE + (uint)get_global_id(1)",
       "tile / p.tiles_x * DEFRAY_SPLAT_TILE"}},
     {"splat_resolve",
+     "every second splat forgotten",
+     {"add_splat(&r, next, next_weight, p.averages);", ""}},
+    {"splat_resolve", "the second is the first", {"list[j < end ? j : i]", "list[i]"}},
+    {"splat_resolve", "every second splat twice", {"list, j + 1, end", "list, j, end"}},
+    {"splat_resolve",
      "opaque pixels go on",
      {"r->opaque |= where & (1.0f - r->sum3 < DEFRAY_SPLAT_OPAQUE);", ""}},
 };
