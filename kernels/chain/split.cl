@@ -196,24 +196,24 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
       b = best_behind(c, f.colour, b, colour_at(CHANNELS(channel), seen.source), seen.colour);
     }
   }
-  const float variance = saw_front ? f.variance : f.variance + seen.variance;
-  const float share =
-      f.is_found ? coverage_of(c, f.colour, b, variance, saw_front) : (saw_front ? 1.0f : 0.0f);
-  if (saw_front) {
-    float covers = share;
-    if (!best.is_thin && abs(best.nearest) < DEFRAY_SMALL_QUANTA) {
-      const int far = tame(behind->coc);
-      if (abs(far) < IN_FOCUS_LEAST_BLUR) return;
-      const Nearby beyond = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
-                                        far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
-      if (beyond.is_found) {
-        const float4 nearest = colour_at(CHANNELS(channel), beyond.source);
-        b = best_behind(c, f.colour, b, nearest, beyond.colour);
-      }
-      covers = coverage_in_focus(c, f.colour, b, f.variance + beyond.variance);
+  float share = saw_front ? 1.0f : 0.0f;
+  if (saw_front && !best.is_thin && abs(best.nearest) < DEFRAY_SMALL_QUANTA) {  // in focus
+    const int far = tame(behind->coc);
+    if (abs(far) < IN_FOCUS_LEAST_BLUR) return;
+    const Nearby beyond = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at,
+                                      far - DEFRAY_JUMP_QUANTA, far + DEFRAY_JUMP_QUANTA);
+    if (beyond.is_found) {
+      const float4 nearest = colour_at(CHANNELS(channel), beyond.source);
+      b = best_behind(c, f.colour, b, nearest, beyond.colour);
     }
-    if (covers > 1.0f - LEAST_COVERAGE) return;
-    front->coverage = stored(fmax(covers, LEAST_OF_FRONT));
+    share = coverage_in_focus(c, f.colour, b, f.variance + beyond.variance);
+  } else if (f.is_found) {
+    const float variance = saw_front ? f.variance : f.variance + seen.variance;
+    share = coverage_of(c, f.colour, b, variance, saw_front);
+  }
+  if (saw_front) {
+    if (share > 1.0f - LEAST_COVERAGE) return;
+    front->coverage = stored(fmax(share, LEAST_OF_FRONT));
     front->colour = rest_of(c, b, 1.0f - (float)front->coverage * 0x1p-16f);
   } else if (share < LEAST_COVERAGE) {
     behind->inverse = -1.0f;
