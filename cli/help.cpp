@@ -75,7 +75,7 @@ std::shared_ptr<CLI::Formatter> help_format() {
 std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& app) {
   std::vector<std::string> all(argv + std::min(argc, 1), argv + argc);
   if (!all.empty() && all.front() == "help") {
-    all.erase(all.begin());
+    while (!all.empty() && all.front() == "help") all.erase(all.begin());
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
     const bool is_known =
         all.empty() || std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {

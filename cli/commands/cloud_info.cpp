@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "defray/splat.h"
 #include "options/shell_quoted.h"
+#include "splat/view.h"
 
 namespace defray::cli {
 namespace {
@@ -39,10 +40,7 @@ struct Bounds {
 /// width; in a unit in which the lens is not in the midst of it.
 std::string command_for(const std::string& path, double radius) {
   const Lens lens;
-  const SplatSettings s;
-  const double focal_px = s.width * lens.focal_length_mm / lens.sensor_width_mm;
-  const double half_side = std::min(s.width, s.height) / 2.0;
-  const double distance = 1.1 * radius * std::hypot(focal_px, half_side) / half_side;
+  const double distance = framing_distance(radius, lens, {});
   const double focal_m = lens.focal_length_mm / 1000;
   double metres = 1;
   while (radius > 0 && distance * metres < 10 * focal_m) metres *= 10;

@@ -121,14 +121,10 @@ PointCloud make_point_cloud(const std::string& name, std::size_t points) {
 CameraPose framing_pose(const SplatModel& model, const Lens& lens, const SplatSettings& settings) {
   validate(lens);
   validate(settings);
-  // All of the sphere around the model, with a tenth around it.
-  const double focal = pixel_focal_length(lens, settings.width);
-  const double half_side = std::min(settings.width, settings.height) / 2.0;
-  const double distance = 1.1 * model.radius() * std::hypot(focal, half_side) / half_side;
   CameraPose pose;
   pose.look_at = model.centre();
   pose.from = model.centre();
-  pose.from[2] += distance;
+  pose.from[2] += framing_distance(model.radius(), lens, settings);
   return pose;
 }
 

@@ -106,6 +106,12 @@ DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 
   return p;
 }
 
+double framing_distance(double radius, const Lens& lens, const SplatSettings& settings) {
+  const double focal = pixel_focal_length(lens, settings.width);
+  const double half_side = std::min(settings.width, settings.height) / 2.0;
+  return 1.1 * radius * std::hypot(focal, half_side) / half_side;
+}
+
 double splat_coc_px(const DefraySplatParams& p, double z) {
   const double radius = p.focus_is_infinite ? -static_cast<double>(p.infinite_focus_scale) / z
                                             : static_cast<double>(p.coc_scale_px) *

@@ -14,6 +14,9 @@ void validate(const SplatSettings& settings);
 DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 3>& origin,
                                const Lens& lens, const SplatSettings& settings);
 
+/// How far from its middle a camera sees a sphere of this radius with a tenth around it.
+double framing_distance(double radius, const Lens& lens, const SplatSettings& settings);
+
 /// The kernel's formula, in double. Signed radius at planar depth z > 0, px.
 double splat_coc_px(const DefraySplatParams& params, double z);
 

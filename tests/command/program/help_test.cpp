@@ -45,6 +45,7 @@ TEST(HelpText, LinesBreakAtSpaces) {
 
 TEST(HelpText, OfACommandIsAskedForInBothWays) {
   EXPECT_EQ(help_of("help"), help_of("--help"));
+  EXPECT_EQ(help_of("help help"), help_of("--help"));
   EXPECT_EQ(help_of("help psf"), help_of("psf --help"));
   EXPECT_NE(help_of("help psf"), help_of("help sheet"));
   const Folder folder;
