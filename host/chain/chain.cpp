@@ -20,8 +20,10 @@ class Picture {
 
   /// Rows of the extended frame, with the margin beside them.
   void add(Rows rows, RayResult result) {
-    if (f_.margin == 0 && rows.count() == f_.height) {
+    if (rows.count() == f_.height) {
       out_.colour = std::move(result.means);
+      parallel_for(static_cast<int>(out_.colour.size()),
+                   [&](int c) { crop(out_.colour[size(c)]); });
     } else {
       out_.colour.resize(result.means.size());
       parallel_for(static_cast<int>(result.means.size()),
@@ -60,6 +62,18 @@ class Picture {
   }
 
  private:
+  /// In place: new memory costs more.
+  void crop(Plane& plane) const {
+    if (f_.margin == 0) return;
+    const std::size_t width = size(f_.width - 2 * f_.margin);
+    auto to = plane.begin();
+    for (int y = f_.margin; y < f_.height - f_.margin; ++y) {
+      const auto row = plane.begin() + std::int64_t{y} * f_.width + f_.margin;
+      to = std::copy(row, row + static_cast<std::ptrdiff_t>(width), to);
+    }
+    plane.erase(to, plane.end());
+  }
+
   template <typename T>
   void append(Rows rows, const std::vector<T>& plane, std::vector<T>& out) const {
     const Rows own = of_picture(rows);

@@ -40,7 +40,8 @@ void pad(const Frame& f, const RayPlan& plan, int x, int y, std::size_t surface,
   const std::uint32_t share = f.coverage[surface] & ~DEFRAY_SYNTHESISED;
   const std::uint32_t turn = pcg3d(static_cast<std::uint32_t>(x + plan.origin_x),
                                    static_cast<std::uint32_t>(y + plan.origin_y), 0)[2];
-  if (is_there(f, surface)) out.sending[to] = turn % 65536 + 65536 * (share - 1);
+  if (!is_there(f, surface)) return;
+  out.sending[to] = (share == DEFRAY_WHOLE ? 0 : turn % 65536) + 65536 * (share - 1);
 }
 
 PaddedPlanes padded(const Frame& f, const RayPlan& plan) {

@@ -5,7 +5,8 @@
 //   key       the least CoC radius that a fragment spans (span.clh), 1/256 px; without spans its
 //             own; DEFRAY_NO_KEY where there is no fragment
 //   largest   the largest; if has_spans
-//   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16; if has_coverage
+//   sending   of `sends` in rdb_scatter: turn | (coverage - 1) << 16, no turn where all is covered;
+//             if has_coverage
 //   coverage  as it is; if has_coverage
 //   channels  as they are
 // Global size: (runs of a padded row, or its columns (lanes.clh), padded rows x layers).
@@ -27,15 +28,19 @@
 #include "rdb/rays.clh"
 #include "rdb/span_run.clh"
 
-// Of a run's coverage: what `sends` in rdb_scatter asks for.
+// Of a run's coverage: what `sends` in rdb_scatter asks for. What covers all of a pixel sends to
+// every cell, whatever its turn.
 INLINED ints sending_of(const DefrayRaysParams p, const int x, const int y, const ints share,
                         const ints is_there) {
+  const ints sent = as_ints(as_uints(share - (ints)(1)) << 16) & is_there;
+  const ints takes_turns = is_there & IS(share != (ints)(DEFRAY_WHOLE));
+  if (!any_of(takes_turns)) return sent;
   int turns[LANES];
   for (int i = 0; i < LANES; ++i) {
     const uint2 at = (uint2)((uint)(x + i + p.origin_x), (uint)(y + (int)p.window_y + p.origin_y));
     turns[i] = as_int(pcg3d((uint3)(at, 0u)).z & 0xffffu);
   }
-  return (LOAD(turns) | as_ints(as_uints(share - (ints)(1)) << 16)) & is_there;
+  return sent | (LOAD(turns) & takes_turns);
 }
 
 // Copies a run's values to its place in a padded plane.

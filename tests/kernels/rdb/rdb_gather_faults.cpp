@@ -14,6 +14,8 @@ const FaultRows faults{
      {"covered & (ints)((int)~DEFRAY_SYNTHESISED)", "covered"}},
     {"rdb_pad", "rays follow the data window", {"(uint)(x + i + p.origin_x)", "(uint)(x + i)"}},
     {"rdb_pad", "what is not there", {"sends = own.is_there & IS(share", "sends = IS(share"}},
+    {"rdb_pad", "all send in the same turn", {"sent | (LOAD(turns) & takes_turns)", "sent"}},
+    {"rdb_pad", "what is whole takes turns", {"share != (ints)(DEFRAY_WHOLE)", "share != (ints)(0)"}},
     {"rdb_pad",
      "the margin keeps what was there",
      {"STORE((least & own.is_there)",
