@@ -41,9 +41,13 @@ if [ -n "$name" ]; then
   export GTEST_FILTER="*$name*"
   which+=(-L gtest)
 fi
-# What runs for ten minutes, beyond the tests' programs: what a test that ran out of time waited for.
-note_long_ones() {
+# Once a minute: what the machine has left, and what has run for ten minutes beside the tests' own
+# programs: what a test that ran out of time waited for.
+watch_machine() {
   while sleep 60; do
+    printf '[%d s] load %s, MiB free: %s of memory, %s of disk\n' $((SECONDS - begin)) \
+      "$(cut -d' ' -f1 /proc/loadavg)" "$(awk '/MemAvailable/ { print int($2 / 1024) }' /proc/meminfo)" \
+      "$(df -m --output=avail "$folder" | tail -n 1 | tr -d ' ')" >>"$folder/machine.log"
     ps -eo pid,ppid,stat,wchan:24,etimes,args | awk '$5 > 600' | grep -F "$folder" | cut -c1-200 \
       >"$folder/long-ones.now" || continue
     mv "$folder/long-ones.now" "$folder/long-ones"
@@ -61,10 +65,10 @@ show_ends() {
        }' "$folder/Testing/Temporary/LastTest.log"
 }
 step "Testing"
-rm -f "$folder"/long-ones*
-note_long_ones >/dev/null 2>&1 &
-noting=$!
-trap 'kill $noting 2>/dev/null || true' EXIT
+rm -f "$folder"/long-ones* "$folder/machine.log"
+watch_machine >/dev/null 2>&1 &
+watching=$!
+trap 'kill $watching 2>/dev/null || true' EXIT
 code=0
 ctest --test-dir "$folder" --progress --output-on-failure --parallel "$parallel" \
   --repeat after-timeout:2 "${which[@]}" "${rest[@]}" || code=$?
@@ -72,6 +76,7 @@ if [ $code -ne 0 ]; then
   echo "The ends of failed tests:"
   show_ends
   if [ -s "$folder/long-ones" ]; then echo "Ran for ten minutes:" && cat "$folder/long-ones"; fi
+  if [ -s "$folder/machine.log" ]; then echo "The machine:" && cat "$folder/machine.log"; fi
 fi
 count() { cat "$folder"/results/*.json 2>/dev/null | grep -c "$1" || true; }
 echo "Of $(count '"status": "RUN"') tests $(count '"failures": \[') failed and" \
