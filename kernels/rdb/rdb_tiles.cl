@@ -110,6 +110,8 @@ __kernel void rdb_tiles(const DefrayRaysParams p, __global const int* restrict k
   for (uint layer = 0; layer < p.layers; ++layer) {
     for (int y = y0; y < y1; ++y) {
       const size_t row = padded_layer(p) * layer + padded_at(p, 0, y);
+      // Most rows of layers behind are empty, and so is what lies beside the frame.
+      if (layer > 0u && !any(vload16(0, key + row + x0) != (int16)(DEFRAY_NO_KEY))) continue;
       for (int x = x0; x < x1; ++x) {
         const int quanta = key[row + x];
         if (quanta == DEFRAY_NO_KEY) {
