@@ -41,16 +41,16 @@ if [ -n "$name" ]; then
   export GTEST_FILTER="*$name*"
   which+=(-L gtest)
 fi
-# Once a minute: what the machine has left, and what has run for ten minutes beside the tests' own
-# programs: what a test that ran out of time waited for.
+# Once a minute: what the machine has left, and what has run for ten minutes: a test that hangs, and
+# what it waits for.
 watch_machine() {
   while sleep 60; do
     printf '[%d s] load %s, MiB free: %s of memory, %s of disk\n' $((SECONDS - begin)) \
       "$(cut -d' ' -f1 /proc/loadavg)" "$(awk '/MemAvailable/ { print int($2 / 1024) }' /proc/meminfo)" \
       "$(df -m --output=avail "$folder" | tail -n 1 | tr -d ' ')" >>"$folder/machine.log"
-    ps -eo pid,ppid,stat,wchan:24,etimes,args | awk '$5 > 600' | grep -F "$folder" | cut -c1-200 \
-      >"$folder/long-ones.now" || continue
-    mv "$folder/long-ones.now" "$folder/long-ones"
+    ps -eo pid=,ppid=,stat=,wchan:24=,etimes=,args= |
+      awk -v whole=$((SECONDS - begin - 60)) '$5 > 600 && $5 < whole' | cut -c1-200 >"$folder/long-ones.now"
+    [ ! -s "$folder/long-ones.now" ] || mv "$folder/long-ones.now" "$folder/long-ones"
   done
 }
 # The ends of what failed tests said.
@@ -72,9 +72,9 @@ trap 'kill $watching 2>/dev/null || true' EXIT
 code=0
 ctest --test-dir "$folder" --progress --output-on-failure --parallel "$parallel" \
   --repeat after-timeout:2 "${which[@]}" "${rest[@]}" || code=$?
-if [ $code -ne 0 ]; then
-  echo "The ends of failed tests:"
-  show_ends
+ends=$(show_ends)
+if [ -n "$ends" ]; then
+  printf 'The ends of what failed, or hung and was run once more:\n%s\n' "$ends"
   if [ -s "$folder/long-ones" ]; then echo "Ran for ten minutes:" && cat "$folder/long-ones"; fi
   if [ -s "$folder/machine.log" ]; then echo "The machine:" && cat "$folder/machine.log"; fi
 fi

@@ -41,7 +41,7 @@ void end_here(int status, void*) {
 
 [[noreturn]] void run_here(const Command& command) {
   setpgid(0, 0);
-  alarm(most_seconds);
+  alarm(static_cast<unsigned>(std::stoi(command.seconds)));
   if (chdir(command.folder.c_str()) != 0) _exit(127);
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect(command.out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
@@ -98,7 +98,8 @@ void load_implementations() {
   load_implementations();
   Command command;
   while (receive(from, command.folder) && receive(from, command.out) &&
-         receive(from, command.err) && receive(from, command.arguments)) {
+         receive(from, command.err) && receive(from, command.arguments) &&
+         receive(from, command.seconds)) {
     const pid_t child = fork();
     if (child == 0) {
       close(from);
@@ -109,7 +110,7 @@ void load_implementations() {
     if (child > 0) waitpid(child, &status, 0);
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
       kill(-child, SIGKILL);
-      std::ofstream(command.err, std::ios::app) << "ended: it took " << most_seconds << " s\n";
+      std::ofstream(command.err, std::ios::app) << "ended: it took " << command.seconds << " s\n";
     }
     if (write(to, &status, sizeof status) != sizeof status) break;
   }
@@ -134,7 +135,8 @@ void start_forks() {
 }
 
 int run_in_fork(const Command& command) {
-  for (const std::string& text : {command.folder, command.out, command.err, command.arguments}) {
+  for (const std::string& text :
+       {command.folder, command.out, command.err, command.arguments, command.seconds}) {
     send(requests, text);
   }
   int status = 0;

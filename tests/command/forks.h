@@ -7,12 +7,13 @@ namespace defray::test {
 
 /// Far more than any takes, with sanitizers and on a busy machine: what takes longer hangs, and is
 /// ended with all that it has started, so that its test fails and others go on.
-inline constexpr unsigned most_seconds = 400;
+inline constexpr int most_seconds = 400;
 
 struct Command {
-  std::string folder;     ///< In which it runs.
-  std::string out, err;   ///< Files for what it prints.
-  std::string arguments;  ///< As for a shell.
+  std::string folder;                                  ///< In which it runs.
+  std::string out, err;                                ///< Files for what it prints.
+  std::string arguments;                               ///< As for a shell.
+  std::string seconds = std::to_string(most_seconds);  ///< It may take.
 };
 
 /// Must be called before anything makes a thread.

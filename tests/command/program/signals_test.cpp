@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 
+#include "command/forks.h"
 #include "end_on_signals.h"
 #include "support.h"
 
@@ -42,6 +43,18 @@ TEST(Signals, AnInterruptedWriteLeavesTheOldFileAlone) {
     std::ifstream file(folder / "a.txt");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "old");
   }
+}
+
+TEST(Forks, WhatHangsIsEndedAndSaysSo) {
+  const Folder folder;
+  const std::string file = folder / "err";
+  const int status =
+      run_in_fork({folder.path(), folder / "out", file, "help >/dev/null; sleep 60", "1"});
+  EXPECT_TRUE(WIFSIGNALED(status));
+  std::ifstream err(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(err), {}), "ended: it took 1 s\n");
+  // The next is none the worse for it.
+  EXPECT_EQ(run_in_fork({folder.path(), folder / "out", file, "--version"}), 0);
 }
 
 }  // namespace
