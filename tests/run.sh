@@ -49,7 +49,7 @@ watch_machine() {
       "$(cut -d' ' -f1 /proc/loadavg)" "$(awk '/MemAvailable/ { print int($2 / 1024) }' /proc/meminfo)" \
       "$(df -m --output=avail "$folder" | tail -n 1 | tr -d ' ')" >>"$folder/machine.log"
     ps -eo pid=,ppid=,stat=,wchan:24=,etimes=,args= |
-      awk -v whole=$((SECONDS - begin - 60)) '$5 > 600 && $5 < whole' | cut -c1-200 >"$folder/long-ones.now"
+      awk -v whole=$((SECONDS - begin - 60)) '$2 != 2 && $5 > 600 && $5 < whole' | cut -c1-200 >"$folder/long-ones.now"
     [ ! -s "$folder/long-ones.now" ] || mv "$folder/long-ones.now" "$folder/long-ones"
   done
 }
