@@ -71,6 +71,7 @@ INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, co
                 form < p.cutoff);
 }
 
+// Most hit some pixel: a way out for those that do not costs more, guessed wrongly, than it saves.
 INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
                        const bool averages) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
