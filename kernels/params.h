@@ -108,6 +108,10 @@
 #define DEFRAY_SHARP_QUANTA 128
 /// Side of the square tiles that highlights are sorted into, in pixels.
 #define DEFRAY_LIGHT_TILE 32
+/// Neighbouring highlights that are one source, pixels a side at most; and what a source's rows
+/// count beside its columns.
+#define DEFRAY_LIGHT_GROUP 4
+#define DEFRAY_LIGHT_ROW 256
 /// Entries a side of the aperture's summed-area table: one more than texels.
 #define DEFRAY_APERTURE_TABLE 513
 /// Side of the map of lens points, 2^6.

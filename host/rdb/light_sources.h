@@ -6,10 +6,11 @@
 
 namespace defray {
 
-/// Sources of light for kernel `highlights_add`, in source order.
+/// Sources of light for kernel `highlights_add`, each a box of pixels, in the order of their first.
 struct LightSources {
-  std::vector<std::array<std::int32_t, 4>> where;  ///< x, y, CoC in quanta, 0.
-  std::vector<std::array<float, 4>> excess;        ///< Light of each; missing channels are 0.
+  /// x, y of the first pixel, CoC in quanta, columns + DEFRAY_LIGHT_ROW * rows.
+  std::vector<std::array<std::int32_t, 4>> where;
+  std::vector<std::array<float, 4>> excess;  ///< Light of each pixel; missing channels are 0.
   int tiles_x = 0;
   /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.
   std::vector<std::uint32_t> first, list;

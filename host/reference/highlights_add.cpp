@@ -19,13 +19,13 @@ struct Box {
 };
 
 /// The part of the lens that a source's light passes on its way to the pixel at this distance.
-Box box_between(int dx, int dy, std::int32_t coc) {
+Box box_between(int dx, int dy, int across, int down, std::int32_t coc) {
   const auto border = [&](int i) {
     const std::int64_t lens = (2 * std::int64_t{i} + 1) * (1 << 23) / coc;
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(lens, -lens_radius, lens_radius));
   };
-  const auto [u0, u1] = std::minmax({border(dx - 1), border(dx)});
-  const auto [v0, v1] = std::minmax({border(dy - 1), border(dy)});
+  const auto [u0, u1] = std::minmax({border(dx - across), border(dx)});
+  const auto [v0, v1] = std::minmax({border(dy - down), border(dy)});
   return {u0, v0, u1, v1};
 }
 
@@ -101,10 +101,12 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
     const int sx = lights.where[s][0], sy = lights.where[s][1], coc = lights.where[s][2];
+    const int across = lights.where[s][3] % DEFRAY_LIGHT_ROW;
+    const int down = lights.where[s][3] / DEFRAY_LIGHT_ROW;
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
-    for (int y = std::max(0, sy - reach); y <= std::min(f.height - 1, sy + reach); ++y) {
-      for (int x = std::max(0, sx - reach); x <= std::min(f.width - 1, sx + reach); ++x) {
-        const Box box = box_between(x - sx, y - sy, coc);
+    for (int y = std::max(0, sy - reach); y < std::min(f.height, sy + down + reach); ++y) {
+      for (int x = std::max(0, sx - reach); x < std::min(f.width, sx + across + reach); ++x) {
+        const Box box = box_between(x - sx, y - sy, across, down, coc);
         const std::uint64_t arrives =
             has_rim ? light_through(table, box, rim_at(plan, x, y))
                     : light_in_box(table, box.left, box.top, box.right, box.bottom);
@@ -122,7 +124,8 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
           return held >= 0 && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
         };
         const int visible = visible_of_16(coc, lights.spread, [&](int du, int dv) {
-          return !is_hidden(8 * (x - sx) + du, 8 * (y - sy) + dv);
+          return !is_hidden(8 * (x - sx) - 4 * (across - 1) + du,
+                            8 * (y - sy) - 4 * (down - 1) + dv);
         });
         if (visible == 0) continue;
         const float seen = static_cast<float>(visible) / 16 * (1 - covered);

@@ -22,13 +22,24 @@ std::size_t highlights_memory(const Case& c, const Input& in) {
   return band_memory("highlights", c, in.fragments.layers);
 }
 
+/// Sources as boxes of all sizes.
+void make_boxes(const Frame& f, LightSources& lights) {
+  for (std::size_t i = 0; i < lights.where.size(); ++i) {
+    const auto step = static_cast<std::int32_t>(i);
+    lights.where[i][3] = 1 + step % DEFRAY_LIGHT_GROUP +
+                         DEFRAY_LIGHT_ROW * (1 + step / DEFRAY_LIGHT_GROUP % DEFRAY_LIGHT_GROUP);
+  }
+  if (!lights.empty()) sort_into_tiles(lights, f.width, f.height);
+}
+
 /// Fragments without their highlights, and these.
 Outcome run_add(Backend& backend, const Case& c, const Input& in) {
   Frame f = bright_fragments(in);
   const int light = light_channels(c);
   const RayPlan plan = ray_plan(c);
   const auto kept = reference::TwinBackend().highlights(f, light);
-  const LightSources lights = take_light(f, kept, light, lopsided_aperture(), plan.lens);
+  LightSources lights = take_light(f, kept, light, lopsided_aperture(), plan.lens);
+  make_boxes(f, lights);
   return {{}, backend.rays(f, plan, &lights).means};
 }
 

@@ -9,9 +9,9 @@
 // cells and others not: of light behind it that share is taken, whichever cells are nearest.
 //
 // first        [tiles + 1]        where a tile's list begins
-// list                            highlights of each tile, in source order
-// where        [highlights]       (x, y in the frame, coc in quanta, 0)
-// excess       [highlights]       their light
+// list                            sources of each tile, in order
+// where        [sources]          (x, y in the frame, coc in quanta, columns + 256 rows of pixels)
+// excess       [sources]          light of each of their pixels
 // table        [side][side]       summed light of the aperture (host/lens/aperture_table.h)
 // cell_at      [side][side]       nearest lens point, over the square around the lens
 // winner                          as in rdb_nearest; all cells in one pass
@@ -23,35 +23,41 @@
 #include "base/colour.clh"
 #include "chain/light_disc.clh"
 
+// Adds what arrives in a row of a source's light to a block.
+INLINED void add_light_row(const DefrayRdbParams p, const DefrayLightParams l, const Way* way,
+                           const Disc* d, const float4 excess, Row* row, Block* b) {
+  find_edges(p, way, b, d->source.z, row);
+  find_visible(p, l, way, b, d, row);
+  for (int k = 0; k < LANES; ++k) {
+    if (row->arrives[k] == 0ul || row->visible[k] == 0u) continue;
+    const float seen = (float)row->visible[k] * 0.0625f * row->past[k];
+    b->light[row->y - b->y][k] += ((float)row->arrives[k] * l.share_of_light * seen) * excess;
+  }
+}
+
 // Adds a source's light to a block.
 INLINED void add_source(const DefrayRdbParams p, const DefrayLightParams l, const Way* way,
                         const int4 source, const float4 excess, Block* b) {
-  const int reach = disc_px(source.z), left = b->x - source.x;
-  if (left > reach || left + LANES <= -reach) return;
-  const int first_y = max(b->y, source.y - reach), last_y = min(b->end_y - 1, source.y + reach);
-  if (first_y > last_y) return;
   Disc d;
   d.source = source;
+  d.across = source.w % DEFRAY_LIGHT_ROW;
+  d.down = source.w / DEFRAY_LIGHT_ROW;
+  const int reach = disc_px(source.z), left = b->x - source.x;
+  if (left - d.across >= reach || left + LANES <= -reach) return;
+  const int first_y = max(b->y, source.y - reach);
+  const int end_y = min(b->end_y, source.y + d.down + reach);
+  if (first_y >= end_y) return;
   place_disc(l, left, &d);
-  ulong above[LANES + 1], below[LANES + 1];
-  int top = border(first_y - source.y - 1, source.z);
-  find_corners(way, &d, top, above);
-  for (int y = first_y; y <= last_y; ++y) {
-    const int bottom = border(y - source.y, source.z);
-    find_corners(way, &d, bottom, below);
+  ulong before[ROWS + DEFRAY_LIGHT_GROUP][LANES];  // of borders, from the first row's upper one on
+  for (int j = 0; j < end_y - first_y + d.down; ++j) {
+    find_before(way, &d, border(first_y - source.y - d.down + j, source.z), before[j]);
+  }
+  for (int j = 0; j < end_y - first_y; ++j) {
     Row row;
-    row.y = y;
-    if (find_light(p, way, b, &d, top, bottom, above, below, &row)) {
-      find_edges(p, way, b, source.z, &row);
-      find_visible(p, l, way, b, &d, &row);
-      for (int k = 0; k < LANES; ++k) {
-        if (row.arrives[k] == 0ul || row.visible[k] == 0u) continue;
-        const float seen = (float)row.visible[k] * 0.0625f * row.past[k];
-        b->light[y - b->y][k] += ((float)row.arrives[k] * l.share_of_light * seen) * excess;
-      }
+    row.y = first_y + j;
+    if (find_light(p, way, b, &d, before[j], before[j + d.down], &row)) {
+      add_light_row(p, l, way, &d, excess, &row, b);
     }
-    for (int k = 0; k <= LANES; ++k) above[k] = below[k];
-    top = bottom;
   }
 }
 

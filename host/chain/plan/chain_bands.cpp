@@ -37,7 +37,7 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
     const float side = static_cast<float>(largest) * px_per_quantum / cells_per_side(lens_points);
     reach.soften = static_cast<int>(side) + launch_of("soften").reach_px + 1;
   }
-  reach.rays = rdb_reach(largest) + 2;
+  reach.rays = rdb_reach(largest) + 2 + DEFRAY_LIGHT_GROUP - 1;  // groups of lights are whole
   return reach;
 }
 

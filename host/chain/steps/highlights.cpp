@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/plane.h"
+#include "chain/steps/light_groups.h"
 #include "lens/coc.h"
 #include "lens/lens_grid.h"
 
@@ -24,29 +25,15 @@ void for_each_tile(const std::array<std::int32_t, 4>& where, int tiles_x, int ti
                    const Visit& visit) {
   constexpr int side = DEFRAY_LIGHT_TILE;
   const int reach = (std::abs(where[2]) >> DEFRAY_COC_FRACTION_BITS) + 2;
+  const std::int64_t across = where[3] % DEFRAY_LIGHT_ROW, down = where[3] / DEFRAY_LIGHT_ROW;
   const auto tile = [](std::int64_t px, int count) {
     return static_cast<int>(std::clamp<std::int64_t>(px / side, 0, count - 1));
   };
   const std::int64_t x = where[0], y = where[1];
-  for (int j = tile(y - reach, tiles_y); j <= tile(y + reach, tiles_y); ++j) {
-    for (int i = tile(x - reach, tiles_x); i <= tile(x + reach, tiles_x); ++i) {
+  for (int j = tile(y - reach, tiles_y); j <= tile(y + down - 1 + reach, tiles_y); ++j) {
+    for (int i = tile(x - reach, tiles_x); i <= tile(x + across - 1 + reach, tiles_x); ++i) {
       visit(size(j) * size(tiles_x) + size(i));
     }
-  }
-}
-
-void sort_into_tiles(LightSources& lights, int width, int height) {
-  lights.tiles_x = (width + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
-  const int tiles_y = (height + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
-  std::vector<std::vector<std::uint32_t>> tiles(size(lights.tiles_x) * size(tiles_y));
-  for (std::uint32_t i = 0; i < lights.where.size(); ++i) {
-    for_each_tile(lights.where[i], lights.tiles_x, tiles_y,
-                  [&](std::size_t tile) { tiles[tile].push_back(i); });
-  }
-  lights.first.push_back(0);
-  for (const auto& tile : tiles) {
-    lights.list.insert(lights.list.end(), tile.begin(), tile.end());
-    lights.first.push_back(static_cast<std::uint32_t>(lights.list.size()));
   }
 }
 
@@ -108,7 +95,8 @@ void take_light(Frame& f, const Values<float>& kept_share, const Values<float>& 
     const std::size_t row = i / size(f.width);
     const std::int32_t coc = tame(coc_quanta[i]);
     lights.where.push_back({static_cast<std::int32_t>(i % size(f.width)),
-                            static_cast<std::int32_t>(row / size(f.layers)), coc, 0});
+                            static_cast<std::int32_t>(row / size(f.layers)), coc,
+                            1 + DEFRAY_LIGHT_ROW});
     std::array<float, 4> excess{};
     const float share = static_cast<float>(coverage[i] & ~DEFRAY_SYNTHESISED) / float{DEFRAY_WHOLE};
     for (std::size_t c = 0; c < size(light_channels); ++c) {
@@ -136,6 +124,22 @@ void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSo
   lights.spread = static_cast<std::int32_t>(std::lround(cells_spread * lens_units / cells));
 }
 
+void sort_into_tiles(LightSources& lights, int width, int height) {
+  lights.tiles_x = (width + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  const int tiles_y = (height + DEFRAY_LIGHT_TILE - 1) / DEFRAY_LIGHT_TILE;
+  std::vector<std::vector<std::uint32_t>> tiles(size(lights.tiles_x) * size(tiles_y));
+  for (std::uint32_t i = 0; i < lights.where.size(); ++i) {
+    for_each_tile(lights.where[i], lights.tiles_x, tiles_y,
+                  [&](std::size_t tile) { tiles[tile].push_back(i); });
+  }
+  lights.first.assign(1, 0);
+  lights.list.clear();
+  for (const auto& tile : tiles) {
+    lights.list.insert(lights.list.end(), tile.begin(), tile.end());
+    lights.first.push_back(static_cast<std::uint32_t>(lights.list.size()));
+  }
+}
+
 LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
   LightSources near;
   const Rows rows = f.wanted_rows().with(reach, f.height);
@@ -145,6 +149,7 @@ LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
     near.excess.push_back(all.excess[i]);
   }
   if (near.where.empty()) return near;
+  group_lights(near);
   sort_into_tiles(near, f.width, f.height);
   near.table = all.table;
   near.share_of_light = all.share_of_light;

@@ -19,7 +19,11 @@ void take_light(Frame& frame, const Values<float>& kept, const Values<float>& al
 /// The aperture that the lights' discs have.
 void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSources& lights);
 
-/// Those that shine on the frame's wanted rows from `reach` rows away at most, sorted into tiles.
+/// Lists sources by the tiles that their discs may meet, in a frame of this size.
+void sort_into_tiles(LightSources& lights, int width, int height);
+
+/// Those that shine on the frame's wanted rows from `reach` rows away at most, in groups and sorted
+/// into tiles.
 LightSources lights_near(const LightSources& all, const Frame& frame, int reach);
 
 /// All of it, of a whole frame.

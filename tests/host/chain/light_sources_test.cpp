@@ -69,11 +69,11 @@ TEST(LightSources, AreWhatIsNotKept) {
     ASSERT_EQ(lights.where.size(), s.sources.size());
     for (std::size_t k = 0; k < s.sources.size(); ++k) {
       const std::size_t i = s.sources[k];
-      const auto& [x, y, coc, nothing] = lights.where[k];
+      const auto& [x, y, coc, box] = lights.where[k];
       EXPECT_EQ(x, static_cast<int>(i % width));
       EXPECT_EQ(y, static_cast<int>(i / width / 2));
       EXPECT_EQ(coc, before.coc_quanta[i]);
-      EXPECT_EQ(nothing, 0);
+      EXPECT_EQ(box, 1 + DEFRAY_LIGHT_ROW);  // one pixel
       const double share = (before.coverage[i] & 0x7fffffff) / 65536.0;
       for (std::size_t c = 0; c < 3; ++c) {
         const double colour = before.channels[c][i], kept = colour * s.kept[i];
@@ -99,7 +99,7 @@ TEST(LightSources, AreListedWhereTheirDiscsMayReach) {
       const auto end = lights.list.begin() + lights.first[static_cast<std::size_t>(t + 1)];
       EXPECT_TRUE(std::is_sorted(begin, end));
       for (std::uint32_t k = 0; k < lights.where.size(); ++k) {
-        const auto& [x, y, coc, nothing] = lights.where[k];
+        const auto& [x, y, coc, box] = lights.where[k];
         // From the source to the nearest pixel of the tile.
         const auto off = [](int at, int first) {
           return std::max({first - at, at - first - tile + 1, 0});
