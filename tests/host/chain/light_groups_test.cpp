@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "chain/plan/chain_bands.h"
 #include "chain/steps/highlights.h"
 #include "support.h"
 
@@ -114,6 +115,53 @@ TEST(LightGroups, CocsAreMeans) {
   ASSERT_EQ(lights.where.size(), 1u);
   EXPECT_EQ(lights.where[0], (Where{0, 0, 20 * px + 30, 2 + 2 * DEFRAY_LIGHT_ROW}));
   EXPECT_FLOAT_EQ(lights.excess[0][2], 3.2f / 4);  // spread over the box, whose corner has none
+}
+
+/// What shines on tiles of wanted rows: boxes, CoCs and light, tile by tile.
+std::vector<std::pair<Where, std::array<float, 4>>> shining(const LightSources& lights, Rows rows) {
+  std::vector<std::pair<Where, std::array<float, 4>>> out;
+  for (int ty = rows.y / DEFRAY_LIGHT_TILE; ty < rows.end / DEFRAY_LIGHT_TILE; ++ty) {
+    const auto tile = static_cast<std::size_t>(ty * lights.tiles_x);
+    for (std::size_t i = lights.first[tile]; i < lights.first[tile + 1]; ++i) {
+      const std::uint32_t source = lights.list[i];
+      out.emplace_back(lights.where[source], lights.excess[source]);
+    }
+  }
+  return out;
+}
+
+TEST(LightGroups, BandsHaveThoseOfTheWholeFrame) {
+  for (int step = 0; step < 3; ++step) {  // from the band's end to the nearest row of light
+    Frame f;
+    f.width = 40;
+    f.height = 512;
+    const std::int32_t coc = 55 * px + 255;
+    f.coc_quanta = std::vector<std::int32_t>(f.surfaces(), coc);
+    LightSources all;
+    for (const Source& s : rectangle(0, 256 + 54 + step, 4, 512, coc)) {
+      all.where.push_back({s.x, s.y, s.coc, pixel});
+      all.excess.push_back(s.light);
+    }
+    const LightSources whole = lights_near(all, f, f.height);
+    ChainSettings settings;
+    settings.hidden = Hidden::off;
+    f.wanted = Rows{224, 256};
+    const LightSources band = lights_near(all, f, chain_reach(f, settings, 137).rays);
+    EXPECT_EQ(shining(band, f.wanted_rows()), shining(whole, f.wanted_rows())) << step;
+    EXPECT_FALSE(shining(band, f.wanted_rows()).empty()) << step;
+  }
+}
+
+TEST(LightGroups, BoxesAreListedWhereTheirLastPixelsShine) {
+  LightSources lights;
+  for (const int box : {pixel, 4 + DEFRAY_LIGHT_ROW * 3}) {
+    lights.where.push_back({27, 28, px, box});
+    lights.excess.push_back({1, 1, 1, 1});
+  }
+  sort_into_tiles(lights, 64, 64);
+  // Of one pixel's disc the last column and row are 30 and 31; the box's go on to 33.
+  EXPECT_EQ(lights.first, (std::vector<std::uint32_t>{0, 2, 3, 4, 5}));
+  EXPECT_EQ(lights.list, (std::vector<std::uint32_t>{0, 1, 1, 1, 1}));
 }
 
 }  // namespace
