@@ -17,29 +17,30 @@
 // nodes   [count]
 // splats  [count]
 // Global size: count, or more.
+#include "base/any.clh"
 #include "splat_params.h"
 
 #define FRAME_VECTOR(p, name) ((float3)((p).name##_x, (p).name##_y, (p).name##_z))
 
 // Signed radius, px: coc.cl without its rounding.
-float splat_coc(const DefraySplatParams p, const float z) {
+INLINED float splat_coc(const DefraySplatParams p, const float z) {
   const float radius = p.focus_is_infinite ? -p.infinite_focus_scale / z
                                            : p.coc_scale_px * ((z - p.focus_units) / z);
   return clamp(radius, -p.limit_px, p.limit_px);
 }
 
 // a^T V b of a symmetric V.
-float between(const float3 a, __global const DefraySplatNode* n, const float3 b) {
+INLINED float between(const float3 a, __global const DefraySplatNode* n, const float3 b) {
   const float x = n->low_xx * b.x + n->low_xy * b.y + n->low_xz * b.z;
   const float y = n->low_xy * b.x + n->low_yy * b.y + n->low_yz * b.z;
   const float z = n->low_xz * b.x + n->low_yz * b.y + n->low_zz * b.z;
   return a.x * x + a.y * y + a.z * z;
 }
 
-float product(const float3 a, const float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+INLINED float product(const float3 a, const float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 // Of areas, whose squares are beyond floats.
-float size_of(const float3 a) {
+INLINED float size_of(const float3 a) {
   const float largest = fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
   if (!(largest > 0.0f)) return 0.0f;
   const float3 share = a / largest;
@@ -49,7 +50,7 @@ float size_of(const float3 a) {
 // The variance (xx, xy, yy) whose ellipse is the smallest around those of `m` and of a circle's
 // variance: the larger of the two along each of m's axes (appendix A). Last, that of its shorter
 // one.
-float4 circumellipse(const float3 m, const float circle) {
+INLINED float4 circumellipse(const float3 m, const float circle) {
   const float mean = 0.5f * (m.x + m.z), half_difference = 0.5f * (m.x - m.z);
   const float spread = sqrt(half_difference * half_difference + m.y * m.y);
   if (mean + spread <= circle) return (float4)(circle, 0.0f, circle, circle);
@@ -63,7 +64,7 @@ float4 circumellipse(const float3 m, const float circle) {
 // Of `own` + I + `added`, whose product of xx and yy and square of xy are almost the same where a
 // surface is seen from its edge: `added` is a circle and what is longer along one axis, of `own`
 // the root of the determinant is known, and no large numbers are subtracted.
-float determinant_of(const float3 own, const float root, const float4 added) {
+INLINED float determinant_of(const float3 own, const float root, const float4 added) {
   const float circle = 1.0f + added.w;
   const float xx = added.x - added.w, yy = added.z - added.w;
   const float across = own.x * yy + own.z * xx - 2.0f * (own.y * added.y);
@@ -71,15 +72,15 @@ float determinant_of(const float3 own, const float root, const float4 added) {
 }
 
 // First pixel whose centre is not before `from`, and first whose is beyond `to`, within [0, size].
-int2 pixels_between(const float from, const float to, const uint size) {
+INLINED int2 pixels_between(const float from, const float to, const uint size) {
   const float last = (float)size;
   return (int2)((int)clamp(ceil(from - 0.5f), 0.0f, last),
                 (int)clamp(floor(to - 0.5f) + 1.0f, 0.0f, last));
 }
 
 // The kernel's shape from its variance; false where it covers no pixel.
-bool shape_splat(const DefraySplatParams p, const float3 variance, const float determinant,
-                 const float mass, const bool is_disc, DefraySplat* s) {
+INLINED bool shape_splat(const DefraySplatParams p, const float3 variance, const float determinant,
+                         const float mass, const bool is_disc, DefraySplat* s) {
   const float root = sqrt(determinant);
   const float form = (is_disc ? 0.25f : 0.5f) / determinant;
   s->conic_xx = variance.z * form;
@@ -106,7 +107,8 @@ bool shape_splat(const DefraySplatParams p, const float3 variance, const float d
 }
 
 // Fills in the splat; false: culled.
-bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n, DefraySplat* s) {
+INLINED bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n,
+                          DefraySplat* s) {
   const float3 right = FRAME_VECTOR(p, right), down = FRAME_VECTOR(p, down);
   const float3 forward = FRAME_VECTOR(p, forward);
   const float3 from_eye = (float3)(n->x, n->y, n->z) - FRAME_VECTOR(p, eye);

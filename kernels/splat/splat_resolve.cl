@@ -12,14 +12,14 @@
 // first    [tile_count + 1]  where a tile's part of `list` begins
 // list     splats that meet the tile, in order
 // out0..3  [height][width]   premultiplied colour and alpha
-// depth    [height][width]   of the nearest fragment's splat with any alpha, +inf where there is
-// none count    [height][width]   fragments, up to where nothing shines through any more One
-// work-item: a run of DEFRAY_RUN pixels of a tile's row. Global size: (tile_count,
-// DEFRAY_SPLAT_TILE).
-#include "base/any.clh"
+// depth    [height][width]   of the nearest fragment's splat with any alpha, +inf without one
+// count    [height][width]   fragments, up to where nothing shines through any more
+// A work-item: a run of DEFRAY_RUN pixels of a tile's row.
+// Global size: (tile_count, DEFRAY_SPLAT_TILE).
+#include "base/run.clh"
 #include "splat_params.h"
 
-// What a run of pixels has come to: `light` has four channels.
+// What a run of pixels has come to: layers and sums have four channels.
 typedef struct {
   float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
   float16 sum0, sum1, sum2, sum3;                  // those before it
@@ -141,20 +141,11 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   }
   end_layer(&r, ~r.opaque, p.averages);
 
-  float made[6][DEFRAY_RUN];
-  vstore16(r.sum0, 0, made[0]);
-  vstore16(r.sum1, 0, made[1]);
-  vstore16(r.sum2, 0, made[2]);
-  vstore16(r.sum3, 0, made[3]);
-  vstore16(r.depth, 0, made[4]);
-  vstore16(convert_float16(r.count), 0, made[5]);
-  const size_t row = (size_t)y * p.width + x;
-  for (uint k = 0; k < min((uint)DEFRAY_RUN, p.width - x); ++k) {
-    out0[row + k] = made[0][k];
-    out1[row + k] = made[1][k];
-    out2[row + k] = made[2][k];
-    out3[row + k] = made[3][k];
-    depth[row + k] = made[4][k];
-    count[row + k] = made[5][k];
-  }
+  const int2 start = (int2)((int)x, (int)y);
+  store_floats(p.width, out0, start, r.sum0);
+  store_floats(p.width, out1, start, r.sum1);
+  store_floats(p.width, out2, start, r.sum2);
+  store_floats(p.width, out3, start, r.sum3);
+  store_floats(p.width, depth, start, r.depth);
+  store_floats(p.width, count, start, convert_float16(r.count));
 }
