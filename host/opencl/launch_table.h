@@ -14,7 +14,7 @@ struct WorkGroup {
 };
 
 /// On GPUs, of kernels of two dimensions. On an H200 what `defray tune` finds for single kernels
-/// takes 0.7 to 1 of its time, and groups that suit CPUs 1.2 to 15 times (perf/README.md).
+/// takes 0.7 to 1 of its time, and groups that suit CPUs 1.2 to 15 times (perf/notes/gpu.md).
 inline constexpr WorkGroup gpu_group{4, 16};
 
 struct Launch {

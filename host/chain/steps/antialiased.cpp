@@ -10,7 +10,7 @@ namespace defray {
 namespace {
 
 // Chosen on the built-in scenes at 320x240 and 640x480, their depth anti-aliased or not, and on
-// drawn ones: grass, rings, discs with rims, of plain colours and textures (perf/README).
+// drawn ones: grass, rings, discs with rims, of plain colours and textures (perf/notes/edges.md).
 
 /// Of mixed pixels one in so many is to be repaired at least, or none is: of anti-aliased depth one
 /// in 3 to 15 lies between two surfaces (`cutout`, before nothing, one in 40).

@@ -115,7 +115,7 @@ void Behind::fill_to(int end) {
   silhouettes_to(rows.end + work_.reach.fill);
   front_.frame.wanted = rows;
   // Where patterns add their detail twice as many directions are worth their time; without them
-  // the mean of fewer is as close to the truth (perf/README.md).
+  // the mean of fewer is as close to the truth (perf/notes/behind.md).
   const int directions = has_patterns() ? DEFRAY_FILL_DIRECTIONS : 8;
   made_ = work_.backend.fill(front_.frame, silhouettes_.marks, directions, std::move(made_));
   paint_strips(front_.frame, silhouettes_.strips, made_);
