@@ -7,7 +7,7 @@
 namespace defray {
 namespace {
 
-const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {1, 4}});
+const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {1, 16}});
 
 /// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
 constexpr std::size_t list_bytes = std::size_t{64} << 20;
@@ -38,7 +38,7 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
     if (tiles.list.empty()) tiles.list.push_back(0);
     const DefraySplatTileParams p{params.width,     params.height, tiles_x,     tile,
                                   tiles.tile_count, params.cutoff, params.edge, params.averages};
-    session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_TILE}, p, in,
+    session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_SQUARES}, p, in,
                     session_.view(tiles.first), session_.view(tiles.list), colour, depth, count);
     session_.finish();  // before the lists go
     tile += tiles.tile_count;

@@ -29,7 +29,11 @@ Outcome run_resolve(Backend& backend, const Case& c, const Input&) {
   const DefraySplatParams params = splat_params(c);
   auto splats = in_order(reference::TwinBackend().splat_project(splat_nodes(c), params));
   // A splat's pixels are those that it names, whatever its shape.
-  for (DefraySplat& s : splats.edit()) s.end_x -= c.seed % 2 && s.end_x - s.first_x > 2;
+  for (DefraySplat& s : splats.edit()) {
+    if (c.seed % 2 == 0) continue;
+    s.end_x -= s.end_x - s.first_x > 2;
+    s.first_y += s.end_y - s.first_y > 2;
+  }
   SplatPlanes planes = backend.splat_resolve(splats, params);
   Outcome v{{}, std::move(planes.colour)};
   v.planes.push_back(std::move(planes.depth));

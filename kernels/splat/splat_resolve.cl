@@ -14,18 +14,27 @@
 // out0..3  [height][width]   premultiplied colour and alpha
 // depth    [height][width]   of the nearest fragment's splat with any alpha, +inf without one
 // count    [height][width]   fragments, up to where nothing shines through any more
-// A work-item: a run of DEFRAY_RUN pixels of a tile's row.
-// Global size: (tile_count, DEFRAY_SPLAT_TILE).
-#include "base/run.clh"
+// A work-item: a square of a tile, of which splats of a few pixels fill more than of a row.
+// Global size: (tile_count, squares of a tile).
+#include "base/any.clh"
 #include "splat_params.h"
 
-// What a run of pixels has come to: layers and sums have four channels.
+#define SIDE DEFRAY_SPLAT_SQUARE
+
+// A work-item's pixels.
+typedef struct {
+  int x, y;
+  int16 column, row;
+  float16 centre_x, centre_y;
+} Square;
+
+// What they have come to: layers and sums have four channels.
 typedef struct {
   float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
   float16 sum0, sum1, sum2, sum3;                  // those before it
   float16 far, depth;
   int16 count, opaque;
-} SplatRun;
+} SplatSquare;
 
 // e^-power for 0 <= power < 80, within 10^-6 of itself: 2^whole times a polynomial (Cephes' exp2f).
 INLINED float16 falloff(const float16 power) {
@@ -42,7 +51,7 @@ INLINED float16 falloff(const float16 power) {
 }
 
 // Puts the surface behind those before it.
-INLINED void end_layer(SplatRun* r, const int16 where, const bool averages) {
+INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
   const float16 left = 1.0f - r->sum3;
   const float16 share = averages ? left / fmax(r->weight, 1.0f) : left;
   r->sum0 = select(r->sum0, r->sum0 + share * r->layer0, where);
@@ -59,7 +68,7 @@ INLINED void end_layer(SplatRun* r, const int16 where, const bool averages) {
 }
 
 // A splat's weight in each pixel; 0 beyond its cut-off.
-INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float dy,
+INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float16 dy,
                              const DefraySplatTileParams p) {
   const float16 form =
       s->conic_xx * dx * dx + 2.0f * (s->conic_xy * dx * dy) + s->conic_yy * dy * dy;
@@ -72,7 +81,7 @@ INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, co
 }
 
 // Most hit some pixel: a way out for those that do not costs more, guessed wrongly, than it saves.
-INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16 weight,
+INLINED void add_splat(SplatSquare* r, __global const DefraySplat* s, const float16 weight,
                        const bool averages) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
   const int16 begins = hits & (s->z_near > r->far);
@@ -90,19 +99,39 @@ INLINED void add_splat(SplatRun* r, __global const DefraySplat* s, const float16
   r->count -= joins;
 }
 
-// Where in the list the next splat is that has pixels in a row.
-INLINED uint next_in_row(__global const DefraySplat* splats, __global const uint* list, uint i,
-                         const uint end, const int y) {
-  while (i < end && (y < splats[list[i]].first_y || y >= splats[list[i]].end_y)) ++i;
+// One branch: four are guessed wrongly four times as often.
+INLINED bool meets(__global const DefraySplat* s, const Square* q) {
+  return (q->y < s->end_y) & (s->first_y < q->y + SIDE) & (q->x < s->end_x) &
+         (s->first_x < q->x + SIDE);
+}
+
+// Where in the list the next splat is that has pixels in a square.
+INLINED uint next_in_square(__global const DefraySplat* splats, __global const uint* list, uint i,
+                            const uint end, const Square* q) {
+  while (i < end && !meets(splats + list[i], q)) ++i;
   return i;
 }
 
-// splat_weight in the pixels of a run that are the splat's.
-INLINED float16 weight_in_run(__global const DefraySplat* s, const int16 column,
-                              const float16 centres, const float y, const DefraySplatTileParams p) {
-  const int16 inside = (column >= s->first_x) & (column < s->end_x);
-  const float16 weight = splat_weight(s, centres - s->x, y - s->y, p);
+// splat_weight in the pixels of a square that are the splat's.
+INLINED float16 weight_in_square(__global const DefraySplat* s, const Square* q,
+                                 const DefraySplatTileParams p) {
+  const int16 inside = (q->column >= s->first_x) & (q->column < s->end_x) & (q->row >= s->first_y) &
+                       (q->row < s->end_y);
+  const float16 weight = splat_weight(s, q->centre_x - s->x, q->centre_y - s->y, p);
   return select((float16)(0.0f), weight, inside);
+}
+
+// Writes what of a square lies in the picture.
+INLINED void store_square(const DefraySplatTileParams p, __global float* plane, const Square* q,
+                          const float16 values) {
+  const float4 rows[SIDE] = {values.lo.lo, values.lo.hi, values.hi.lo, values.hi.hi};
+  for (int j = 0; j < min(SIDE, (int)p.height - q->y); ++j) {
+    __global float* const to = plane + (size_t)(q->y + j) * p.width + q->x;
+    float lanes[SIDE];
+    vstore4(rows[j], 0, lanes);
+    if (q->x + SIDE <= (int)p.width) vstore4(rows[j], 0, to);
+    for (int i = 0; q->x + SIDE > (int)p.width && q->x + i < (int)p.width; ++i) to[i] = lanes[i];
+  }
 }
 
 __kernel void splat_resolve(const DefraySplatTileParams p, __global const DefraySplat* splats,
@@ -110,42 +139,44 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
                             __global float* out0, __global float* out1, __global float* out2,
                             __global float* out3, __global float* depth, __global float* count) {
   if (get_global_id(0) >= p.tile_count) return;
-  const uint tile = p.first_tile + (uint)get_global_id(0);
-  const uint x = tile % p.tiles_x * DEFRAY_SPLAT_TILE;
-  const uint y = tile / p.tiles_x * DEFRAY_SPLAT_TILE + (uint)get_global_id(1);
-  if (y >= p.height || get_global_id(1) >= DEFRAY_SPLAT_TILE) return;
+  const uint tile = p.first_tile + (uint)get_global_id(0), square = (uint)get_global_id(1);
+  const uint across = DEFRAY_SPLAT_TILE / SIDE;
+  Square q;
+  q.x = (int)(tile % p.tiles_x * DEFRAY_SPLAT_TILE + square % across * SIDE);
+  q.y = (int)(tile / p.tiles_x * DEFRAY_SPLAT_TILE + square / across * SIDE);
+  if (q.x >= (int)p.width || q.y >= (int)p.height || square >= across * across) return;
+  q.column = q.x + (int16)(0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+  q.row = q.y + (int16)(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+  q.centre_x = convert_float16(q.column) + 0.5f;
+  q.centre_y = convert_float16(q.row) + 0.5f;
 
-  SplatRun r;
+  SplatSquare r;
   r.weight = r.layer0 = r.layer1 = r.layer2 = r.layer3 = 0.0f;
   r.sum0 = r.sum1 = r.sum2 = r.sum3 = 0.0f;
   r.far = -INFINITY;
   r.depth = INFINITY;
   r.count = 0;
   r.opaque = 0;
-  const int16 column = (int)x + (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const float16 centres = convert_float16(column) + 0.5f;
-  const float middle = (float)y + 0.5f;
   const uint end = first[get_global_id(0) + 1];
-  uint i = next_in_row(splats, list, first[get_global_id(0)], end, (int)y);
+  uint i = next_in_square(splats, list, first[get_global_id(0)], end, &q);
   while (i < end && !all_lanes(r.opaque)) {
     // Two at a time: neither's weights wait for the other's.
-    const uint j = next_in_row(splats, list, i + 1, end, (int)y);
+    const uint j = next_in_square(splats, list, i + 1, end, &q);
     __global const DefraySplat* s = splats + list[i];
     __global const DefraySplat* next = splats + list[j < end ? j : i];
-    const float16 weight = weight_in_run(s, column, centres, middle, p);
-    const float16 next_weight = weight_in_run(next, column, centres, middle, p);
+    const float16 weight = weight_in_square(s, &q, p);
+    const float16 next_weight = weight_in_square(next, &q, p);
     add_splat(&r, s, weight, p.averages);
     if (j >= end) break;
     add_splat(&r, next, next_weight, p.averages);
-    i = next_in_row(splats, list, j + 1, end, (int)y);
+    i = next_in_square(splats, list, j + 1, end, &q);
   }
   end_layer(&r, ~r.opaque, p.averages);
 
-  const int2 start = (int2)((int)x, (int)y);
-  store_floats(p.width, out0, start, r.sum0);
-  store_floats(p.width, out1, start, r.sum1);
-  store_floats(p.width, out2, start, r.sum2);
-  store_floats(p.width, out3, start, r.sum3);
-  store_floats(p.width, depth, start, r.depth);
-  store_floats(p.width, count, start, convert_float16(r.count));
+  store_square(p, out0, &q, r.sum0);
+  store_square(p, out1, &q, r.sum1);
+  store_square(p, out2, &q, r.sum2);
+  store_square(p, out3, &q, r.sum3);
+  store_square(p, depth, &q, r.depth);
+  store_square(p, count, &q, convert_float16(r.count));
 }
