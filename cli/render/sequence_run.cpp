@@ -131,7 +131,9 @@ void SequenceRun::render() {
     return std::async(job_.no_overlap ? std::launch::deferred : std::launch::async,
                       [this, i] { return read(frames_[i]); });
   };
-  prepare_kernel_cache();  // before there are other threads: it may set an environment variable
+  // Before there are other threads: one asks for environment variables that another may set.
+  prepare_kernel_cache();
+  prepare_image_files();
   std::future<Work> reading = read_ahead(0), writing;
   device_.emplace(device_of(job_));
   for (std::size_t i = 0; i < frames_.size(); ++i) {
