@@ -100,8 +100,6 @@
 #define DEFRAY_HIGHLIGHT_WHOLE 13.0f
 /// Side of the square tiles whose darkest surroundings `highlights` knows, in pixels.
 #define DEFRAY_HIGHLIGHT_TILE 16
-/// From this CoC on (4 px) a highlight is seen by lens points around one, else by a pixel's places.
-#define DEFRAY_WIDE_QUANTA 1024
 /// Below this CoC (1 px) rays may land as those of another radius do.
 #define DEFRAY_SMALL_QUANTA 256
 /// Below this CoC (half a pixel) a fragment's rays stay in its pixel, but for a few.
@@ -114,9 +112,8 @@
 #define DEFRAY_LIGHT_ROW 256
 /// Entries a side of the aperture's summed-area table: one more than texels.
 #define DEFRAY_APERTURE_TABLE 513
-/// Side of the map of lens points, 2^6.
-#define DEFRAY_CELL_MAP_BITS 6
-#define DEFRAY_CELL_MAP (1 << DEFRAY_CELL_MAP_BITS)
+/// Largest side of a source's map of the lens: smaller discs have an entry a pixel.
+#define DEFRAY_LIGHT_MAP 64
 
 /// No fragment, in the padded planes of `rdb_gather`: beyond every CoC.
 #define DEFRAY_NO_KEY 0x7fffffff
@@ -196,8 +193,7 @@ typedef struct {
   DEFRAY_UINT has_spans;     ///< 1: fragments are pieces of a surface, see span.clh.
   DEFRAY_INT origin_x;       ///< Of the frame in the display window: what is random follows it.
   DEFRAY_INT origin_y;
-  DEFRAY_UINT wants_winners;  ///< 0: nobody does; 1: in tiles with highlights; 2: everywhere.
-  DEFRAY_UINT light_tiles_x;
+  DEFRAY_UINT wants_winners;  ///< 1: `rdb_nearest` does.
 } DefrayRaysParams;
 
 /// A whole frame: `repair`, `mixed`, `feather`.
@@ -244,19 +240,30 @@ typedef struct {
 typedef struct {
   DEFRAY_UINT tiles_x;
   float share_of_light;  ///< 1 / the aperture table's total.
-  DEFRAY_INT spread;     ///< Lens units: cells to each side by which light arrives.
 } DefrayLightParams;
+
+/// What of the lens sees them: `light_maps`.
+typedef struct {
+  DEFRAY_UINT sources;
+  DEFRAY_UINT width;
+  DEFRAY_UINT layers;
+  DEFRAY_UINT window_y;  ///< First source row, in frame coordinates.
+  DEFRAY_UINT window_rows;
+  DEFRAY_UINT has_coverage;
+  DEFRAY_INT least_coc;  ///< Of the frame.
+} DefrayLightMapParams;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayHighlightParams) == 20);
-static_assert(sizeof(DefrayLightParams) == 12);
+static_assert(sizeof(DefrayLightParams) == 8);
+static_assert(sizeof(DefrayLightMapParams) == 28);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefraySplitParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);
 static_assert(sizeof(DefraySoftenParams) == 16);
 static_assert(sizeof(DefrayCocParams) == 28);
 static_assert(sizeof(DefrayRdbParams) == 88);
-static_assert(sizeof(DefrayRaysParams) == 108);
+static_assert(sizeof(DefrayRaysParams) == 104);
 #endif
 
 #endif

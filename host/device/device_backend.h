@@ -41,6 +41,9 @@ class DeviceBackend : public Backend {
   /// `rdb_pad`, `rdb_tiles`, `rdb_reach` over a whole frame.
   RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 
+  /// `light_maps` over a whole frame.
+  std::vector<std::uint8_t> light_maps(const Frame& frame, const LightSources& lights);
+
   Session& session() { return session_; }
 
  private:

@@ -14,7 +14,6 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
       rim_y(plan.rim_y.empty() ? lens : session.view(plan.rim_y)),
       winner(winners.take(session, pixels * std::max(winner_bytes, sizeof(cl_uint)))),
-      light_first(lens),
       session_(session),
       frame_(frame),
       plan_(plan),
@@ -26,12 +25,13 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
   if (own == 0) seen = session.buffer(pixels * sizeof(cl_uint));
   if (plan.wants_nearest) nearest_ = session.buffer(pixels * sizeof(cl_uint2));
   if (!lights_) return;
-  light_first = session.view(lights_->first);
+  first_ = session.view(lights_->first);
   list_ = session.view(lights_->list);
   where_ = session.view(lights_->where);
   excess_ = session.view(lights_->excess);
   table_ = session.view(lights_->table);
-  cell_map_ = session.view(lights_->cell_map);
+  maps_ = session.view(lights_->maps);
+  light_maps = session.buffer(lights_->map_entries);
 }
 
 DefrayRdbParams RayBuffers::params() const {

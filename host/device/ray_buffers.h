@@ -58,6 +58,9 @@ class RayBuffers {
   /// Looks for the nearest hit among the winners, if the plan wants it.
   void find_nearest(const DefrayRdbParams& p, const RayWindow& window);
 
+  /// Finds which parts of the lens see each source, in a window of source rows.
+  void find_light_maps(const DefrayRdbParams& p, const RayWindow& window);
+
   /// Adds the light sources to the means.
   void add_light(const DefrayRdbParams& p, const RayWindow& window);
 
@@ -70,7 +73,7 @@ class RayBuffers {
 
   cl::Buffer lens, landing_radii, rim_x, rim_y, winner, seen;
   std::array<cl::Buffer, 4> means;  ///< Planes; kernels write missing channels too.
-  cl::Buffer light_first;           ///< LightSources::first; anything without lights.
+  cl::Buffer light_maps;            ///< From find_light_maps.
 
  private:
   /// Index of the band's first pixel in the result.
@@ -80,7 +83,7 @@ class RayBuffers {
   const Frame& frame_;
   const RayPlan& plan_;
   const LightSources* lights_;
-  cl::Buffer nearest_, list_, where_, excess_, table_, cell_map_;
+  cl::Buffer nearest_, first_, list_, where_, excess_, table_, maps_;
 };
 
 }  // namespace defray

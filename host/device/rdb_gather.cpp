@@ -16,10 +16,9 @@ namespace {
 
 const LaunchRow rdb_gather_launch({.kernel = "rdb_gather", .group = {1, 1}, .rows_at_once = 64});
 
-/// Bytes of a pixel's winners where somebody asks for them: the light sources, or the nearest hits.
-std::size_t winner_bytes_of(const RayPlan& plan, const LightSources* lights) {
-  const bool is_asked_for = plan.wants_nearest || (lights && !lights->empty());
-  return is_asked_for ? plan.lens.points.size() * sizeof(cl_uint) : 0;
+/// Bytes of a pixel's winners where somebody asks for them.
+std::size_t winner_bytes_of(const RayPlan& plan) {
+  return plan.wants_nearest ? plan.lens.points.size() * sizeof(cl_uint) : 0;
 }
 
 /// Winners of so many bytes a compute unit stay in a CPU's caches from the kernel that writes them
@@ -79,7 +78,7 @@ RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan,
       frame_(frame),
       lens_(plan.lens),
       bins_(bins_of(frame)),
-      winner_bytes_(winner_bytes_of(plan, lights)),
+      winner_bytes_(winner_bytes_of(plan)),
       rows_(rows_of_band(session, frame, winner_bytes_)),
       buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_bytes_,
                winners),
@@ -88,12 +87,10 @@ RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan,
       filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
   DefrayRaysParams& p = window_.params;
-  // Those who ask for winners look at all columns.
-  const int margin = winner_bytes_ > 0 ? 0 : frame.margin;
+  const int margin = winner_bytes_ > 0 ? 0 : frame.margin;  // who asks for winners looks at all
   p.band_x = word(margin / DEFRAY_RAY_TILE * DEFRAY_RAY_TILE);
   p.band_end = word(frame.width - margin);
-  p.wants_winners = plan.wants_nearest ? 2 : buffers_.has_lights() ? 1 : 0;
-  p.light_tiles_x = buffers_.has_lights() ? word(lights->tiles_x) : 0;
+  p.wants_winners = plan.wants_nearest;
 }
 
 /// The table of the pass that begins with a cell: of one pass it stays.
@@ -119,8 +116,8 @@ void RdbGather::gather_pass(int first_cell) {
   session_.launch("rdb_gather", {strips_x, lanes.over_rows(p.band_rows)}, p, window_.keys,
                   window_.largest, window_.sending, window_.coverage, window_.channels, segments_,
                   first_, window_.reach, sharp_on_device_, window_.special_rows, window_.sparsity,
-                  buffers_.lens, buffers_.rim_x, buffers_.rim_y, buffers_.light_first,
-                  buffers_.winner, buffers_.means, filled_, buffers_.seen);
+                  buffers_.lens, buffers_.rim_x, buffers_.rim_y, buffers_.winner, buffers_.means,
+                  filled_, buffers_.seen);
 }
 
 void RdbGather::gather(int y, int rows, RayResult& out) {
@@ -151,6 +148,10 @@ void RdbGather::run(RayResult& out, const Progress& progress) {
     const int from = std::max(rows.y, first), to = std::min(rows.y + rows.rows, end);
     if (from >= to) continue;
     window_.prepare(rows);
+    DefrayRdbParams r = buffers_.params();
+    r.window_y = window_.params.window_y;
+    r.window_rows = window_.params.window_rows;
+    buffers_.find_light_maps(r, window_.planes);
     // No strip lies across two tiles, and where there is room no tile across two bands.
     const int step = rows_ < DEFRAY_RAY_TILE ? std::min(rows_, DEFRAY_RAY_ROWS) : DEFRAY_RAY_TILE;
     for (int y = from / step * step; y < to; y += rows_) {

@@ -57,8 +57,9 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
 
 std::vector<BandRows> RayTileWindow::windows() const {
   const std::size_t surfaces = params.stride * size(frame_.layers);
-  return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + 2, DEFRAY_RAY_TILE,
-                          {surfaces * launch_of("rdb_pad").bytes_a_surface},
+  return cut_into_windows(frame_.wanted_rows(), frame_.height,
+                          reach_px_ + light_map_rows(frame_.coc_range().largest_radius()),
+                          DEFRAY_RAY_TILE, {surfaces * launch_of("rdb_pad").bytes_a_surface},
                           session_.memory_bytes() / 2);
 }
 

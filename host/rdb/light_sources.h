@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/params.h"
+
 namespace defray {
 
 /// Sources of light for kernel `highlights_add`, each a box of pixels, in the order of their first.
@@ -14,13 +16,19 @@ struct LightSources {
   int tiles_x = 0;
   /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.
   std::vector<std::uint32_t> first, list;
-  std::vector<std::uint32_t> table;     ///< The aperture's summed light.
-  float share_of_light = 0;             ///< 1 / its total.
-  std::vector<std::uint32_t> cell_map;  ///< [DEFRAY_CELL_MAP]^2: nearest lens point.
-  /// Lens units: cells around the nearest by which light arrives at a pixel, to each side.
-  std::int32_t spread = 0;
+  std::vector<std::uint32_t> table;  ///< The aperture's summed light.
+  float share_of_light = 0;          ///< 1 / its total.
+  /// Maps of which parts of the lens see each: (first entry, side), and entries of all.
+  std::vector<std::array<std::int32_t, 2>> maps;
+  std::size_t map_entries = 0;
 
   bool empty() const { return where.empty(); }
 };
+
+/// Rows from a target to the farthest to which a way leads that its place in a map depends on, less
+/// the largest CoC: entries lie up to 1/32 of a CoC apart.
+inline int light_map_rows(std::int32_t largest_coc_quanta) {
+  return 3 + (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) / 16;
+}
 
 }  // namespace defray

@@ -48,44 +48,48 @@ std::uint64_t light_through(const ApertureTable& table, const Box& box, const Ri
   return light;
 }
 
-/// Distances in eighths of a pixel.
-std::uint32_t cell_between(const LightSources& lights, int dx, int dy, std::int32_t coc) {
-  const auto entry = [&](int d) {
-    const std::int64_t lens = std::int64_t{d} * (1 << 21) / coc;
-    constexpr std::int64_t radius = 1 << DEFRAY_LENS_FRACTION_BITS;
-    const auto at = static_cast<std::int64_t>(std::floor(
-        static_cast<double>(lens + radius) * DEFRAY_CELL_MAP / static_cast<double>(2 * radius)));
-    return static_cast<std::size_t>(std::clamp<std::int64_t>(at, 0, DEFRAY_CELL_MAP - 1));
-  };
-  return lights.cell_map[entry(dy) * DEFRAY_CELL_MAP + entry(dx)];
-}
-
-/// Share of the pixel that a sharp edge in front of a source with this CoC covers; 0: no such edge.
-float sharp_edge(const Frame& f, std::size_t front, std::int32_t coc) {
-  if (f.coverage.empty() || f.coverage[front] >= DEFRAY_WHOLE) return 0;
+/// Share of the pixel that something in focus in front of a source with this CoC covers.
+float covered_in_focus(const Frame& f, std::size_t front, std::int32_t coc) {
   const std::int32_t own = tame(f.coc_quanta[front]);
   if (std::abs(own) >= DEFRAY_SHARP_QUANTA || own >= coc - DEFRAY_JUMP_QUANTA) return 0;
-  return static_cast<float>(f.coverage[front]) * (1.0f / DEFRAY_WHOLE);
+  if (f.coverage.empty()) return 1;
+  return static_cast<float>(f.coverage[front] & ~DEFRAY_SYNTHESISED) * (1.0f / DEFRAY_WHOLE);
 }
 
-/// How much of a source is seen from a pixel: of a small disc at 16 places in it, of a wide one
-/// from cells around the nearest, weighed 1 2 1 along both axes. Places in eighths of a
-/// pixel.
-template <typename IsSeen>
-int visible_of_16(std::int32_t coc, std::int64_t spread, const IsSeen& is_seen) {
-  int visible = 0;
-  if (std::abs(coc) < DEFRAY_WIDE_QUANTA) {
-    for (int i = 0; i < 16; ++i) visible += is_seen(2 * (i % 4) - 3, 2 * (i / 4) - 3);
-    return visible;
+/// Of a map of the lens the value between its entries, at a pixel's place.
+class SeenMap {
+ public:
+  SeenMap(const std::uint8_t* map, int side, std::int32_t coc)
+      : map_(map), side_(side), coc_(coc) {}
+
+  /// So far from the middle of a source, px.
+  float at(float dx, float dy) const {
+    const auto [column, right] = place(dx);
+    const auto [row, below] = place(dy);
+    const std::uint8_t* const upper = map_ + row * side_ + column;
+    const float top = between(upper, right), bottom = between(upper + side_, right);
+    return (top + below * (bottom - top)) * (1.0f / 255.0f);
   }
-  const auto step = static_cast<int>(std::abs(std::int64_t{coc}) * spread / (1 << 21));
-  for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
-      if (is_seen(step * du, step * dv)) visible += (2 - std::abs(du)) * (2 - std::abs(dv));
-    }
+
+ private:
+  static float between(const std::uint8_t* two, float share) {
+    const auto first = static_cast<float>(two[0]);
+    return first + share * (static_cast<float>(two[1]) - first);
   }
-  return visible;
-}
+
+  /// The entry before, and how far beyond it.
+  std::pair<int, float> place(float distance) const {
+    const float lens = distance / (static_cast<float>(coc_) * px_per_quantum);
+    const auto side = static_cast<float>(side_);
+    const float at = std::clamp((lens + 1) * (0.5f * side) - 0.5f, 0.0f, side - 1);
+    const int before = std::min(static_cast<int>(at), side_ - 2);
+    return {before, at - static_cast<float>(before)};
+  }
+
+  const std::uint8_t* map_;
+  int side_;
+  std::int32_t coc_;
+};
 
 RimCentre rim_at(const RayPlan& plan, int x, int y) {
   return {plan.rim_x[static_cast<std::size_t>(x)], plan.rim_y[static_cast<std::size_t>(y)]};
@@ -94,15 +98,16 @@ RimCentre rim_at(const RayPlan& plan, int x, int y) {
 }  // namespace
 
 void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& plan,
-                    const std::vector<std::vector<std::int32_t>>& winner,
                     std::vector<Plane>& means) {
   const ApertureTable table{lights.table};
+  const std::vector<std::uint8_t> maps = light_maps(lights, f);
   const bool has_rim = !plan.rim_x.empty();
   std::vector<Plane> added(means.size(), Plane(means[0].size()));
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
     const int sx = lights.where[s][0], sy = lights.where[s][1], coc = lights.where[s][2];
     const int across = lights.where[s][3] % DEFRAY_LIGHT_ROW;
     const int down = lights.where[s][3] / DEFRAY_LIGHT_ROW;
+    const SeenMap map(&maps[static_cast<std::size_t>(lights.maps[s][0])], lights.maps[s][1], coc);
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y < std::min(f.height, sy + down + reach); ++y) {
       for (int x = std::max(0, sx - reach); x < std::min(f.width, sx + across + reach); ++x) {
@@ -114,21 +119,13 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
         const auto own =
             static_cast<std::size_t>(y * f.layers) * static_cast<std::size_t>(f.width) +
             static_cast<std::size_t>(x);
-        const float covered = sharp_edge(f, own, coc);
         const auto target = static_cast<std::size_t>(y) * static_cast<std::size_t>(f.width) +
                             static_cast<std::size_t>(x);
-        const auto is_hidden = [&](int dx, int dy) {
-          const std::int32_t held = winner[cell_between(lights, dx, dy, coc)][target];
-          const auto at = static_cast<std::size_t>(held);
-          if (covered > 0 && at == own) return false;
-          return held >= 0 && tame(f.coc_quanta[at]) < coc - DEFRAY_JUMP_QUANTA;
-        };
-        const int visible = visible_of_16(coc, lights.spread, [&](int du, int dv) {
-          return !is_hidden(8 * (x - sx) - 4 * (across - 1) + du,
-                            8 * (y - sy) - 4 * (down - 1) + dv);
-        });
+        const float visible =
+            map.at(static_cast<float>(x - sx) - 0.5f * static_cast<float>(across - 1),
+                   static_cast<float>(y - sy) - 0.5f * static_cast<float>(down - 1));
         if (visible == 0) continue;
-        const float seen = static_cast<float>(visible) / 16 * (1 - covered);
+        const float seen = visible * (1 - covered_in_focus(f, own, coc));
         const float share = static_cast<float>(arrives) * lights.share_of_light * seen;
         for (std::size_t c = 0; c < means.size(); ++c) {
           added[c][target] += share * lights.excess[s][c];

@@ -76,15 +76,10 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
   std::vector<std::size_t> filled(pixels);
   RayResult out{sum, std::vector<std::uint32_t>(pixels)};
   const bool has_light = lights && !lights->empty();
-  std::vector<std::vector<std::int32_t>> winner;  // of every cell, for the light sources
   std::vector<std::int64_t> nearest(plan.wants_nearest ? pixels : 0, -1);
-  std::size_t cell = 0;  // counts from 1 while its winners come
-  const auto begin = [&] {
-    ++cell;
-    if (has_light) winner.emplace_back(pixels, -1);
-  };
+  std::size_t cell = 0;  // counts from 1 while its rays come
+  const auto begin = [&] { ++cell; };
   const auto add = [&](std::size_t target, std::size_t source, bool arrived) {
-    if (has_light && arrived) winner.back()[target] = static_cast<std::int32_t>(source);
     if (is_cut_off(plan, f.width, target, plan.lens.points[cell - 1])) return;
     ++filled[target];
     if (f.coverage.empty() || f.coverage[source] < DEFRAY_SYNTHESISED) ++out.seen[target];
@@ -104,7 +99,7 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
           differs[i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][f.front_of(i)];
     }
   }
-  if (has_light) highlights_add(*lights, f, plan, winner, out.means);
+  if (has_light) highlights_add(*lights, f, plan, out.means);
   if (plan.sparse_from[0] > 0) {
     const TileWindow all{0, ray_tiles_along(f.width), ray_tiles_along(f.height)};
     rdb_between(f, sparse_tiles(ray_tiles(f, plan).least, all, f, plan, lights), out);

@@ -38,10 +38,11 @@ RayTiles ray_tiles(const Frame& frame, const RayPlan& plan);
 /// Twin of kernel `rdb_between`, over the picture; `sparsity` of all tiles of the frame.
 void rdb_between(const Frame& frame, const std::vector<std::uint32_t>& sparsity, RayResult& out);
 
-/// Twin of kernel `highlights_add`: adds the light to the means. `winner` holds every cell's
-/// winners, [cell][pixel], -1 where no ray arrives.
+/// Twin of kernel `light_maps`: all maps, one after the other.
+std::vector<std::uint8_t> light_maps(const LightSources& lights, const Frame& frame);
+
+/// Twin of kernel `highlights_add`, `light_maps` before it: adds the light to the means.
 void highlights_add(const LightSources& lights, const Frame& frame, const RayPlan& plan,
-                    const std::vector<std::vector<std::int32_t>>& winner,
                     std::vector<Plane>& means);
 
 /// The means of rays without float's rounding, cells simply added up.

@@ -3,7 +3,9 @@
 
 #include "chain/steps/highlights.h"
 #include "rdb/rdb_plan.h"
+#include "reference/reference.h"
 #include "reference/twin_backend.h"
+#include "validation/either.h"
 #include "validation/kernel_checks.h"
 #include "validation/stage_input.h"
 #include "validation/work.h"
@@ -38,9 +40,21 @@ Outcome run_add(Backend& backend, const Case& c, const Input& in) {
   const int light = light_channels(c);
   const RayPlan plan = ray_plan(c);
   const auto kept = reference::TwinBackend().highlights(f, light);
-  LightSources lights = take_light(f, kept, light, lopsided_aperture(), plan.lens);
+  LightSources lights = take_light(f, kept, light, lopsided_aperture());
   make_boxes(f, lights);
   return {{}, backend.rays(f, plan, &lights).means};
+}
+
+Outcome run_maps(Backend& backend, const Case& c, const Input& in) {
+  Frame f = bright_fragments(in);
+  const int light = light_channels(c);
+  const auto kept = reference::TwinBackend().highlights(f, light);
+  LightSources lights = take_light(f, kept, light, lopsided_aperture());
+  make_boxes(f, lights);
+  const std::vector<std::uint8_t> maps = either(
+      backend, [&](DeviceBackend& d) { return d.light_maps(f, lights); },
+      [&] { return reference::light_maps(lights, f); });
+  return {{maps.begin(), maps.end()}, {}};
 }
 
 /// All cells of so many rows in one pass.
@@ -55,7 +69,8 @@ constexpr const char* rule = "equal bits: + - x / sqrt in one order";
 std::vector<KernelCheck> highlight_checks() {
   return {
       {"highlights", rule, run_highlights, highlights_work, nullptr, nullptr, highlights_memory},
-      {"highlights_add", rule, run_add, add_work, nullptr, nullptr, add_memory}};
+      {"highlights_add", rule, run_add, add_work, nullptr, nullptr, add_memory},
+      {"light_maps", "equal: + - x / sqrt in one order", run_maps, add_work}};
 }
 
 }  // namespace defray::validation

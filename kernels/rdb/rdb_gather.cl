@@ -22,10 +22,9 @@
 // sparsity        [tiles]            0: rays of all rows, 1: of half, 2: of a quarter (sparse.clh)
 // sharp           [words]            bins whose rays end where they begin, whatever the lens point
 // lens, rim_x, rim_y                 as in rdb_merge
-// light_first     [light tiles + 1]  as `first` in highlights_add
 // winner          [cells][band_rows][width]  source in the window, all ones where no ray has
 // arrived;
-//                                    where highlights_add or rdb_nearest ask for it
+//                                    where rdb_nearest asks for it
 // sum0..3         [band_rows][width] colours' sums; after the last pass the means
 // filled, seen    [band_rows][width] as in rdb_merge
 // Global size: strips of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh).
@@ -77,8 +76,8 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
                          __global const uint* restrict special_rows,
                          __global const uint* restrict sparsity, __global const int2* restrict lens,
                          __global const int* restrict rim_x, __global const int* restrict rim_y,
-                         __global const uint* restrict light_first, __global uint* winner,
-                         WRITTEN_CHANNELS(sum), __global uint* filled, __global uint* seen) {
+                         __global uint* winner, WRITTEN_CHANNELS(sum), __global uint* filled,
+                         __global uint* seen) {
   const int x = (int)(p.band_x + get_global_id(0) * LANES);
   const int y = (int)(p.band_y + get_global_id(1) * ROWS);
   if (x >= (int)p.band_end || y >= (int)(p.band_y + p.band_rows)) return;
@@ -101,15 +100,10 @@ __kernel void rdb_gather(const DefrayRaysParams p, __global const int* restrict 
     is_special |= special[w];
     is_blurred |= plain[w] & ~sharp[w];
   }
-  const uint light_tile =
-      (uint)y / DEFRAY_LIGHT_TILE * p.light_tiles_x + (uint)x / DEFRAY_LIGHT_TILE;
-  const bool wants_winners =
-      p.wants_winners == 2u ||
-      (p.wants_winners == 1u && light_first[light_tile] < light_first[light_tile + 1u]);
   Runs runs;
   find_runs(plain, special, &runs);
-  if (is_special != 0ul || p.has_rim || wants_winners) {
-    gather_any(p, &r, &runs, &s, lens, rim_x, rim_y, wants_winners, winner);
+  if (is_special != 0ul || p.has_rim || p.wants_winners) {
+    gather_any(p, &r, &runs, &s, lens, rim_x, rim_y, p.wants_winners, winner);
   } else if (is_blurred != 0ul) {
     EACH_ROW s.seen[j] -= s.count[j];  // what this pass counts was seen
     if (p.channels > 3u) {

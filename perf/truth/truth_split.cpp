@@ -26,8 +26,8 @@ std::vector<Plane> distributed(const Bench& bench, Frame f, int cells_per_side) 
   settings.cells_per_side = cells_per_side;
   const RayPlan plan = ray_plan(settings, false);
   const int points = static_cast<int>(plan.lens.points.size());
-  const LightSources lights = take_light(f, bench.backend.highlights(f, 3), 3,
-                                         make_aperture_table(rasterise({})), plan.lens);
+  const LightSources lights =
+      take_light(f, bench.backend.highlights(f, 3), 3, make_aperture_table(rasterise({})));
   f.channels = bench.backend.soften(f, points);
   return bench.backend.rays(f, plan, &lights).means;
 }

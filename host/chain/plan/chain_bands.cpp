@@ -9,6 +9,7 @@
 #include "lens/coc.h"
 #include "lens/lens_grid.h"
 #include "opencl/launch_table.h"
+#include "rdb/light_sources.h"
 #include "rdb/rdb_plan.h"
 
 namespace defray {
@@ -37,7 +38,8 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
     const float side = static_cast<float>(largest) * px_per_quantum / cells_per_side(lens_points);
     reach.soften = static_cast<int>(side) + launch_of("soften").reach_px + 1;
   }
-  reach.rays = rdb_reach(largest) + 2 + DEFRAY_LIGHT_GROUP - 1;  // groups of lights are whole
+  // Groups of lights are whole.
+  reach.rays = rdb_reach(largest) + light_map_rows(largest) + DEFRAY_LIGHT_GROUP - 1;
   return reach;
 }
 

@@ -5,7 +5,6 @@
 
 #include "frame/frame.h"
 #include "lens/aperture_table.h"
-#include "lens/lens_points.h"
 #include "rdb/light_sources.h"
 
 namespace defray {
@@ -17,7 +16,7 @@ void take_light(Frame& frame, const Values<float>& kept, const Values<float>& al
                 int light_channels, LightSources& lights);
 
 /// The aperture that the lights' discs have.
-void show_through(const ApertureTable& aperture, const LensPoints& lens, LightSources& lights);
+void show_through(const ApertureTable& aperture, LightSources& lights);
 
 /// Lists sources by the tiles that their discs may meet, in a frame of this size.
 void sort_into_tiles(LightSources& lights, int width, int height);
@@ -28,9 +27,6 @@ LightSources lights_near(const LightSources& all, const Frame& frame, int reach)
 
 /// All of it, of a whole frame.
 LightSources take_light(Frame& frame, const Values<float>& kept, int light_channels,
-                        const ApertureTable& aperture, const LensPoints& lens);
-
-/// For each of DEFRAY_CELL_MAP^2 squares over the lens's square the cell nearest to its centre.
-std::vector<std::uint32_t> map_cells(const LensPoints& lens);
+                        const ApertureTable& aperture);
 
 }  // namespace defray

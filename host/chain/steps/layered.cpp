@@ -99,8 +99,7 @@ void Layered::lights_to(int end) {
       kept_.host().subspan(f.index(0, rows.y), f.index(0, rows.end) - f.index(0, rows.y));
   if (parallel_any(kept.size(), [&](std::size_t i) { return kept[i] != 1.0f; })) {
     if (lights_.empty()) {
-      show_through(make_aperture_table(rasterise(work_.settings.aperture)), work_.plan.lens,
-                   lights_);
+      show_through(make_aperture_table(rasterise(work_.settings.aperture)), lights_);
     }
     take_light(f, kept_, alpha_, light_channels(), lights_);
   }

@@ -58,7 +58,7 @@ const ApertureTable& aperture() {
 }
 
 LightSources taken(Scene& s, int light_channels) {
-  return take_light(s.frame, s.kept, light_channels, aperture(), make_lens_points({}, 60));
+  return take_light(s.frame, s.kept, light_channels, aperture());
 }
 
 TEST(LightSources, AreWhatIsNotKept) {
@@ -200,21 +200,18 @@ TEST(LightSources, InACornerTheFramesFirstAndLastPixelsAreLookedAt) {
   }
 }
 
-TEST(LightSources, EachPartOfTheLensHasItsNearestCell) {
-  const LensPoints lens = make_lens_points({}, 137);
-  const std::vector<std::uint32_t> map = map_cells(lens);
-  constexpr int side = DEFRAY_CELL_MAP;
-  ASSERT_EQ(map.size(), static_cast<std::size_t>(side * side));
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
-      const auto distance = [&](const std::array<std::int32_t, 2>& c) {
-        return std::hypot((2 * i + 1 - side) * 1024.0 - c[0], (2 * j + 1 - side) * 1024.0 - c[1]);
-      };
-      double least = HUGE_VAL;
-      for (const auto& c : lens.points) least = std::min(least, distance(c));
-      EXPECT_NEAR(distance(lens.points[map[static_cast<std::size_t>(j * side + i)]]), least, 1e-6);
-    }
+TEST(LightSources, MapsHaveAnEntryAPixelOfTheDiscUpTo64ASide) {
+  Scene s(2);
+  const LightSources lights = taken(s, 3);
+  ASSERT_EQ(lights.maps.size(), lights.where.size());
+  int entries = 0;
+  for (std::size_t k = 0; k < lights.maps.size(); ++k) {
+    const int across = 2 * (std::abs(lights.where[k][2]) / 256);
+    EXPECT_EQ(lights.maps[k][0], entries);
+    EXPECT_EQ(lights.maps[k][1], std::min(across + 2, 64));
+    entries += lights.maps[k][1] * lights.maps[k][1];
   }
+  EXPECT_EQ(lights.map_entries, static_cast<std::size_t>(entries));
 }
 
 }  // namespace
