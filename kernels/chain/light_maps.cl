@@ -19,7 +19,7 @@
 #include "chain/light_place.clh"
 #include "rdb/lanes.clh"
 
-// LightWays over the picture, of squares beside each other: a pixel's step, radii that it passes.
+// Ways over the picture, of squares beside each other: a pixel's step, radii that it passes.
 typedef struct {
   float step_x[LANES], step_y[LANES], passed[LANES];
   int steps[LANES];
