@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/plane.h"
 #include "chain/steps/light_groups.h"
 #include "lens/coc.h"
@@ -52,9 +54,17 @@ float alpha_around(const Frame& f, std::span<const float> alpha, std::size_t own
   return *middle;
 }
 
-/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP.
+/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP. Throws Error(input) where they are
+/// more than a place can say.
 void place_maps(LightSources& lights) {
+  constexpr std::size_t one = std::size_t{DEFRAY_LIGHT_MAP} * DEFRAY_LIGHT_MAP;
   for (const auto& where : lights.where) {
+    if (lights.map_entries > std::numeric_limits<std::int32_t>::max() - one) {
+      fail(ErrorKind::input,
+           "{} highlights are too many so far out of focus: maps of what hides them take more than "
+           "2 GiB; {} rays needs none",
+           lights.where.size(), field("highlights"));
+    }
     const std::int32_t radius_px = std::abs(where[2]) >> DEFRAY_COC_FRACTION_BITS;
     const std::int32_t side = std::min(2 * radius_px + 2, DEFRAY_LIGHT_MAP);
     lights.maps.push_back({static_cast<std::int32_t>(lights.map_entries), side});
@@ -129,10 +139,10 @@ LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
   }
   if (near.where.empty()) return near;
   group_lights(near);
+  place_maps(near);
   sort_into_tiles(near, f.width, f.height);
   near.table = all.table;
   near.share_of_light = all.share_of_light;
-  place_maps(near);
   return near;
 }
 

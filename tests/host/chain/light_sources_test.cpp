@@ -214,5 +214,22 @@ TEST(LightSources, MapsHaveAnEntryAPixelOfTheDiscUpTo64ASide) {
   EXPECT_EQ(lights.map_entries, static_cast<std::size_t>(entries));
 }
 
+TEST(LightSources, TooManyMapsAreRefused) {
+  LightSources all;
+  for (int i = 0; i < 525000; ++i) {  // 64 x 64 bytes each
+    all.where.push_back({i % 1000 * 4, i / 1000 * 4, 60 * 256, 1 + DEFRAY_LIGHT_ROW});
+    all.excess.push_back({1, 1, 1, 0});
+  }
+  Frame f;
+  f.width = 4000;
+  f.height = 2100;
+  try {
+    lights_near(all, f, f.height);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()).find("525000 highlights are too many so far out of focus"), 0u);
+  }
+}
+
 }  // namespace
 }  // namespace defray::test::light_sources_test
