@@ -53,15 +53,18 @@ watch_machine() {
     [ ! -s "$folder/long-ones.now" ] || mv "$folder/long-ones.now" "$folder/long-ones"
   done
 }
-# The ends of what failed tests said.
-show_ends() {
+# What failed tests said, from their own first lines; of a program that says nothing of tests, the end.
+show_failures() {
   awk '/^[0-9]+\/[0-9]+ Testing: / { name = $3 }
-       /^Output:$/ { count = 0; next }
+       /^Output:$/ { count = 0; said = ""; next }
        /^<end of output>/ { end = count }
        { lines[count++] = substr($0, 1, 200) }
+       /^\[ RUN / { first = count - 1 }
+       /^\[  FAILED  \].* ms\)$/ { for (i = first; i < count && i < first + 40; ++i) said = said lines[i] "\n" }
        /^Test Failed\./ {
          print "-- " name
-         for (i = end > 6 ? end - 6 : 1; i < end; ++i) print lines[i]
+         if (said == "") for (i = end > 30 ? end - 30 : 1; i < end; ++i) said = said lines[i] "\n"
+         printf "%s", substr(said, 1, 12000)
        }' "$folder/Testing/Temporary/LastTest.log"
 }
 step "Testing"
@@ -72,9 +75,9 @@ trap 'kill $watching 2>/dev/null || true' EXIT
 code=0
 ctest --test-dir "$folder" --progress --output-on-failure --parallel "$parallel" \
   --repeat after-timeout:2 "${which[@]}" "${rest[@]}" || code=$?
-ends=$(show_ends)
-if [ -n "$ends" ]; then
-  printf 'The ends of what failed, or hung and was run once more:\n%s\n' "$ends"
+failures=$(show_failures)
+if [ -n "$failures" ]; then
+  printf 'What failed, or hung and was run once more:\n%s\n' "$failures"
   if [ -s "$folder/long-ones" ]; then echo "Ran for ten minutes:" && cat "$folder/long-ones"; fi
   if [ -s "$folder/machine.log" ]; then echo "The machine:" && cat "$folder/machine.log"; fi
 fi

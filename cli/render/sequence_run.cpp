@@ -131,9 +131,7 @@ void SequenceRun::render() {
     return std::async(job_.no_overlap ? std::launch::deferred : std::launch::async,
                       [this, i] { return read(frames_[i]); });
   };
-  // Before there are other threads: one asks for environment variables that another may set.
-  prepare_kernel_cache();
-  prepare_image_files();
+  prepare_environment();
   std::future<Work> reading = read_ahead(0), writing;
   device_.emplace(device_of(job_));
   for (std::size_t i = 0; i < frames_.size(); ++i) {

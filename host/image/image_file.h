@@ -30,10 +30,6 @@ using Matrix4 = std::array<float, 16>;
 
 enum class Sample { half_float, single_float };
 
-/// Before there are other threads: what reads the first file asks the environment for folders of
-/// readers, which PoCL changes when a device is opened.
-void prepare_image_files();
-
 class ImageFile {
  public:
   /// Reads every part of a file. PNG and JPEG pictures are decoded from sRGB to linear; as data

@@ -64,10 +64,6 @@ std::string about_missing(const std::string& path) {
 
 }  // namespace
 
-void prepare_image_files() {
-  if (!ImageInput::create("any.exr")) OIIO::geterror();
-}
-
 ImageFile ImageFile::read(const std::string& path, Content content) {
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown) && !unknown) {

@@ -59,7 +59,7 @@ bool is_pocl(const DeviceInfo& info) { return info.platform == "Portable Computi
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
-  prepare_kernel_cache();
+  prepare_environment();
   const DriverStacks stacks;  // drivers start their threads at the first question
   std::vector<DeviceInfo> found;
   std::vector<cl::Platform> platforms;

@@ -47,9 +47,12 @@ bool is_writable(const fs::path& folder) {
 
 }  // namespace
 
-void prepare_kernel_cache() {
+void prepare_environment() {
   static std::once_flag once;
   std::call_once(once, [] {
+    // PoCL sets this itself as it starts. A new variable moves all of them, under the eyes of
+    // threads that ask for one (readers of pictures do); one that is there already moves nothing.
+    setenv("HWLOC_PLUGINS_PATH", "/dev/null", 0);
     if (is_writable(pocl_cache_folder())) return;
     static const TemporaryFolder folder("defray-kcache");
     if (!folder.path().empty()) setenv("POCL_CACHE_DIR", folder.path().c_str(), 1);
