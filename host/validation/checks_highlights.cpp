@@ -70,7 +70,7 @@ std::vector<KernelCheck> highlight_checks() {
   return {
       {"highlights", rule, run_highlights, highlights_work, nullptr, nullptr, highlights_memory},
       {"highlights_add", rule, run_add, add_work, nullptr, nullptr, add_memory},
-      {"light_maps", "equal: + - x / sqrt in one order", run_maps, add_work}};
+      {"light_maps", "equal: + - x / sqrt in one order", run_maps, light_maps_work}};
 }
 
 }  // namespace defray::validation

@@ -23,8 +23,9 @@ double band_work(const Case& c) {
 double pixels(const Case& c) { return static_cast<double>(c.width) * c.height; }
 
 double add_work(const Case& c) {
+  const double maps = light_maps_work(c) - highlights_work(c);
   const double disc = std::min(squared(2 * c.coc_px + 5), pixels(c));
-  return (4 * pixels(c) + band_work(c)) * c.cells * c.cells + pixels(c) / 6 * disc * 8;
+  return (4 * pixels(c) + band_work(c)) * c.cells * c.cells + pixels(c) / 6 * disc * 8 + maps;
 }
 
 double clear_work(const Case& c) { return pixels(c) * c.cells * c.cells; }
@@ -47,6 +48,13 @@ double feather_work(const Case& c) { return 100 * pixels(c) + fill_work(c); }
 double gather_work(const Case& c) { return pixels(c) * c.samples * (4 + 2.0 * c.channels); }
 
 double highlights_work(const Case& c) { return pixels(c) * 2 * 32 * 8 + band_work(c); }
+
+/// A sixth of the pixels are lamps.
+double light_maps_work(const Case& c) {
+  const double entries = std::min(squared(2 * c.coc_px + 2), squared(DEFRAY_LIGHT_MAP));
+  const double steps = std::min(2 * c.coc_px, std::max(c.width, c.height) / 2.0);
+  return highlights_work(c) + pixels(c) / 6 * entries * (4 + steps);
+}
 
 double linear_work(const Case& c) {
   const double side = 2 * std::floor(c.coc_px + 0.5) + 1;

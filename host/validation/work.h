@@ -15,6 +15,7 @@ double fill_work(const Case& c);
 double feather_work(const Case& c);
 double gather_work(const Case& c);
 double highlights_work(const Case& c);
+double light_maps_work(const Case& c);
 double linear_work(const Case& c);
 double match_work(const Case& c);
 double ray_tiles_work(const Case& c);
