@@ -47,7 +47,7 @@ struct Pixel {
 
 float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) {
   const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;
-  const float form = s.conic_xx * dx * dx + 2 * (s.conic_xy * dx * dy) + s.conic_yy * dy * dy;
+  const float form = (s.conic_xx * dx + 2 * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
   const float inside = std::fmax(form, 0.0f);
   if (s.disc_px > 0) {
     const float within = (1 - std::sqrt(inside)) * s.disc_px + 0.5f;

@@ -36,24 +36,31 @@ typedef struct {
   int16 count, opaque;
 } SplatSquare;
 
-// e^-power for 0 <= power < 80, within 10^-6 of itself: 2^whole times a polynomial (Cephes' exp2f).
+// e^-power for 0 <= power < 80, within 10^-6 of itself (2 10^-6 from 10 on): 2^whole times a
+// polynomial of degree 5 for what is left.
 INLINED float16 falloff(const float16 power) {
+  const float rounding = 0x1.8p23f;  // added, it leaves no bits behind the point
   const float16 exponent = power * -1.44269504f;
-  const int16 whole = convert_int16(exponent - 0.5f);
-  const float16 x = exponent - convert_float16(whole);  // -1/2 to 1/2
+  const float16 rounded = exponent + rounding;
+  const float16 x = exponent - (rounded - rounding);  // -1/2 to 1/2
   // Pairs of terms, which do not wait for each other.
   const float16 x2 = x * x;
-  const float16 high =
-      (1.53533619e-4f * x + 1.33988744e-3f) * x2 + (9.61843736e-3f * x + 5.55033247e-2f);
-  const float16 low = (0.240226479f * x2 + 0.693147203f * x) + 1.0f;
-  const float16 mantissa = high * (x2 * x) + low;
-  return mantissa * as_float16((whole + 127) << 23);
+  const float16 low = 0.693147004f * x + 1.0f;
+  const float16 middle = 0.0555073358f * x + 0.240222424f;
+  const float16 high = 0.00132647273f * x + 0.00967151299f;
+  const float16 mantissa = (high * x2 + middle) * x2 + low;
+  return as_float16(as_int16(mantissa) + (as_int16(rounded) << 23));
 }
+
+// Not fmax and fmin: what those owe to what is not a number takes three instructions instead of
+// one.
+INLINED float16 larger(const float16 a, const float16 b) { return a > b ? a : b; }
+INLINED float16 smaller(const float16 a, const float16 b) { return a < b ? a : b; }
 
 // Puts the surface behind those before it.
 INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
   const float16 left = 1.0f - r->sum3;
-  const float16 share = averages ? left / fmax(r->weight, 1.0f) : left;
+  const float16 share = averages ? left / larger(r->weight, 1.0f) : left;
   r->sum0 = select(r->sum0, r->sum0 + share * r->layer0, where);
   r->sum1 = select(r->sum1, r->sum1 + share * r->layer1, where);
   r->sum2 = select(r->sum2, r->sum2 + share * r->layer2, where);
@@ -70,13 +77,12 @@ INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
 // A splat's weight in each pixel; 0 beyond its cut-off.
 INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float16 dy,
                              const DefraySplatTileParams p) {
-  const float16 form =
-      s->conic_xx * dx * dx + 2.0f * (s->conic_xy * dx * dy) + s->conic_yy * dy * dy;
+  const float16 form = (s->conic_xx * dx + 2.0f * s->conic_xy * dy) * dx + s->conic_yy * dy * dy;
   if (s->disc_px > 0.0f) {
-    return s->amplitude * clamp((1.0f - sqrt(fmax(form, 0.0f))) * s->disc_px + 0.5f, 0.0f, 1.0f);
+    return s->amplitude * clamp((1.0f - sqrt(larger(form, 0.0f))) * s->disc_px + 0.5f, 0.0f, 1.0f);
   }
-  const float16 inside = fmin(fmax(form, 0.0f), p.cutoff);
-  return select((float16)(0.0f), s->amplitude * fmax(falloff(inside) - p.edge, 0.0f),
+  const float16 inside = smaller(larger(form, 0.0f), p.cutoff);
+  return select((float16)(0.0f), s->amplitude * larger(falloff(inside) - p.edge, 0.0f),
                 form < p.cutoff);
 }
 
@@ -85,17 +91,20 @@ INLINED void add_splat(SplatSquare* r, __global const DefraySplat* s, const floa
                        const bool averages) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
   const int16 begins = hits & (s->z_near > r->far);
-  if (any_lane(begins)) end_layer(r, begins, averages);
-  const int16 joins = hits & ~r->opaque;
+  int16 joins = hits;
+  if (any_lane(begins)) {
+    end_layer(r, begins, averages);
+    joins &= ~r->opaque;
+  }
   // Only where it joins: 0 times what is not finite is not 0.
-  const float16 taken = averages ? weight : fmin(weight, 1.0f - r->weight);
+  const float16 taken = averages ? weight : smaller(weight, 1.0f - r->weight);
   r->weight = select(r->weight, r->weight + taken, joins);
   r->layer0 = select(r->layer0, r->layer0 + taken * s->r, joins);
   r->layer1 = select(r->layer1, r->layer1 + taken * s->g, joins);
   r->layer2 = select(r->layer2, r->layer2 + taken * s->b, joins);
   r->layer3 = select(r->layer3, r->layer3 + taken * s->a, joins);
-  r->far = select(r->far, fmax(r->far, s->z_far), joins);
-  if (s->a > 0.0f) r->depth = select(r->depth, fmin(r->depth, s->z), joins);
+  r->far = select(r->far, larger(r->far, s->z_far), joins);
+  if (s->a > 0.0f) r->depth = select(r->depth, smaller(r->depth, s->z), joins);
   r->count -= joins;
 }
 
