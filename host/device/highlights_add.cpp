@@ -12,7 +12,7 @@ const LaunchRow highlights_add_launch({.kernel = "highlights_add", .group = {1, 
 }  // namespace
 
 void RayBuffers::find_light_maps(const DefrayRdbParams& p, const RayWindow& window) {
-  if (!lights_) return;
+  if (!lights_ || lights_->map_entries == 0) return;
   const std::size_t sources = lights_->where.size();
   const DefrayLightMapParams m{static_cast<std::uint32_t>(sources),
                                p.width,
@@ -29,7 +29,7 @@ void RayBuffers::find_light_maps(const DefrayRdbParams& p, const RayWindow& wind
 
 std::vector<std::uint8_t> DeviceBackend::light_maps(const Frame& frame,
                                                     const LightSources& lights) {
-  if (lights.empty()) return {};
+  if (lights.map_entries == 0) return {};
   Band band(session_, "light_maps", frame, {0, frame.height, 0, frame.height});
   RayWindow window;
   window.coc = band.in(frame.coc_quanta);

@@ -31,7 +31,7 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
   excess_ = session.view(lights_->excess);
   table_ = session.view(lights_->table);
   maps_ = session.view(lights_->maps);
-  light_maps = session.buffer(lights_->map_entries);
+  light_maps = session.buffer(std::max<std::size_t>(lights_->map_entries, 1));
 }
 
 DefrayRdbParams RayBuffers::params() const {

@@ -64,6 +64,7 @@ class SeenMap {
 
   /// So far from the middle of a source, px.
   float at(float dx, float dy) const {
+    if (side_ == 0) return 1;  // no map: nothing hides it
     const auto [column, right] = place(dx);
     const auto [row, below] = place(dy);
     const std::uint8_t* const upper = map_ + row * side_ + column;
@@ -107,7 +108,7 @@ void highlights_add(const LightSources& lights, const Frame& f, const RayPlan& p
     const int sx = lights.where[s][0], sy = lights.where[s][1], coc = lights.where[s][2];
     const int across = lights.where[s][3] % DEFRAY_LIGHT_ROW;
     const int down = lights.where[s][3] / DEFRAY_LIGHT_ROW;
-    const SeenMap map(&maps[static_cast<std::size_t>(lights.maps[s][0])], lights.maps[s][1], coc);
+    const SeenMap map(maps.data() + lights.maps[s][0], lights.maps[s][1], coc);
     const int reach = static_cast<int>(std::min(std::abs(coc) / 256 + 2, f.width + f.height));
     for (int y = std::max(0, sy - reach); y < std::min(f.height, sy + down + reach); ++y) {
       for (int x = std::max(0, sx - reach); x < std::min(f.width, sx + across + reach); ++x) {

@@ -11,7 +11,7 @@
 // from its middle, or from the rim before it.
 //
 // where    [sources]                as in highlights_add
-// maps     [sources]                (first entry, side)
+// maps     [sources]                (first entry, side); side 0: none is wanted, nothing hides it
 // coc_quanta, coverage (window)     as in rdb_merge
 // seen     [entries]                255: all of it
 // Global size: (runs of LANES squares of the largest map, sources).

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/plane.h"
+#include "chain/steps/hidden_lights.h"
 #include "chain/steps/light_groups.h"
 #include "lens/coc.h"
 
@@ -54,11 +55,16 @@ float alpha_around(const Frame& f, std::span<const float> alpha, std::size_t own
   return *middle;
 }
 
-/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP. Throws Error(input) where they are
-/// more than a place can say.
-void place_maps(LightSources& lights) {
+/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP, of what may be hidden. Throws
+/// Error(input) where they are more than a place can say.
+void place_maps(LightSources& lights, const std::vector<char>& is_hidden) {
   constexpr std::size_t one = std::size_t{DEFRAY_LIGHT_MAP} * DEFRAY_LIGHT_MAP;
-  for (const auto& where : lights.where) {
+  for (std::size_t i = 0; i < lights.where.size(); ++i) {
+    if (!is_hidden[i]) {
+      lights.maps.push_back({0, 0});
+      continue;
+    }
+    const auto& where = lights.where[i];
     if (lights.map_entries > std::numeric_limits<std::int32_t>::max() - one) {
       fail(ErrorKind::input,
            "{} highlights are too many so far out of focus: maps of what hides them take more than "
@@ -139,7 +145,7 @@ LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
   }
   if (near.where.empty()) return near;
   group_lights(near);
-  place_maps(near);
+  place_maps(near, find_hidden_lights(near, f, rows));
   sort_into_tiles(near, f.width, f.height);
   near.table = all.table;
   near.share_of_light = all.share_of_light;
