@@ -47,6 +47,10 @@ class DeviceBackend : public Backend {
   Session& session() { return session_; }
 
  private:
+  /// `light_maps` and `highlights_add`: adds the sources' light to the means.
+  void add_light(const Frame& frame, const RayPlan& plan, const LightSources& sources,
+                 RayResult& out);
+
   Session& session_;
   KeptBuffer winners_;  ///< From one band of a frame to the next.
 };

@@ -7,8 +7,7 @@
 namespace defray {
 
 RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan,
-                       const LightSources* lights, std::size_t pixels, std::size_t winner_bytes,
-                       KeptBuffer& winners)
+                       std::size_t pixels, std::size_t winner_bytes, KeptBuffer& winners)
     : lens(session.view(plan.lens.points)),
       landing_radii(plan.lens.landing_radii.empty() ? lens : session.view(plan.lens.landing_radii)),
       rim_x(plan.rim_x.empty() ? lens : session.view(plan.rim_x)),
@@ -16,22 +15,13 @@ RayBuffers::RayBuffers(Session& session, const Frame& frame, const RayPlan& plan
       winner(winners.take(session, pixels * std::max(winner_bytes, sizeof(cl_uint)))),
       session_(session),
       frame_(frame),
-      plan_(plan),
-      lights_(lights && !lights->empty() ? lights : nullptr) {
+      plan_(plan) {
   const std::size_t own = session.works_in_host_memory() ? frame.channels.size() : 0;
   for (std::size_t c = own; c < means.size(); ++c) {
     means[c] = session.buffer(pixels * sizeof(cl_float));
   }
   if (own == 0) seen = session.buffer(pixels * sizeof(cl_uint));
   if (plan.wants_nearest) nearest_ = session.buffer(pixels * sizeof(cl_uint2));
-  if (!lights_) return;
-  first_ = session.view(lights_->first);
-  list_ = session.view(lights_->list);
-  where_ = session.view(lights_->where);
-  excess_ = session.view(lights_->excess);
-  table_ = session.view(lights_->table);
-  maps_ = session.view(lights_->maps);
-  light_maps = session.buffer(std::max<std::size_t>(lights_->map_entries, 1));
 }
 
 DefrayRdbParams RayBuffers::params() const {

@@ -1,11 +1,10 @@
 #pragma once
 // What the kernels of the ray distribution buffer write for a band of rows, and what comes after
-// the means: light sources and nearest hits.
+// the means: nearest hits.
 #include <array>
 
 #include "frame/backend.h"
 #include "opencl/session.h"
-#include "rdb/light_sources.h"
 #include "rdb/rdb.h"
 
 namespace defray {
@@ -43,26 +42,27 @@ class KeptBuffer {
   std::size_t bytes_ = 0;
 };
 
+/// A part of the result for kernels to change: itself, or a copy on the device.
+template <typename T>
+cl::Buffer lent(Session& session, T* values, std::size_t count) {
+  if (session.works_in_host_memory()) return session.change_view(values, count * sizeof(T));
+  const cl::Buffer buffer = session.buffer(count * sizeof(T));
+  session.write(buffer, values, count * sizeof(T));
+  return buffer;
+}
+
 class RayBuffers {
  public:
   /// For bands of at most so many pixels, each with so many bytes of winners in `winners`. All
   /// must stay alive.
-  RayBuffers(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-             std::size_t pixels, std::size_t winner_bytes, KeptBuffer& winners);
-
-  bool has_lights() const { return lights_ != nullptr; }
+  RayBuffers(Session& session, const Frame& frame, const RayPlan& plan, std::size_t pixels,
+             std::size_t winner_bytes, KeptBuffer& winners);
 
   /// What does not change from band to band.
   DefrayRdbParams params() const;
 
   /// Looks for the nearest hit among the winners, if the plan wants it.
   void find_nearest(const DefrayRdbParams& p, const RayWindow& window);
-
-  /// Finds which parts of the lens see each source, in a window of source rows.
-  void find_light_maps(const DefrayRdbParams& p, const RayWindow& window);
-
-  /// Adds the light sources to the means.
-  void add_light(const DefrayRdbParams& p, const RayWindow& window);
 
   /// From here on kernels write a band's means, and what was seen: where the device works in host
   /// memory, into the result itself.
@@ -73,7 +73,6 @@ class RayBuffers {
 
   cl::Buffer lens, landing_radii, rim_x, rim_y, winner, seen;
   std::array<cl::Buffer, 4> means;  ///< Planes; kernels write missing channels too.
-  cl::Buffer light_maps;            ///< From find_light_maps.
 
  private:
   /// Index of the band's first pixel in the result.
@@ -82,8 +81,7 @@ class RayBuffers {
   Session& session_;
   const Frame& frame_;
   const RayPlan& plan_;
-  const LightSources* lights_;
-  cl::Buffer nearest_, first_, list_, where_, excess_, table_, maps_;
+  cl::Buffer nearest_;
 };
 
 }  // namespace defray

@@ -7,15 +7,6 @@ namespace {
 
 const LaunchRow rdb_between_launch({.kernel = "rdb_between", .group = {64, 1}});
 
-/// A part of the result for kernels to change: itself, or a copy on the device.
-template <typename T>
-cl::Buffer lent(Session& session, T* values, std::size_t count) {
-  if (session.works_in_host_memory()) return session.change_view(values, count * sizeof(T));
-  const cl::Buffer buffer = session.buffer(count * sizeof(T));
-  session.write(buffer, values, count * sizeof(T));
-  return buffer;
-}
-
 }  // namespace
 
 void RayTileWindow::interpolate(Rows rows, RayResult& out) {

@@ -48,8 +48,7 @@ int rows_of_band(const Session& session, const Frame& frame, std::size_t winner_
 class RdbGather {
  public:
   /// All must stay alive and unchanged meanwhile.
-  RdbGather(Session& session, const Frame& frame, const RayPlan& plan, const LightSources* lights,
-            KeptBuffer& winners);
+  RdbGather(Session& session, const Frame& frame, const RayPlan& plan, KeptBuffer& winners);
 
   void run(RayResult& out, const Progress& progress);
 
@@ -72,17 +71,15 @@ class RdbGather {
   int table_cell_ = -1;                ///< Its first.
 };
 
-RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan,
-                     const LightSources* lights, KeptBuffer& winners)
+RdbGather::RdbGather(Session& session, const Frame& frame, const RayPlan& plan, KeptBuffer& winners)
     : session_(session),
       frame_(frame),
       lens_(plan.lens),
       bins_(bins_of(frame)),
       winner_bytes_(winner_bytes_of(plan)),
       rows_(rows_of_band(session, frame, winner_bytes_)),
-      buffers_(session, frame, plan, lights, size(frame.width) * size(rows_), winner_bytes_,
-               winners),
-      window_(session, frame, plan, bins_, lights),
+      buffers_(session, frame, plan, size(frame.width) * size(rows_), winner_bytes_, winners),
+      window_(session, frame, plan, bins_),
       sharp_(sharp_bins(bins_, lens_)),
       filled_(session.buffer(size(frame.width) * size(rows_) * sizeof(cl_uint))),
       sharp_on_device_(session.view(&sharp_, sizeof sharp_)) {
@@ -136,7 +133,6 @@ void RdbGather::gather(int y, int rows, RayResult& out) {
   buffers_.begin(r, out);
   for (int k = 0; k < cells; k += table_->cell_count()) gather_pass(k);
   buffers_.find_nearest(r, window_.planes);
-  buffers_.add_light(r, window_.planes);
   buffers_.read(r, out);
 }
 
@@ -148,10 +144,6 @@ void RdbGather::run(RayResult& out, const Progress& progress) {
     const int from = std::max(rows.y, first), to = std::min(rows.y + rows.rows, end);
     if (from >= to) continue;
     window_.prepare(rows);
-    DefrayRdbParams r = buffers_.params();
-    r.window_y = window_.params.window_y;
-    r.window_rows = window_.params.window_rows;
-    buffers_.find_light_maps(r, window_.planes);
     // No strip lies across two tiles, and where there is room no tile across two bands.
     const int step = rows_ < DEFRAY_RAY_TILE ? std::min(rows_, DEFRAY_RAY_ROWS) : DEFRAY_RAY_TILE;
     for (int y = from / step * step; y < to; y += rows_) {
@@ -165,9 +157,9 @@ void RdbGather::run(RayResult& out, const Progress& progress) {
 
 /// As rdb_gather leaves rows out.
 void interpolate_scattered(Session& session, const Frame& frame, const RayPlan& plan,
-                           const LightSources* lights, RayResult& out) {
+                           RayResult& out) {
   if (plan.sparse_from[0] == 0) return;
-  RayTileWindow window(session, frame, plan, bins_of(frame), lights);
+  RayTileWindow window(session, frame, plan, bins_of(frame));
   for (const BandRows& rows : window.windows()) {
     window.prepare(rows);
     window.interpolate({rows.y, rows.y + rows.rows}, out);
@@ -186,12 +178,13 @@ RayResult DeviceBackend::rays(const Frame& frame, const RayPlan& plan, const Lig
   if (plan.wants_nearest) out.nearest.resize(pixels);
   if (plan.by == RaysBy::gather && plan.lens.jitter == 0) {
     if (frame.wanted_rows().y == 0) winners_ = {};
-    RdbGather(session_, frame, plan, lights, winners_).run(out, progress);
+    RdbGather(session_, frame, plan, winners_).run(out, progress);
     if (frame.wanted_rows().end == frame.height) winners_ = {};
   } else {
-    RdbScatter(session_, frame, plan, lights).run(out, progress);
-    interpolate_scattered(session_, frame, plan, lights, out);
+    RdbScatter(session_, frame, plan).run(out, progress);
+    interpolate_scattered(session_, frame, plan, out);
   }
+  if (lights && !lights->empty()) add_light(frame, plan, *lights, out);
   return out;
 }
 

@@ -22,7 +22,6 @@ void RdbScatter::merge(const RdbPass& pass) {
                   window_.depth, window_.coverage, buffers_.lens, buffers_.rim_x, buffers_.rim_y,
                   window_.channels, buffers_.means, filled_, buffers_.seen);
   buffers_.find_nearest(p, window_);
-  if (is_last_of_band(pass)) buffers_.add_light(p, window_);
 }
 
 }  // namespace defray

@@ -13,26 +13,17 @@ namespace {
 const LaunchRow rdb_clear_launch({.kernel = "rdb_clear", .group = {256, 0}});
 const LaunchRow rdb_scatter_launch({.kernel = "rdb_scatter", .group = {64, 1}});
 
-/// Rows farther away than rays come from: what is there says what their pixels span, and hides
-/// lights.
-int rows_around(const Frame& frame, const RayPlan& plan, const LightSources* lights) {
-  const bool has_lights = lights && !lights->empty();
-  return has_lights ? light_map_rows(frame.coc_range().largest_radius()) : plan.has_spans ? 2 : 0;
-}
-
 }  // namespace
 
-RdbScatter::RdbScatter(Session& session, const Frame& frame, const RayPlan& plan,
-                       const LightSources* lights)
+RdbScatter::RdbScatter(Session& session, const Frame& frame, const RayPlan& plan)
     : session_(session),
       frame_(frame),
       cells_(plan.lens.points.size()),
       holds_frame_(holds_planes(session, "rdb_merge", frame)),
       passes_(plan_rdb_passes(
           frame.width, frame.wanted_rows(), frame.height, static_cast<int>(cells_),
-          rdb_reach(frame.coc_range().largest_radius()) + rows_around(frame, plan, lights),
-          session.memory_bytes(), lights && !lights->empty())),
-      buffers_(session, frame, plan, lights, size(frame.width) * size(passes_.front().rows),
+          rdb_reach(frame.coc_range().largest_radius()) + span_rows(plan), session.memory_bytes())),
+      buffers_(session, frame, plan, size(frame.width) * size(passes_.front().rows),
                size(passes_.front().cell_count) * sizeof(RdbWinner), winners_),
       filled_(session.buffer(size(frame.width) * size(passes_.front().rows) * sizeof(cl_uint))) {}
 
@@ -65,9 +56,6 @@ void RdbScatter::view_window(const RdbPass& pass) {
   Band band(session_, "rdb_scatter", frame_, holds_frame_ ? all : pass);
   window_ = {band.in(frame_.coc_quanta), band.in(frame_.depth), band.in(frame_.coverage),
              band.in(frame_.data_of), band.in(frame_.channels)};
-  DefrayRdbParams p = params_of(pass);
-  if (holds_frame_) p.window_y = 0, p.window_rows = word(frame_.height);
-  buffers_.find_light_maps(p, window_);
 }
 
 void RdbScatter::scatter(const RdbPass& pass) {

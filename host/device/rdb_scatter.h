@@ -12,9 +12,7 @@ namespace defray {
 /// in order.
 class RdbScatter {
  public:
-  /// `lights`, if any, must stay alive too: all cells of a band are then in one pass.
-  RdbScatter(Session& session, const Frame& frame, const RayPlan& plan,
-             const LightSources* lights = nullptr);
+  RdbScatter(Session& session, const Frame& frame, const RayPlan& plan);
 
   /// All passes, one after the other.
   void run(RayResult& out, const Progress& progress);
@@ -25,7 +23,7 @@ class RdbScatter {
   void scatter(const RdbPass& pass);
 
   /// Adds the cells of the last scatter to the band's sums; the band's last pass makes the means.
-  /// Then the nearest hits and, after the last pass, the light sources.
+  /// Then the nearest hits.
   void merge(const RdbPass& pass);
 
   /// Before a band's first pass, and after its last: its part of the result is there.

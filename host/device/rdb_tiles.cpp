@@ -32,12 +32,8 @@ void read_all(Session& session, const cl::Buffer& buffer, std::size_t count, std
 }  // namespace
 
 RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan& plan,
-                             const RadiusBins& bins, const LightSources* lights)
-    : session_(session),
-      frame_(frame),
-      plan_(plan),
-      lights_(lights),
-      reach_px_(reach_of(frame, bins, plan)) {
+                             const RadiusBins& bins)
+    : session_(session), frame_(frame), plan_(plan), reach_px_(reach_of(frame, bins, plan)) {
   params.width = word(frame.width);
   params.layers = word(frame.layers);
   params.channels = static_cast<std::uint32_t>(frame.channels.size());
@@ -57,8 +53,7 @@ RayTileWindow::RayTileWindow(Session& session, const Frame& frame, const RayPlan
 
 std::vector<BandRows> RayTileWindow::windows() const {
   const std::size_t surfaces = params.stride * size(frame_.layers);
-  return cut_into_windows(frame_.wanted_rows(), frame_.height,
-                          reach_px_ + light_map_rows(frame_.coc_range().largest_radius()),
+  return cut_into_windows(frame_.wanted_rows(), frame_.height, reach_px_ + span_rows(plan_),
                           DEFRAY_RAY_TILE, {surfaces * launch_of("rdb_pad").bytes_a_surface},
                           session_.memory_bytes() / 2);
 }
@@ -106,7 +101,7 @@ void RayTileWindow::find_sparse_tiles() {
   // It waits for all kernels before: none looks at the window's before any more.
   const std::size_t count = std::size_t{params.tiles_x} * params.tiles_y;
   session_.look_at<std::int32_t>(least_, count, [&](std::span<const std::int32_t> least) {
-    sparse_tiles_ = sparse_tiles({least.begin(), least.end()}, tiles(), frame_, plan_, lights_);
+    sparse_tiles_ = sparse_tiles({least.begin(), least.end()}, tiles(), frame_, plan_);
   });
   sparsity = session_.view(sparse_tiles_);
 }

@@ -13,8 +13,7 @@ namespace defray {
 class RayTileWindow {
  public:
   /// All must stay alive and unchanged meanwhile.
-  RayTileWindow(Session& session, const Frame& frame, const RayPlan& plan, const RadiusBins& bins,
-                const LightSources* lights = nullptr);
+  RayTileWindow(Session& session, const Frame& frame, const RayPlan& plan, const RadiusBins& bins);
 
   /// Windows that fit the session's memory, with the rows that they are for.
   std::vector<BandRows> windows() const;
@@ -41,7 +40,6 @@ class RayTileWindow {
   Session& session_;
   const Frame& frame_;
   const RayPlan& plan_;
-  const LightSources* lights_;
   int reach_px_;
   std::vector<BinSet> near_;
   std::vector<std::uint32_t> sparse_tiles_;  ///< What `sparsity` holds.

@@ -12,7 +12,8 @@ namespace defray {
 struct LightSources {
   /// x, y of the first pixel, CoC in quanta, columns + DEFRAY_LIGHT_ROW * rows.
   std::vector<std::array<std::int32_t, 4>> where;
-  std::vector<std::array<float, 4>> excess;  ///< Light of each pixel; missing channels are 0.
+  std::vector<std::array<float, 4>>
+      excess;  ///< Light of each pixel; a missing channel repeats the last.
   int tiles_x = 0;
   /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.
   std::vector<std::uint32_t> first, list;
@@ -26,10 +27,11 @@ struct LightSources {
   bool empty() const { return where.empty(); }
 };
 
-/// Rows from a target to the farthest to which a way leads that its place in a map depends on, less
-/// the largest CoC: entries lie up to 1/32 of a CoC apart.
+/// Rows from a target to the farthest source whose disc reaches it, less the largest CoC, and to
+/// the farthest to which a way leads that its place in a map depends on: entries lie up to 1/32 of
+/// a CoC apart, and groups are whole.
 inline int light_map_rows(std::int32_t largest_coc_quanta) {
-  return 3 + (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) / 16;
+  return 2 + DEFRAY_LIGHT_GROUP + (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) / 16;
 }
 
 }  // namespace defray

@@ -24,19 +24,18 @@ int rdb_reach(std::int32_t largest_coc_quanta) {
   return (largest_coc_quanta >> DEFRAY_COC_FRACTION_BITS) + 1;
 }
 
+int span_rows(const RayPlan& plan) { return plan.has_spans ? 2 : 0; }
+
 std::size_t rdb_bytes_a_pixel(std::size_t cells) {
   return cells * sizeof(RdbWinner) + launch_of("rdb_merge").bytes_a_target;
 }
 
 std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes, bool whole_lens) {
-  const std::size_t fewest = whole_lens ? static_cast<std::size_t>(cell_count) : 1;
-  const std::size_t row_bytes = size(width) * rdb_bytes_a_pixel(fewest);
+                                     std::size_t memory_bytes) {
+  const std::size_t row_bytes = size(width) * rdb_bytes_a_pixel(1);
   if (memory_bytes < row_bytes) {
-    fail(ErrorKind::usage,
-         "{} is {:.4g} MiB: one row of {} pixels with {} lens points needs at least {:.3f} MiB",
-         field("memory"), mib(memory_bytes), width, fewest,
-         std::ceil(mib(row_bytes) * 1000) / 1000);
+    fail(ErrorKind::usage, "{} is {:.4g} MiB: one row of {} pixels needs at least {:.3f} MiB",
+         field("memory"), mib(memory_bytes), width, std::ceil(mib(row_bytes) * 1000) / 1000);
   }
   const std::size_t tall_enough = 4 * static_cast<std::size_t>(reach);
   const std::size_t rows_wanted = std::max(pass_bytes_in_cache / row_bytes, tall_enough);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/band_rows.h"
+#include "rdb/rdb.h"
 
 namespace defray {
 
@@ -26,10 +27,13 @@ struct RdbPass : BandRows {
 /// Rows beyond a target row from which a ray can come, for this largest |CoC| in quanta.
 int rdb_reach(std::int32_t largest_coc_quanta);
 
+/// Rows beyond those: what is there says what their pixels span.
+int span_rows(const RayPlan& plan);
+
 /// Cuts a frame's `wanted` rows into passes whose cells and sums fit `memory_bytes`: bands from the
-/// top, and in each band all cells in order, if `whole_lens` in one pass. Throws Error(usage) when
+/// top, and in each band all cells in order. Throws Error(usage) when
 /// one row of the fewest cells does not fit.
 std::vector<RdbPass> plan_rdb_passes(int width, Rows wanted, int height, int cell_count, int reach,
-                                     std::size_t memory_bytes, bool whole_lens = false);
+                                     std::size_t memory_bytes);
 
 }  // namespace defray

@@ -29,18 +29,11 @@ std::vector<std::int32_t> least_around(std::vector<std::int32_t> least, const Ti
   return least;
 }
 
-bool has_light(const LightSources* lights, int x, int y) {
-  if (!lights || lights->empty()) return false;
-  const std::size_t tile =
-      size(y / DEFRAY_LIGHT_TILE) * size(lights->tiles_x) + size(x / DEFRAY_LIGHT_TILE);
-  return lights->first[tile] < lights->first[tile + 1];
-}
-
 }  // namespace
 
 std::vector<std::uint32_t> sparse_tiles(const std::vector<std::int32_t>& least,
                                         const TileWindow& window, const Frame& f,
-                                        const RayPlan& plan, const LightSources* lights) {
+                                        const RayPlan& plan) {
   std::vector<std::uint32_t> sparsity(least.size(), 0);
   if (plan.sparse_from[0] == 0 || plan.wants_nearest) return sparsity;
   for (std::uint32_t level = 1; level <= plan.sparse_from.size(); ++level) {
@@ -51,9 +44,9 @@ std::vector<std::uint32_t> sparse_tiles(const std::vector<std::int32_t>& least,
     }
   }
   for (int i = 0; i < window.across * window.down; ++i) {
-    const int x = i % window.across * tile_px, y = window.y + i / window.across * tile_px;
+    const int y = window.y + i / window.across * tile_px;
     const bool is_in_picture = y >= f.margin && y + tile_px <= f.height - f.margin;
-    if (!is_in_picture || has_light(lights, x, y)) sparsity[size(i)] = 0;
+    if (!is_in_picture) sparsity[size(i)] = 0;
   }
   return sparsity;
 }

@@ -6,7 +6,6 @@
 
 #include "frame/frame.h"
 #include "kernels/params.h"
-#include "rdb/light_sources.h"
 #include "rdb/rdb.h"
 
 namespace defray {
@@ -37,7 +36,7 @@ struct TileWindow {
 /// winners. `least` is RayTiles::least.
 std::vector<std::uint32_t> sparse_tiles(const std::vector<std::int32_t>& least,
                                         const TileWindow& window, const Frame& frame,
-                                        const RayPlan& plan, const LightSources* lights);
+                                        const RayPlan& plan);
 
 /// Pixels of the wanted rows, but for the margin, between rows that have rays.
 std::size_t interpolated_pixels(const std::vector<std::uint32_t>& sparsity,

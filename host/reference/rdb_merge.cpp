@@ -75,7 +75,6 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
   std::vector<bool> differs(pixels);  // any colour from the pixel's own
   std::vector<std::size_t> filled(pixels);
   RayResult out{sum, std::vector<std::uint32_t>(pixels)};
-  const bool has_light = lights && !lights->empty();
   std::vector<std::int64_t> nearest(plan.wants_nearest ? pixels : 0, -1);
   std::size_t cell = 0;  // counts from 1 while its rays come
   const auto begin = [&] { ++cell; };
@@ -99,11 +98,11 @@ RayResult TwinBackend::rays(const Frame& f, const RayPlan& plan, const LightSour
           differs[i] ? sum[c][i] / static_cast<float>(filled[i]) : f.channels[c][f.front_of(i)];
     }
   }
-  if (has_light) highlights_add(*lights, f, plan, out.means);
   if (plan.sparse_from[0] > 0) {
     const TileWindow all{0, ray_tiles_along(f.width), ray_tiles_along(f.height)};
-    rdb_between(f, sparse_tiles(ray_tiles(f, plan).least, all, f, plan, lights), out);
+    rdb_between(f, sparse_tiles(ray_tiles(f, plan).least, all, f, plan), out);
   }
+  if (lights && !lights->empty()) highlights_add(*lights, f, plan, out.means);
   for (const std::int64_t n : nearest) {
     out.nearest.push_back(n < 0 ? DEFRAY_EMPTY : f.data_pixel(static_cast<std::size_t>(n)));
   }

@@ -57,9 +57,9 @@ Outcome run_maps(Backend& backend, const Case& c, const Input& in) {
   return {{maps.begin(), maps.end()}, {}};
 }
 
-/// All cells of so many rows in one pass.
+/// A pass of so many rows with one cell.
 std::size_t add_memory(const Case& c, const Input&) {
-  return size(c.band_rows) * size(c.width) * rdb_bytes_a_pixel(ray_plan(c).lens.points.size());
+  return size(c.band_rows) * size(c.width) * rdb_bytes_a_pixel(1);
 }
 
 constexpr const char* rule = "equal bits: + - x / sqrt in one order";

@@ -38,8 +38,7 @@ ChainReach chain_reach(const Frame& f, const ChainSettings& s, int lens_points) 
     const float side = static_cast<float>(largest) * px_per_quantum / cells_per_side(lens_points);
     reach.soften = static_cast<int>(side) + launch_of("soften").reach_px + 1;
   }
-  // Groups of lights are whole.
-  reach.rays = rdb_reach(largest) + light_map_rows(largest) + DEFRAY_LIGHT_GROUP - 1;
+  reach.rays = rdb_reach(largest) + light_map_rows(largest);
   return reach;
 }
 

@@ -13,7 +13,7 @@
 namespace defray {
 namespace {
 
-constexpr int tile_px = 16;
+constexpr int tile_side = 16;
 
 /// A way of `light_maps` is at C - t or farther from the lens t px from a source with the radius C,
 /// and meets what is up to half a step nearer or farther, after rounding to pixels: all of that is
@@ -52,8 +52,8 @@ class NearestTiles {
       : frame_(frame),
         coc_(frame.coc_quanta.host()),
         rows_(rows),
-        across_((frame.width + tile_px - 1) / tile_px),
-        down_((rows.count() + tile_px - 1) / tile_px),
+        across_((frame.width + tile_side - 1) / tile_side),
+        down_((rows.count() + tile_side - 1) / tile_side),
         least_(size(across_) * size(down_)) {
     parallel_for(down_, [&](int j) { find_least(j); });
     least_of_all_ = *std::ranges::min_element(least_);
@@ -73,13 +73,13 @@ class NearestTiles {
  private:
   static int tile_of(float place, int count) {
     return static_cast<int>(
-        std::clamp(std::floor(place / tile_px), 0.0f, static_cast<float>(count - 1)));
+        std::clamp(std::floor(place / tile_side), 0.0f, static_cast<float>(count - 1)));
   }
 
   /// Pixels first to last of a tile's row or column.
   static std::array<int, 2> span_of(int tile, int from, int end) {
-    const int first = from + tile * tile_px;
-    return {first, std::min(first + tile_px, end) - 1};
+    const int first = from + tile * tile_side;
+    return {first, std::min(first + tile_side, end) - 1};
   }
 
   float coc_at(int x, int y) const { return radius_px(tame(coc_[frame_.index(x, y)])); }

@@ -110,6 +110,8 @@ void take_light(Frame& f, const Values<float>& kept_share, const Values<float>& 
       excess[channels.size() - 1] = (alpha[i] - least) * share;
       channels.back()[i] = least;
     }
+    std::fill(excess.begin() + static_cast<std::ptrdiff_t>(channels.size()), excess.end(),
+              excess[channels.size() - 1]);
     lights.excess.push_back(excess);
   }
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "image/image_file.h"
 #include "image/ldr.h"
 #include "image/safe_output.h"
 #include "support.h"

@@ -102,8 +102,8 @@ TEST(Memory, PassesOfTheRdbTakeWhatTheirPlanSays) {
     const InBands bands(session(), given);
     std::size_t windows = 0, band_pixels = 0, most_cells = 0;
     int last_y = -1;
-    for (const RdbPass& pass : plan_rdb_passes(40, {0, 600}, 600, static_cast<int>(cells),
-                                               rdb_reach(2 * 256), given, false)) {
+    for (const RdbPass& pass :
+         plan_rdb_passes(40, {0, 600}, 600, static_cast<int>(cells), rdb_reach(2 * 256), given)) {
       if (pass.y != last_y) windows += 40 * size(pass.window_rows);
       last_y = pass.y;
       band_pixels = std::max(band_pixels, 40 * size(pass.rows));
