@@ -10,16 +10,16 @@ namespace defray {
 inline float falloff(float power) {
   constexpr float rounding = 0x1.8p23f;  // added, it leaves no bits behind the point
   const float exponent = power * -1.44269504f;
-  const float rounded = exponent + rounding;
-  const float x = exponent - (rounded - rounding);  // -1/2 to 1/2
+  const std::int32_t whole =
+      std::bit_cast<std::int32_t>(exponent + rounding) - std::bit_cast<std::int32_t>(rounding);
+  const float x = exponent - static_cast<float>(whole);  // -1/2 to 1/2
   // Pairs of terms, which do not wait for each other.
   const float x2 = x * x;
   const float low = 0.693147004f * x + 1.0f;
   const float middle = 0.0555073358f * x + 0.240222424f;
   const float high = 0.00132647273f * x + 0.00967151299f;
   const float mantissa = (high * x2 + middle) * x2 + low;
-  const std::int32_t whole = std::bit_cast<std::int32_t>(rounded) << 23;
-  return std::bit_cast<float>(std::bit_cast<std::int32_t>(mantissa) + whole);
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(mantissa) + (whole << 23));
 }
 
 }  // namespace defray

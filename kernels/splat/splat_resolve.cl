@@ -41,15 +41,16 @@ typedef struct {
 INLINED float16 falloff(const float16 power) {
   const float rounding = 0x1.8p23f;  // added, it leaves no bits behind the point
   const float16 exponent = power * -1.44269504f;
-  const float16 rounded = exponent + rounding;
-  const float16 x = exponent - (rounded - rounding);  // -1/2 to 1/2
+  // By bits: relaxed arithmetic may take away what was added just now.
+  const int16 whole = as_int16(exponent + rounding) - as_int(rounding);
+  const float16 x = exponent - convert_float16(whole);  // -1/2 to 1/2
   // Pairs of terms, which do not wait for each other.
   const float16 x2 = x * x;
   const float16 low = 0.693147004f * x + 1.0f;
   const float16 middle = 0.0555073358f * x + 0.240222424f;
   const float16 high = 0.00132647273f * x + 0.00967151299f;
   const float16 mantissa = (high * x2 + middle) * x2 + low;
-  return as_float16(as_int16(mantissa) + (as_int16(rounded) << 23));
+  return as_float16(as_int16(mantissa) + (whole << 23));
 }
 
 // Not fmax and fmin: what those owe to what is not a number takes three instructions instead of
