@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/plane.h"
+#include "chain/tiles/tiles.h"
 #include "kernels/params.h"
 #include "lens/coc.h"
 
@@ -45,96 +46,92 @@ struct Source {
   }
 };
 
-/// The nearest radii of a frame's tiles.
-class NearestTiles {
+/// A tile's pixels, and the nearest radius among them.
+struct NearestTile {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  float least = std::numeric_limits<float>::infinity();
+
+  void add(const NearestTile& other) { least = std::min(least, other.least); }
+
+  /// Of the nearest of its pixels along each axis.
+  bool may_hide(const Source& s) const {
+    const auto beyond = [](float at, int first, int end) {
+      return std::max({static_cast<float>(first) - at, at - static_cast<float>(end - 1), 0.0f});
+    };
+    return s.may_meet(least, beyond(s.x, x0, x1), beyond(s.y, y0, y1));
+  }
+};
+
+/// What may hide sources in some rows of a frame.
+class Hiding {
  public:
-  NearestTiles(const Frame& frame, Rows rows)
+  Hiding(const Frame& frame, Rows rows)
       : frame_(frame),
         coc_(frame.coc_quanta.host()),
         rows_(rows),
-        across_((frame.width + tile_side - 1) / tile_side),
-        down_((rows.count() + tile_side - 1) / tile_side),
-        least_(size(across_) * size(down_)) {
-    parallel_for(down_, [&](int j) { find_least(j); });
-    least_of_all_ = *std::ranges::min_element(least_);
-  }
+        tiles_(frame.width, frame.height, rows, tile_side,
+               [this](NearestTile& tile, int x0, int y0, int x1, int y1) {
+                 tile = {x0, y0, x1, y1};
+                 any_pixel(tile, [&](int x, int y) {
+                   tile.least = std::min(tile.least, coc_at(x, y));
+                   return false;
+                 });
+               }),
+        least_(tiles_.all().least) {}
 
-  bool may_hide(const Source& s) const {
-    const float reach = s.coc - least_of_all_ + slack_px;
-    const float top = s.y - static_cast<float>(rows_.y);
-    for (int j = tile_of(top - reach, down_); j <= tile_of(top + reach, down_); ++j) {
-      for (int i = tile_of(s.x - reach, across_); i <= tile_of(s.x + reach, across_); ++i) {
-        if (may_hide_in_tile(s, i, j)) return true;
+  bool any(const Source& s) const {
+    const float reach = s.coc - least_ + slack_px;
+    const int across = (frame_.width + tile_side - 1) / tile_side;
+    for (int j = tile_at(s.y - reach, rows_); j <= tile_at(s.y + reach, rows_); ++j) {
+      for (int i = tile_at(s.x - reach, columns()); i <= tile_at(s.x + reach, columns()); ++i) {
+        const NearestTile& tile = tiles_[size(j) * size(across) + size(i)];
+        if (tile.may_hide(s) && any_pixel(tile, [&](int x, int y) {
+              return s.may_meet(coc_at(x, y), static_cast<float>(x) - s.x,
+                                static_cast<float>(y) - s.y);
+            })) {
+          return true;
+        }
       }
     }
     return false;
   }
 
  private:
-  static int tile_of(float place, int count) {
-    return static_cast<int>(
-        std::clamp(std::floor(place / tile_side), 0.0f, static_cast<float>(count - 1)));
-  }
+  Rows columns() const { return {0, frame_.width}; }
 
-  /// Pixels first to last of a tile's row or column.
-  static std::array<int, 2> span_of(int tile, int from, int end) {
-    const int first = from + tile * tile_side;
-    return {first, std::min(first + tile_side, end) - 1};
+  /// The tile of a pixel or, beyond the first or last of these, of that.
+  static int tile_at(float place, Rows within) {
+    return static_cast<int>(std::clamp(place, static_cast<float>(within.y),
+                                       static_cast<float>(within.end - 1))) /
+           tile_side;
   }
 
   float coc_at(int x, int y) const { return radius_px(tame(coc_[frame_.index(x, y)])); }
 
   template <typename Visit>
-  bool any_in_tile(int i, int j, const Visit& visit) const {
-    const auto [left, right] = span_of(i, 0, frame_.width);
-    const auto [top, bottom] = span_of(j, rows_.y, rows_.end);
-    for (int y = top; y <= bottom; ++y) {
-      for (int x = left; x <= right; ++x) {
+  static bool any_pixel(const NearestTile& tile, const Visit& visit) {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
         if (visit(x, y)) return true;
       }
     }
     return false;
   }
 
-  void find_least(int j) {
-    for (int i = 0; i < across_; ++i) {
-      float least = std::numeric_limits<float>::infinity();
-      any_in_tile(i, j, [&](int x, int y) {
-        least = std::min(least, coc_at(x, y));
-        return false;
-      });
-      least_[size(j) * size(across_) + size(i)] = least;
-    }
-  }
-
-  bool may_hide_in_tile(const Source& s, int i, int j) const {
-    const auto [left, right] = span_of(i, 0, frame_.width);
-    const auto [top, bottom] = span_of(j, rows_.y, rows_.end);
-    const auto beyond = [](float at, int first, int last) {
-      return std::max({static_cast<float>(first) - at, at - static_cast<float>(last), 0.0f});
-    };
-    const float least = least_[size(j) * size(across_) + size(i)];
-    if (!s.may_meet(least, beyond(s.x, left, right), beyond(s.y, top, bottom))) return false;
-    return any_in_tile(i, j, [&](int x, int y) {
-      return s.may_meet(coc_at(x, y), static_cast<float>(x) - s.x, static_cast<float>(y) - s.y);
-    });
-  }
-
   const Frame& frame_;
   const std::span<const std::int32_t> coc_;
   const Rows rows_;
-  const int across_, down_;
-  std::vector<float> least_;  ///< [down][across]
-  float least_of_all_ = 0;
+  const Tiles<NearestTile> tiles_;
+  const float least_;
 };
 
 }  // namespace
 
 std::vector<char> find_hidden_lights(const LightSources& lights, const Frame& frame, Rows rows) {
-  const NearestTiles tiles(frame, rows);
+  const Hiding hiding(frame, rows);
   std::vector<char> hidden(lights.where.size());
   parallel_for(static_cast<int>(hidden.size()),
-               [&](int i) { hidden[size(i)] = tiles.may_hide(Source(lights.where[size(i)])); });
+               [&](int i) { hidden[size(i)] = hiding.any(Source(lights.where[size(i)])); });
   return hidden;
 }
 
