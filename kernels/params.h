@@ -250,13 +250,12 @@ typedef struct {
   DEFRAY_UINT window_y;  ///< First source row, in frame coordinates.
   DEFRAY_UINT window_rows;
   DEFRAY_UINT has_coverage;
-  DEFRAY_INT least_coc;  ///< Of the frame.
 } DefrayLightMapParams;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefrayHighlightParams) == 20);
 static_assert(sizeof(DefrayLightParams) == 8);
-static_assert(sizeof(DefrayLightMapParams) == 28);
+static_assert(sizeof(DefrayLightMapParams) == 24);
 static_assert(sizeof(DefrayFrameParams) == 8);
 static_assert(sizeof(DefraySplitParams) == 20);
 static_assert(sizeof(DefrayFillParams) == 16);

@@ -80,8 +80,7 @@ void Lights::find_maps(const BandRows& rows) {
                                params_.layers,
                                params_.window_y,
                                params_.window_rows,
-                               params_.has_coverage,
-                               frame_.coc_range().least};
+                               params_.has_coverage};
   const std::size_t runs = Lanes(session_).over_columns(DEFRAY_LIGHT_MAP * DEFRAY_LIGHT_MAP);
   session_.launch("light_maps", {runs, lights_.where.size()}, p, where_, maps_, coc_, coverage_,
                   seen_);

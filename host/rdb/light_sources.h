@@ -19,9 +19,9 @@ struct LightSources {
   std::vector<std::uint32_t> first, list;
   std::vector<std::uint32_t> table;  ///< The aperture's summed light.
   float share_of_light = 0;          ///< 1 / its total.
-  /// Maps of which parts of the lens see each: (first entry, side), side 0 where all do, and
-  /// entries of all.
-  std::vector<std::array<std::int32_t, 2>> maps;
+  /// Maps of which parts of the lens see each: (first entry, side, least CoC of what may hide it,
+  /// 0), side 0 where all do, and entries of all.
+  std::vector<std::array<std::int32_t, 4>> maps;
   std::size_t map_entries = 0;
 
   bool empty() const { return where.empty(); }

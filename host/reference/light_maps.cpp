@@ -14,14 +14,14 @@ int nearest(float place) { return static_cast<int>(std::nearbyint(place)); }
 /// A source of light and the frame that it is in.
 class Traced {
  public:
-  Traced(const Frame& f, const std::array<std::int32_t, 4>& where)
+  Traced(const Frame& f, const std::array<std::int32_t, 4>& where, std::int32_t least)
       : f_(f),
         coc_(px(where[2])),
         x_(static_cast<float>(where[0]) +
            0.5f * static_cast<float>(where[3] % DEFRAY_LIGHT_ROW - 1)),
         y_(static_cast<float>(where[1]) +
            0.5f * static_cast<float>(where[3] / DEFRAY_LIGHT_ROW - 1)),
-        least_(px(f.coc_range().least)) {}
+        least_(px(least)) {}
 
   /// What is left of the light that passes the lens at (u, v), in its radii.
   float seen_from(float u, float v) const {
@@ -64,7 +64,7 @@ class Traced {
 std::vector<std::uint8_t> light_maps(const LightSources& lights, const Frame& f) {
   std::vector<std::uint8_t> maps;
   for (std::size_t s = 0; s < lights.where.size(); ++s) {
-    const Traced source(f, lights.where[s]);
+    const Traced source(f, lights.where[s], lights.maps[s][2]);
     const int side = lights.maps[s][1];
     const auto middle = [&](int i) {
       return static_cast<float>(2 * i + 1 - side) / static_cast<float>(side);

@@ -66,7 +66,7 @@ __kernel void highlights_add(
     __global const float4* restrict excess, __global const uint* restrict table,
     __global const int* restrict coc_quanta, __global const uint* restrict coverage,
     __global const int* restrict rim_x, __global const int* restrict rim_y,
-    __global const int2* restrict maps, __global const uchar* restrict seen,
+    __global const int4* restrict maps, __global const uchar* restrict seen,
     WRITTEN_CHANNELS(sum)) {
   const Way way = {table, coc_quanta, coverage, rim_x, rim_y, seen};
   Block b;
@@ -83,7 +83,7 @@ __kernel void highlights_add(
   const uint tile = (uint)b.y / DEFRAY_LIGHT_TILE * l.tiles_x + (uint)b.x / DEFRAY_LIGHT_TILE;
   const uint begin = first[tile], end = first[tile + 1u];
   for (uint i = begin; i < end; ++i) {
-    add_source(p, l, &way, where[list[i]], maps[list[i]], excess[list[i]], &b);
+    add_source(p, l, &way, where[list[i]], maps[list[i]].xy, excess[list[i]], &b);
   }
   for (int y = b.y; y < b.end_y; ++y) {
     for (int x = b.x; x < min(b.x + LANES, (int)p.width); ++x) {

@@ -11,7 +11,9 @@
 // from its middle, or from the rim before it.
 //
 // where    [sources]                as in highlights_add
-// maps     [sources]                (first entry, side); side 0: none is wanted, nothing hides it
+// maps     [sources]                (first entry, side, least CoC of what may hide it, 0); side 0:
+// no
+//                                   map, nothing hides it
 // coc_quanta, coverage (window)     as in rdb_merge
 // seen     [entries]                255: all of it
 // Global size: (runs of LANES squares of the largest map, sources).
@@ -84,18 +86,18 @@ INLINED int find_hiding(const float coc, const int step, const float* met, Light
 }
 
 __kernel void light_maps(const DefrayLightMapParams p, __global const int4* restrict where,
-                         __global const int2* restrict maps,
+                         __global const int4* restrict maps,
                          __global const int* restrict coc_quanta,
                          __global const uint* restrict coverage, __global uchar* seen) {
   if (get_global_id(1) >= p.sources) return;
   const int4 source = where[get_global_id(1)];
-  const int2 map = maps[get_global_id(1)];
+  const int4 map = maps[get_global_id(1)];
   const int first = (int)get_global_id(0) * LANES;
   if (first >= map.y * map.y) return;
   const float coc = PX(source.z);
   const float2 from = middle_of(source);
   LightWays w;
-  int most = begin_light_ways(coc, PX(p.least_coc), map.y, first, &w);
+  int most = begin_light_ways(coc, PX(map.z), map.y, first, &w);
   for (int step = 1; step <= most; ++step) {
     uint at[LANES];
     find_met(p, from, step, &w, at);

@@ -49,7 +49,7 @@ struct Source {
 /// A tile's pixels, and the nearest radius among them.
 struct NearestTile {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  float least = std::numeric_limits<float>::infinity();
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
 
   void add(const NearestTile& other) { least = std::min(least, other.least); }
 
@@ -58,7 +58,7 @@ struct NearestTile {
     const auto beyond = [](float at, int first, int end) {
       return std::max({static_cast<float>(first) - at, at - static_cast<float>(end - 1), 0.0f});
     };
-    return s.may_meet(least, beyond(s.x, x0, x1), beyond(s.y, y0, y1));
+    return s.may_meet(radius_px(least), beyond(s.x, x0, x1), beyond(s.y, y0, y1));
   }
 };
 
@@ -77,23 +77,26 @@ class Hiding {
                    return false;
                  });
                }),
-        least_(tiles_.all().least) {}
+        least_(radius_px(tiles_.all().least)) {}
 
-  bool any(const Source& s) const {
+  /// The least radius in tiles that hold some that may hide a source.
+  std::optional<std::int32_t> least(const Source& s) const {
+    std::int32_t least = std::numeric_limits<std::int32_t>::max();
+    bool is_hidden = false;
     const float reach = s.coc - least_ + slack_px;
     const int across = (frame_.width + tile_side - 1) / tile_side;
     for (int j = tile_at(s.y - reach, rows_); j <= tile_at(s.y + reach, rows_); ++j) {
       for (int i = tile_at(s.x - reach, columns()); i <= tile_at(s.x + reach, columns()); ++i) {
         const NearestTile& tile = tiles_[size(j) * size(across) + size(i)];
-        if (tile.may_hide(s) && any_pixel(tile, [&](int x, int y) {
-              return s.may_meet(coc_at(x, y), static_cast<float>(x) - s.x,
-                                static_cast<float>(y) - s.y);
-            })) {
-          return true;
-        }
+        if (!tile.may_hide(s)) continue;
+        least = std::min(least, tile.least);
+        is_hidden = is_hidden || any_pixel(tile, [&](int x, int y) {
+                      return s.may_meet(radius_px(coc_at(x, y)), static_cast<float>(x) - s.x,
+                                        static_cast<float>(y) - s.y);
+                    });
       }
     }
-    return false;
+    return is_hidden ? std::optional(least) : std::nullopt;
   }
 
  private:
@@ -106,7 +109,7 @@ class Hiding {
            tile_side;
   }
 
-  float coc_at(int x, int y) const { return radius_px(tame(coc_[frame_.index(x, y)])); }
+  std::int32_t coc_at(int x, int y) const { return tame(coc_[frame_.index(x, y)]); }
 
   template <typename Visit>
   static bool any_pixel(const NearestTile& tile, const Visit& visit) {
@@ -127,12 +130,13 @@ class Hiding {
 
 }  // namespace
 
-std::vector<char> find_hidden_lights(const LightSources& lights, const Frame& frame, Rows rows) {
+std::vector<std::optional<std::int32_t>> find_hiding(const LightSources& lights, const Frame& frame,
+                                                     Rows rows) {
   const Hiding hiding(frame, rows);
-  std::vector<char> hidden(lights.where.size());
-  parallel_for(static_cast<int>(hidden.size()),
-               [&](int i) { hidden[size(i)] = hiding.any(Source(lights.where[size(i)])); });
-  return hidden;
+  std::vector<std::optional<std::int32_t>> least(lights.where.size());
+  parallel_for(static_cast<int>(least.size()),
+               [&](int i) { least[size(i)] = hiding.least(Source(lights.where[size(i)])); });
+  return least;
 }
 
 }  // namespace defray

@@ -1,5 +1,7 @@
 #pragma once
 // Which lights anything may hide: the others need no map of the lens.
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "frame/frame.h"
@@ -7,8 +9,9 @@
 
 namespace defray {
 
-/// Of each source, whether anything in these rows of the frame may hide a part of it: false where
-/// every entry of its map (kernel `light_maps`) is 255, and of few others true.
-std::vector<char> find_hidden_lights(const LightSources& lights, const Frame& frame, Rows rows);
+/// Of each source the least CoC, in quanta, of what in these rows of the frame may hide a part of
+/// it, or less. Empty where nothing may: every entry of its map (kernel `light_maps`) is 255.
+std::vector<std::optional<std::int32_t>> find_hiding(const LightSources& lights, const Frame& frame,
+                                                     Rows rows);
 
 }  // namespace defray

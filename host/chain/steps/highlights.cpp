@@ -55,13 +55,13 @@ float alpha_around(const Frame& f, std::span<const float> alpha, std::size_t own
   return *middle;
 }
 
-/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP, of what may be hidden. Throws
-/// Error(input) where they are more than a place can say.
-void place_maps(LightSources& lights, const std::vector<char>& is_hidden) {
+/// An entry a pixel of a disc, up to a side of DEFRAY_LIGHT_MAP, of what something may hide.
+/// Throws Error(input) where they are more than a place can say.
+void place_maps(LightSources& lights, const std::vector<std::optional<std::int32_t>>& hiding) {
   constexpr std::size_t one = std::size_t{DEFRAY_LIGHT_MAP} * DEFRAY_LIGHT_MAP;
   for (std::size_t i = 0; i < lights.where.size(); ++i) {
-    if (!is_hidden[i]) {
-      lights.maps.push_back({0, 0});
+    if (!hiding[i]) {
+      lights.maps.push_back({});
       continue;
     }
     const auto& where = lights.where[i];
@@ -73,7 +73,7 @@ void place_maps(LightSources& lights, const std::vector<char>& is_hidden) {
     }
     const std::int32_t radius_px = std::abs(where[2]) >> DEFRAY_COC_FRACTION_BITS;
     const std::int32_t side = std::min(2 * radius_px + 2, DEFRAY_LIGHT_MAP);
-    lights.maps.push_back({static_cast<std::int32_t>(lights.map_entries), side});
+    lights.maps.push_back({static_cast<std::int32_t>(lights.map_entries), side, *hiding[i], 0});
     lights.map_entries += size(side) * size(side);
   }
 }
@@ -147,7 +147,7 @@ LightSources lights_near(const LightSources& all, const Frame& f, int reach) {
   }
   if (near.where.empty()) return near;
   group_lights(near);
-  place_maps(near, find_hidden_lights(near, f, rows));
+  place_maps(near, find_hiding(near, f, rows));
   sort_into_tiles(near, f.width, f.height);
   near.table = all.table;
   near.share_of_light = all.share_of_light;

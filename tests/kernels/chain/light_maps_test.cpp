@@ -33,7 +33,7 @@ LightSources lamp() {
   LightSources lights;
   lights.where = {{middle, middle, 40 * px, 1 + DEFRAY_LIGHT_ROW}};
   lights.excess = {{1, 1, 1, 1}};
-  lights.maps = {{0, 64}};
+  lights.maps = {{0, 64, -40 * px, 0}};
   lights.map_entries = 64 * 64;
   lights.table = {1};
   sort_into_tiles(lights, side, side);
