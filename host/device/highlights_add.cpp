@@ -54,6 +54,9 @@ class Lights {
   cl::Buffer where_, maps_, seen_, coc_, coverage_;
 };
 
+// Rows that are wanted begin with a tile.
+static_assert(band_step % DEFRAY_LIGHT_TILE == 0);
+
 std::vector<BandRows> Lights::windows() const {
   const std::int32_t largest = frame_.coc_range().largest_radius();
   const std::size_t row = size(frame_.width);
@@ -62,7 +65,7 @@ std::vector<BandRows> Lights::windows() const {
                                  ? std::numeric_limits<std::size_t>::max()
                                  : session_.memory_bytes() / 2;
   return cut_into_windows(frame_.wanted_rows(), frame_.height,
-                          rdb_reach(largest) + light_map_rows(largest), band_step,
+                          rdb_reach(largest) + light_map_rows(largest), DEFRAY_LIGHT_TILE,
                           {row * size(frame_.layers) * launch_of("light_maps").bytes_a_surface,
                            row * launch_of("highlights_add").bytes_a_target},
                           memory);
@@ -100,12 +103,10 @@ void Lights::add(Rows rows, const RayPlan& plan, RayResult& out) {
   const cl::Buffer rim_y = p.has_rim ? session_.view(plan.rim_y) : where_;
   const DefrayLightParams l{word(lights_.tiles_x), lights_.share_of_light};
   const Lanes lanes(session_);
-  session_.launch(
-      "highlights_add",
-      {lanes.over_columns(p.width), lanes.over_rows(p.band_y % lanes.down + p.band_rows)}, p, l,
-      session_.view(lights_.first), session_.view(lights_.list), where_,
-      session_.view(lights_.excess), session_.view(lights_.table), coc_, coverage_, rim_x, rim_y,
-      maps_, seen_, four);
+  session_.launch("highlights_add", {lanes.over_columns(p.width), lanes.over_rows(p.band_rows)}, p,
+                  l, session_.view(lights_.first), session_.view(lights_.list), where_,
+                  session_.view(lights_.excess), session_.view(lights_.table), coc_, coverage_,
+                  rim_x, rim_y, maps_, seen_, four);
   for (std::size_t c = 0; c < means.size(); ++c) {
     session_.bring(means[c], count, &out.means[c][first]);
   }
@@ -131,7 +132,7 @@ void DeviceBackend::add_light(const Frame& frame, const RayPlan& plan, const Lig
                               RayResult& out) {
   Lights lights(session_, frame, sources);
   for (const BandRows& rows : lights.windows()) {
-    const Rows own{std::max(rows.y, frame.margin),
+    const Rows own{std::max(rows.y, frame.margin / DEFRAY_LIGHT_TILE * DEFRAY_LIGHT_TILE),
                    std::min(rows.y + rows.rows, frame.height - frame.margin)};
     if (own.empty()) continue;
     lights.find_maps(rows);

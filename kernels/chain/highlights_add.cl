@@ -16,8 +16,8 @@
 // maps         [sources]          as in light_maps
 // seen                            from it
 // sum0..3      [band_rows][width] in and out
-// Global size: blocks of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh), rows of
-// blocks counted from the frame's first.
+// Global size: blocks of DEFRAY_RAY_RUN x DEFRAY_RAY_ROWS targets, or targets (lanes.clh). Bands
+// begin with tiles: no block lies in two.
 #include "base/colour.clh"
 #include "chain/light_disc.clh"
 
@@ -71,10 +71,8 @@ __kernel void highlights_add(
   const Way way = {table, coc_quanta, coverage, rim_x, rim_y, seen};
   Block b;
   b.x = (int)get_global_id(0) * LANES;
-  // Blocks lie in the frame as tiles do: none in two tiles.
-  const int block_y = (int)(p.band_y / ROWS + get_global_id(1)) * ROWS;
-  b.y = max(block_y, (int)p.band_y);
-  b.end_y = min(block_y + ROWS, (int)(p.band_y + p.band_rows));
+  b.y = (int)(p.band_y + get_global_id(1) * ROWS);
+  b.end_y = min(b.y + ROWS, (int)(p.band_y + p.band_rows));
   if (b.x >= (int)p.width || b.y >= b.end_y) return;
   for (int k = 0; k < LANES; ++k) b.column[k] = (uint)min(b.x + k, (int)p.width - 1);
   for (int j = 0; j < ROWS; ++j) {
