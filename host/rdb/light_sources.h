@@ -12,8 +12,8 @@ namespace defray {
 struct LightSources {
   /// x, y of the first pixel, CoC in quanta, columns + DEFRAY_LIGHT_ROW * rows.
   std::vector<std::array<std::int32_t, 4>> where;
-  std::vector<std::array<float, 4>>
-      excess;  ///< Light of each pixel; a missing channel repeats the last.
+  /// Light of each pixel; a missing channel repeats the last.
+  std::vector<std::array<float, 4>> excess;
   int tiles_x = 0;
   /// Sources whose disc meets a tile of DEFRAY_LIGHT_TILE pixels a side: list[first[tile]] and on.
   std::vector<std::uint32_t> first, list;

@@ -42,9 +42,10 @@ TEST(RdbPlan, APassFitsTheCacheUnlessItsRowsWouldBeLessThanFourTimesTheReach) {
 
 TEST(RdbPlan, SaysHowMuchMemoryOneRowNeeds) {
   const std::size_t row = 100 * rdb_bytes_a_pixel(1);
-  expect_error(ErrorKind::usage, {"memory is 0.003814 MiB", "at least 0.004 MiB"}, [&] {
-    plan_rdb_passes(100, {0, 10}, 10, 69, 1, row - 1);
-  });
+  expect_error(ErrorKind::usage,
+               {"memory is 0.003814 MiB: one row of 100 pixels needs at least 0.004 MiB"}, [&] {
+                 plan_rdb_passes(100, {0, 10}, 10, 69, 1, row - 1);
+               });
   EXPECT_EQ(plan_rdb_passes(100, {0, 10}, 10, 69, 1, row).size(), 690u);
   EXPECT_NO_THROW(plan_rdb_passes(100, {0, 10}, 10, 69, 1, 0.004 * 1048576));
 }
