@@ -4,7 +4,7 @@
 #include "params.h"
 
 /// Side of the square tiles that splats are sorted into, in pixels, and of a work-item's squares.
-#define DEFRAY_SPLAT_TILE 16
+#define DEFRAY_SPLAT_TILE 8
 #define DEFRAY_SPLAT_SQUARE 4
 #define DEFRAY_SPLAT_SQUARES (DEFRAY_SPLAT_TILE * DEFRAY_SPLAT_TILE / 16)
 /// From this times its own size on, a splat's blur is a disc, where discs are asked for.

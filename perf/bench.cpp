@@ -43,10 +43,14 @@ double seconds_of(const std::function<void()>& run) {
   return watch.seconds();
 }
 
-Timing time_of(int repetitions, const std::function<void()>& run) {
-  run();
+Timing time_of(int repetitions, const std::function<void()>& run,
+               const std::function<void()>& after) {
   std::vector<double> seconds;
-  for (int i = 0; i < repetitions; ++i) seconds.push_back(seconds_of(run));
+  for (int i = 0; i <= repetitions; ++i) {
+    seconds.push_back(seconds_of(run));
+    if (after) after();
+  }
+  seconds.erase(seconds.begin());
   std::sort(seconds.begin(), seconds.end());
   const std::size_t middle = seconds.size() / 2;
   const double median =
@@ -62,15 +66,15 @@ std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", valu
 
 Timing time_method(const Bench& bench, const Subject& subject, const MethodSettings& settings) {
   check_against_twin(bench.backend, subject, settings);
-  std::vector<Plane> first;
+  std::vector<Plane> first, picture;
   bool repeats = true;
-  const Timing timing = time_of(bench.repetitions(), [&] {
-    std::vector<Plane> picture = render(bench.backend, subject, settings);
-    if (first.empty())
-      first = std::move(picture);
-    else
-      repeats = repeats && picture == first;
-  });
+  const Timing timing = time_of(
+      bench.repetitions(), [&] { picture = render(bench.backend, subject, settings); },
+      [&] {
+        if (first.empty()) first = picture;
+        repeats = repeats && picture == first;
+        picture.clear();  // as a program has written it before the next
+      });
   if (!repeats) fail(ErrorKind::internal, "a timed picture differs from run to run");
   return timing;
 }

@@ -34,8 +34,9 @@ struct Timing {
 
 double seconds_of(const std::function<void()>& run);
 
-/// Runs once to warm up, then `repetitions` times.
-Timing time_of(int repetitions, const std::function<void()>& run);
+/// Runs once to warm up, then `repetitions` times; `after` each, not timed.
+Timing time_of(int repetitions, const std::function<void()>& run,
+               const std::function<void()>& after = {});
 
 /// "0.123 s ± 4 %".
 std::string to_text(const Timing& timing);

@@ -32,7 +32,8 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
   };
   {
     std::vector<std::jthread> helpers;
-    for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) {
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    for (int i = 1; i < std::min(cores, count); ++i) {
       helpers.emplace_back(work, false);
     }
     work(true);
@@ -42,22 +43,28 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
 
 /// A long row is cut into stretches of this length.
 inline constexpr std::size_t stretch_length = 1 << 15;
+/// The same where the cut changes no bit: short enough that all cores have some of a short row.
+inline constexpr std::size_t short_stretch = 1 << 12;
 
 /// Calls task(first, end) for stretches of a long row, each once.
 template <typename Task>
-void parallel_for_stretches(std::size_t count, const Task& task) {
-  parallel_for(static_cast<int>((count + stretch_length - 1) / stretch_length), [&](int i) {
-    const std::size_t first = static_cast<std::size_t>(i) * stretch_length;
-    task(first, std::min(first + stretch_length, count));
+void parallel_for_stretches(std::size_t count, const Task& task,
+                            std::size_t length = stretch_length) {
+  parallel_for(static_cast<int>((count + length - 1) / length), [&](int i) {
+    const std::size_t first = static_cast<std::size_t>(i) * length;
+    task(first, std::min(first + length, count));
   });
 }
 
 /// As parallel_for for a long row of short tasks.
 template <typename Task>
 void parallel_for_each(std::size_t count, const Task& task) {
-  parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k < end; ++k) task(k);
-  });
+  parallel_for_stretches(
+      count,
+      [&](std::size_t first, std::size_t end) {
+        for (std::size_t k = first; k < end; ++k) task(k);
+      },
+      short_stretch);
 }
 
 /// The sum of `sum_of(first, end)` over stretches of a long row: added in their order, so that
@@ -77,11 +84,14 @@ auto parallel_sum(std::size_t count, const SumOf& sum_of) {
 template <typename Is>
 std::size_t parallel_count(std::size_t count, const Is& is) {
   std::atomic<std::size_t> all = 0;
-  parallel_for_stretches(count, [&](std::size_t first, std::size_t end) {
-    std::size_t found = 0;
-    for (std::size_t k = first; k < end; ++k) found += is(k) ? 1 : 0;
-    all += found;
-  });
+  parallel_for_stretches(
+      count,
+      [&](std::size_t first, std::size_t end) {
+        std::size_t found = 0;
+        for (std::size_t k = first; k < end; ++k) found += is(k) ? 1 : 0;
+        all += found;
+      },
+      short_stretch);
   return all;
 }
 

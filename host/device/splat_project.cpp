@@ -16,7 +16,9 @@ Values<DefraySplat> DeviceBackend::splat_project(const Values<DefraySplatNode>& 
   p.count = static_cast<std::uint32_t>(nodes.size());
   Values<DefraySplat> splats;
   const cl::Buffer out = session_.out(splats, nodes.size());
-  session_.launch("splat_project", {nodes.size()}, p, session_.in(nodes), out);
+  const std::size_t lanes = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
+  session_.launch("splat_project", {(nodes.size() + lanes - 1) / lanes}, p, session_.in(nodes),
+                  out);
   return splats;
 }
 

@@ -7,10 +7,21 @@
 namespace defray {
 namespace {
 
-const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {1, 16}});
+const LaunchRow splat_resolve_launch({.kernel = "splat_resolve", .group = {4, 4}});
 
 /// Entries of tiles' lists that are made together, as bytes: the rest waits for its turn.
 constexpr std::size_t list_bytes = std::size_t{64} << 20;
+
+/// Colour, depth and count. Memory that other threads ask for is given back with them, and comes
+/// anew, page by page, for the next picture.
+std::array<Values<float>, 6> zeroed_planes(std::size_t pixels) {
+  std::array<Plane, 6> planes;
+  for (Plane& plane : planes) plane.reserve(pixels);
+  parallel_for(6, [&](int i) { planes[size(i)].resize(pixels); });
+  std::array<Values<float>, 6> values;
+  for (std::size_t i = 0; i < 6; ++i) values[i] = Values<float>(std::move(planes[i]));
+  return values;
+}
 
 }  // namespace
 
@@ -23,7 +34,7 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
   std::array<Values<float>, 6> planes;
   // Vectors from the start, where the device works in them: room would have to be copied to some.
   const bool in_place = session_.works_in_host_memory();
-  if (in_place) parallel_for(6, [&](int i) { planes[size(i)] = Values<float>(pixels); });
+  if (in_place) planes = zeroed_planes(pixels);
   const auto out = [&](Values<float>& plane) {
     return in_place ? session_.in_out(plane) : session_.out(plane, pixels);
   };

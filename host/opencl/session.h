@@ -27,7 +27,7 @@ class Session {
 
   const DeviceInfo& info() const { return info_; }
   bool has_int64_atomics() const { return int64_atomics_; }
-  /// Whether kernels are built with vectors in a work-item (kernels/rdb/lanes.clh).
+  /// Whether kernels are built with vectors in a work-item (kernels/base/lanes.clh).
   bool uses_vectors() const { return vectors_; }
 
   /// Names of all kernels of the program, sorted.

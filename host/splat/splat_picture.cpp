@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -17,15 +18,23 @@ namespace {
 void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, SplatReport& report) {
   report.seen = splats.size();
   if (splats.empty()) return;
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-  for (const DefraySplat& s : splats) {
-    nearest = std::min(nearest, static_cast<double>(s.z));
-    farthest = std::max(farthest, static_cast<double>(s.z));
-  }
+  float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+  std::mutex mutex;
+  parallel_for_stretches(
+      splats.size(),
+      [&](std::size_t first, std::size_t end) {
+        const auto [least, most] = std::minmax_element(
+            splats.begin() + first, splats.begin() + end,
+            [](const DefraySplat& a, const DefraySplat& b) { return a.z < b.z; });
+        const std::scoped_lock lock(mutex);
+        nearest = std::min(nearest, least->z);
+        farthest = std::max(farthest, most->z);
+      },
+      short_stretch);
   report.nearest_units = nearest;
   report.farthest_units = farthest;
-  report.nearest_coc_px = splat_coc_px(p, nearest);
-  report.farthest_coc_px = splat_coc_px(p, farthest);
+  report.nearest_coc_px = splat_coc_px(p, report.nearest_units);
+  report.farthest_coc_px = splat_coc_px(p, report.farthest_units);
 }
 
 /// The share of nodes whose normals point away from the camera.

@@ -1,9 +1,11 @@
 #include "splat/splats.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <numeric>
 #include <span>
+#include <thread>
 
 #include "base/parallel.h"
 
@@ -12,13 +14,30 @@ namespace {
 
 bool has_pixels(const DefraySplat& s) { return s.first_x < s.end_x && s.first_y < s.end_y; }
 
-/// Calls visit(tile) for each tile that a splat's pixels lie in.
+/// Rows of tiles that a thread takes.
+struct TileRows {
+  int first, end;
+};
+
+/// Calls visit(tile) for each tile of these rows that a splat's pixels lie in.
 template <typename Visit>
-void for_each_tile(const DefraySplat& s, int tiles_x, const Visit& visit) {
-  const int last_x = (s.end_x - 1) / DEFRAY_SPLAT_TILE, last_y = (s.end_y - 1) / DEFRAY_SPLAT_TILE;
-  for (int y = s.first_y / DEFRAY_SPLAT_TILE; y <= last_y; ++y) {
+void for_each_tile(const DefraySplat& s, int tiles_x, TileRows rows, const Visit& visit) {
+  const int last_x = (s.end_x - 1) / DEFRAY_SPLAT_TILE;
+  const int end_y = std::min((s.end_y - 1) / DEFRAY_SPLAT_TILE + 1, rows.end);
+  for (int y = std::max(s.first_y / DEFRAY_SPLAT_TILE, rows.first); y < end_y; ++y) {
     for (int x = s.first_x / DEFRAY_SPLAT_TILE; x <= last_x; ++x) visit(word(y * tiles_x + x));
   }
+}
+
+/// Calls work(rows) for all rows of tiles, some on each core: every one looks at all splats.
+template <typename Work>
+void for_rows_of_tiles(TileRows all, const Work& work) {
+  const int rows = all.end - all.first;
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());  // 0: not known
+  const int parts = std::min(rows, std::max(cores, 1));
+  parallel_for(parts, [&](int i) {
+    work(TileRows{all.first + rows * i / parts, all.first + rows * (i + 1) / parts});
+  });
 }
 
 struct DepthKey {
@@ -26,20 +45,35 @@ struct DepthKey {
   std::uint32_t index;
 };
 
-/// By depth, equal ones as they are: digit by digit, the last first. With it `in_order` takes 0.55
-/// to 0.6 of the time with std::sort (a quarter of a million to four million splats).
+constexpr std::uint32_t without_pixels = ~0u;  ///< Instead of a depth.
+
+/// By depth, equal ones as they are, and none without pixels: digit by digit of what they are above
+/// the least, the last first.
 void sort(std::vector<DepthKey>& keys) {
-  constexpr int digit = 11;
+  std::uint32_t least = without_pixels, most = 0;
+  for (const DepthKey& key : keys) {
+    if (key.depth == without_pixels) continue;
+    least = std::min(least, key.depth);
+    most = std::max(most, key.depth);
+  }
+  constexpr int digit = 12;
   std::vector<DepthKey> other(keys.size());
-  for (int shift = 0; shift < 32; shift += digit) {
+  for (int shift = 0; shift == 0 || (shift < 32 && (most - least) >> shift != 0); shift += digit) {
     const auto digit_of = [&](const DepthKey& key) {
-      return key.depth >> shift & ((1u << digit) - 1);
+      return (key.depth - least) >> shift & ((1u << digit) - 1);
     };
     std::array<std::uint32_t, 1 << digit> place{};
-    for (const DepthKey& key : keys) ++place[digit_of(key)];
+    for (const DepthKey& key : keys) place[digit_of(key)] += key.depth != without_pixels;
     std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
-    for (const DepthKey& key : keys) other[place[digit_of(key)]++] = key;
+    std::uint32_t count = 0;
+    for (const DepthKey& key : keys) {
+      if (key.depth == without_pixels) continue;
+      other[place[digit_of(key)]++] = key;
+      ++count;
+    }
+    other.resize(count);
     keys.swap(other);
+    other.resize(count);
   }
 }
 
@@ -47,11 +81,11 @@ void sort(std::vector<DepthKey>& keys) {
 
 Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
   const std::span<const DefraySplat> all = splats.host();
-  std::vector<DepthKey> keys;
-  keys.reserve(all.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (has_pixels(all[i])) keys.push_back({std::bit_cast<std::uint32_t>(all[i].z_near), i});
-  }
+  std::vector<DepthKey> keys(all.size());
+  parallel_for_each(all.size(), [&](std::size_t i) {
+    keys[i] = {has_pixels(all[i]) ? std::bit_cast<std::uint32_t>(all[i].z_near) : without_pixels,
+               static_cast<std::uint32_t>(i)};
+  });
   sort(keys);
   auto sorted = Values<DefraySplat>::room(keys.size());
   const std::span<DefraySplat> to = sorted.edit();
@@ -62,9 +96,12 @@ Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
 std::vector<std::uint32_t> splats_a_tile(const Values<DefraySplat>& splats, int tiles_x,
                                          int tiles_y) {
   std::vector<std::uint32_t> counts(size(tiles_x) * size(tiles_y));
-  for (const DefraySplat& s : splats) {
-    for_each_tile(s, tiles_x, [&](std::uint32_t tile) { ++counts[tile]; });
-  }
+  const std::span<const DefraySplat> all = splats.host();
+  for_rows_of_tiles({0, tiles_y}, [&](TileRows rows) {
+    for (const DefraySplat& s : all) {
+      for_each_tile(s, tiles_x, rows, [&](std::uint32_t tile) { ++counts[tile]; });
+    }
+  });
   return counts;
 }
 
@@ -82,12 +119,17 @@ SplatTiles next_tiles(const Values<DefraySplat>& splats, const std::vector<std::
   tiles.list.resize(entries);
   std::vector<std::uint32_t> next(tiles.first.begin(), tiles.first.end() - 1);
   const std::span<const DefraySplat> all = splats.host();
-  for (std::uint32_t i = 0; i < splats.size(); ++i) {
-    for_each_tile(all[i], tiles_x, [&](std::uint32_t tile) {
-      const std::uint32_t t = tile - first_tile;  // wraps round below the first
-      if (t < tiles.tile_count) tiles.list[next[t]++] = i;
-    });
-  }
+  const auto put = [&](std::uint32_t splat, std::uint32_t tile) {
+    const std::uint32_t t = tile - first_tile;  // wraps round below the first
+    if (t < tiles.tile_count) tiles.list[next[t]++] = splat;
+  };
+  const int last_tile = static_cast<int>(first_tile + tiles.tile_count) - 1;
+  for_rows_of_tiles(
+      {static_cast<int>(first_tile) / tiles_x, last_tile / tiles_x + 1}, [&](TileRows rows) {
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+          for_each_tile(all[i], tiles_x, rows, [&](std::uint32_t tile) { put(i, tile); });
+        }
+      });
   return tiles;
 }
 

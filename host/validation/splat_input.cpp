@@ -97,6 +97,8 @@ DefraySplatParams splat_params(const Case& c) {
     rows[i][2] = static_cast<float>(axes[i]->z);
   }
   p.eye_z = static_cast<float>(-0.1 * random.next());
+  p.eye_x = static_cast<float>(0.05 * either_side(random));
+  p.eye_y = static_cast<float>(0.05 * either_side(random));
   p.near_units = 0.2f;
   p.focal_px = static_cast<float>(0.6 * std::max(c.width, c.height));
   p.centre_x = static_cast<float>(c.width) / 2;

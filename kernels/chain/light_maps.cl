@@ -18,8 +18,8 @@
 // seen     [entries]                255: all of it
 // Global size: (runs of LANES squares of the largest map, sources).
 #include "base/frame.clh"
+#include "base/lanes.clh"
 #include "chain/light_place.clh"
-#include "rdb/lanes.clh"
 
 // Ways over the picture, of squares beside each other: a pixel's step, radii that it passes.
 typedef struct {

@@ -16,160 +16,306 @@
 //
 // nodes   [count]
 // splats  [count]
-// Global size: count, or more.
-#include "base/any.clh"
+// A work-item: LANES nodes (base/lanes.clh), a lane each.
+// Global size: count / LANES, rounded up, or more.
+#include "base/lanes.clh"
 #include "splat_params.h"
 
-#define FRAME_VECTOR(p, name) ((float3)((p).name##_x, (p).name##_y, (p).name##_z))
+// Places or directions in the scene.
+typedef struct {
+  floats x, y, z;
+} SplatVectors;
+
+// Symmetric matrices of the scene.
+typedef struct {
+  floats xx, xy, xz, yy, yz, zz;
+} SplatCovariances;
+
+// Of the picture; `shorter`: along its shorter axis.
+typedef struct {
+  floats xx, xy, yy, shorter;
+} SplatVariances;
+
+// As the fields of DefraySplatNode.
+typedef struct {
+  SplatVectors place, area;
+  floats variance;
+  SplatCovariances low;
+  floats r, g, b, a;
+} SplatNodes;
+
+// As those of DefraySplat.
+typedef struct {
+  floats x, y, conic_xx, conic_xy, conic_yy, amplitude, disc_px, z, z_near, z_far;
+  ints first_x, end_x, first_y, end_y;
+  floats r, g, b, a;
+} SplatLanes;
+
+#define FRAME_VECTOR(p, name) \
+  { (p).name##_x, (p).name##_y, (p).name##_z }
 
 // Signed radius, px: coc.cl without its rounding.
-INLINED float splat_coc(const DefraySplatParams p, const float z) {
-  const float radius = p.focus_is_infinite ? -p.infinite_focus_scale / z
-                                           : p.coc_scale_px * ((z - p.focus_units) / z);
-  return clamp(radius, -p.limit_px, p.limit_px);
+INLINED floats splat_coc(const DefraySplatParams p, const floats z) {
+  const floats radius = p.focus_is_infinite ? -p.infinite_focus_scale / z
+                                            : p.coc_scale_px * ((z - p.focus_units) / z);
+  return clamp(radius, (floats)(-p.limit_px), (floats)(p.limit_px));
 }
 
-// a^T V b of a symmetric V.
-INLINED float between(const float3 a, __global const DefraySplatNode* n, const float3 b) {
-  const float x = n->low_xx * b.x + n->low_xy * b.y + n->low_xz * b.z;
-  const float y = n->low_xy * b.x + n->low_yy * b.y + n->low_yz * b.z;
-  const float z = n->low_xz * b.x + n->low_yz * b.y + n->low_zz * b.z;
-  return a.x * x + a.y * y + a.z * z;
+INLINED floats product(const SplatVectors a, const SplatVectors b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-INLINED float product(const float3 a, const float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+// a^T V b.
+INLINED floats between(const SplatVectors a, const SplatCovariances v, const SplatVectors b) {
+  const SplatVectors vb = {v.xx * b.x + v.xy * b.y + v.xz * b.z,
+                           v.xy * b.x + v.yy * b.y + v.yz * b.z,
+                           v.xz * b.x + v.yz * b.y + v.zz * b.z};
+  return product(a, vb);
+}
 
 // Of areas, whose squares are beyond floats.
-INLINED float size_of(const float3 a) {
-  const float largest = fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
-  if (!(largest > 0.0f)) return 0.0f;
-  const float3 share = a / largest;
-  return largest * sqrt(product(share, share));
+INLINED floats size_of(const SplatVectors a) {
+  const floats largest = fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
+  const SplatVectors share = {a.x / largest, a.y / largest, a.z / largest};
+  return select((floats)(0.0f), largest * sqrt(product(share, share)), IS(largest > 0.0f));
 }
 
-// The variance (xx, xy, yy) whose ellipse is the smallest around those of `m` and of a circle's
-// variance: the larger of the two along each of m's axes (appendix A). Last, that of its shorter
-// one.
-INLINED float4 circumellipse(const float3 m, const float circle) {
-  const float mean = 0.5f * (m.x + m.z), half_difference = 0.5f * (m.x - m.z);
-  const float spread = sqrt(half_difference * half_difference + m.y * m.y);
-  if (mean + spread <= circle) return (float4)(circle, 0.0f, circle, circle);
-  const float longer = mean + spread, shorter = fmax(mean - spread, circle);
-  if (spread == 0.0f) return (float4)(longer, 0.0f, longer, longer);
-  const float middle = 0.5f * (longer + shorter), stretch = 0.5f * (longer - shorter) / spread;
-  return (float4)(middle + stretch * half_difference, stretch * m.y,
-                  middle - stretch * half_difference, shorter);
+// The variance whose ellipse is the smallest around those of `m` and of a circle's variance: the
+// larger of the two along each of m's axes (appendix A).
+INLINED SplatVariances circumellipse(const SplatVariances m, const floats circle) {
+  const floats mean = 0.5f * (m.xx + m.yy), half_difference = 0.5f * (m.xx - m.yy);
+  const floats spread = sqrt(half_difference * half_difference + m.xy * m.xy);
+  const floats longer = fmax(mean + spread, circle), shorter = fmax(mean - spread, circle);
+  const floats middle = 0.5f * (longer + shorter), stretch = 0.5f * (longer - shorter) / spread;
+  // Round, where the longer is the shorter or m itself is a circle.
+  const ints is_round = IS(mean + spread <= circle) | IS(spread == 0.0f);
+  const SplatVariances v = {select(middle + stretch * half_difference, longer, is_round),
+                            select(stretch * m.xy, (floats)(0.0f), is_round),
+                            select(middle - stretch * half_difference, longer, is_round),
+                            select(shorter, longer, is_round)};
+  return v;
 }
 
 // Of `own` + I + `added`, whose product of xx and yy and square of xy are almost the same where a
 // surface is seen from its edge: `added` is a circle and what is longer along one axis, of `own`
 // the root of the determinant is known, and no large numbers are subtracted.
-INLINED float determinant_of(const float3 own, const float root, const float4 added) {
-  const float circle = 1.0f + added.w;
-  const float xx = added.x - added.w, yy = added.z - added.w;
-  const float across = own.x * yy + own.z * xx - 2.0f * (own.y * added.y);
-  return root * root + circle * (own.x + own.z + xx + yy) + circle * circle + fmax(across, 0.0f);
+INLINED floats determinant_of(const SplatVariances own, const floats root,
+                              const SplatVariances added) {
+  const floats circle = 1.0f + added.shorter;
+  const floats xx = added.xx - added.shorter, yy = added.yy - added.shorter;
+  const floats across = own.xx * yy + own.yy * xx - 2.0f * (own.xy * added.xy);
+  return root * root + circle * (own.xx + own.yy + xx + yy) + circle * circle +
+         fmax(across, (floats)(0.0f));
 }
 
-// First pixel whose centre is not before `from`, and first whose is beyond `to`, within [0, size].
-INLINED int2 pixels_between(const float from, const float to, const uint size) {
-  const float last = (float)size;
-  return (int2)((int)clamp(ceil(from - 0.5f), 0.0f, last),
-                (int)clamp(floor(to - 0.5f) + 1.0f, 0.0f, last));
+// First pixel whose centre is not before `from`, within [0, size].
+INLINED ints first_pixel(const floats from, const uint size) {
+  return convert_ints(clamp(ceil(from - 0.5f), (floats)(0.0f), (floats)((float)size)));
 }
 
-// The kernel's shape from its variance; false where it covers no pixel.
-INLINED bool shape_splat(const DefraySplatParams p, const float3 variance, const float determinant,
-                         const float mass, const bool is_disc, DefraySplat* s) {
-  const float root = sqrt(determinant);
-  const float form = (is_disc ? 0.25f : 0.5f) / determinant;
-  s->conic_xx = variance.z * form;
-  s->conic_xy = -variance.y * form;
-  s->conic_yy = variance.x * form;
-  float reach = 2.0f * p.cutoff;
-  if (is_disc) {
-    s->disc_px = 2.0f * sqrt(root);
-    s->amplitude = mass / (12.5663706f * root + 0.261799388f);  // pi (r^2 + 1/12), r^2 = 4 root
-    const float edge = 1.0f + 0.5f / s->disc_px;
-    reach = 4.0f * edge * edge;
-  } else {
-    s->disc_px = 0.0f;
-    s->amplitude = mass / (6.28318531f * root * p.gaussian_share);
+// First pixel whose centre is beyond `to`, within [0, size].
+INLINED ints end_pixel(const floats to, const uint size) {
+  return convert_ints(clamp(floor(to - 0.5f) + 1.0f, (floats)(0.0f), (floats)((float)size)));
+}
+
+// The kernel's shape from its variance.
+INLINED void shape_splats(const DefraySplatParams p, const SplatVariances variance,
+                          const floats determinant, const floats mass, const ints is_disc,
+                          SplatLanes* s) {
+  const floats root = sqrt(determinant);
+  const floats form = select((floats)(0.5f), (floats)(0.25f), is_disc) / determinant;
+  s->conic_xx = variance.yy * form;
+  s->conic_xy = -variance.xy * form;
+  s->conic_yy = variance.xx * form;
+  floats reach = 2.0f * p.cutoff, whole = 6.28318531f * root * p.gaussian_share;
+  s->disc_px = 0.0f;
+  if (p.has_discs) {
+    const floats radius = 2.0f * sqrt(root), edge = 1.0f + 0.5f / radius;
+    s->disc_px = select(s->disc_px, radius, is_disc);
+    // pi (r^2 + 1/12), r^2 = 4 root
+    whole = select(whole, 12.5663706f * root + 0.261799388f, is_disc);
+    reach = select(reach, 4.0f * edge * edge, is_disc);
   }
-  const float half_x = sqrt(reach * variance.x), half_y = sqrt(reach * variance.z);
-  const int2 columns = pixels_between(s->x - half_x, s->x + half_x, p.width);
-  const int2 rows = pixels_between(s->y - half_y, s->y + half_y, p.height);
-  s->first_x = columns.x;
-  s->end_x = columns.y;
-  s->first_y = rows.x;
-  s->end_y = rows.y;
-  return columns.x < columns.y && rows.x < rows.y;
+  s->amplitude = mass / whole;
+  const floats half_x = sqrt(reach * variance.xx), half_y = sqrt(reach * variance.yy);
+  s->first_x = first_pixel(s->x - half_x, p.width);
+  s->end_x = end_pixel(s->x + half_x, p.width);
+  s->first_y = first_pixel(s->y - half_y, p.height);
+  s->end_y = end_pixel(s->y + half_y, p.height);
 }
 
-// Fills in the splat; false: culled.
-INLINED bool project_node(const DefraySplatParams p, __global const DefraySplatNode* n,
-                          DefraySplat* s) {
-  const float3 right = FRAME_VECTOR(p, right), down = FRAME_VECTOR(p, down);
-  const float3 forward = FRAME_VECTOR(p, forward);
-  const float3 from_eye = (float3)(n->x, n->y, n->z) - FRAME_VECTOR(p, eye);
-  const float3 area = (float3)(n->area_x, n->area_y, n->area_z);
-  const float x = product(right, from_eye), y = product(down, from_eye);
-  const float z = product(forward, from_eye);
+// 0 where it is not known.
+INLINED floats known(const floats value, const ints is_known) {
+  return select((floats)(0.0f), value, is_known);
+}
 
-  // The basis function's depth: no thinner than its own width, or neighbours on a curved surface
-  // that faces the camera would lie apart.
-  const float size = size_of(area);
-  const float3 normal = area / size;
-  const float slant = product(forward, normal);
-  const float along = n->variance * (1.0f - slant * slant) + between(forward, n, forward);
-  const float depth = sqrt(2.0f * p.cutoff * along);
-  const float half_depth = fmax(depth, sqrt(n->variance));
+// Of what is not seen nothing is kept but its depths, of what covers nothing no shape.
+INLINED void cull(SplatLanes* s, const ints is_seen, const ints covers) {
+  s->x = known(s->x, is_seen);
+  s->y = known(s->y, is_seen);
+  s->r = known(s->r, is_seen);
+  s->g = known(s->g, is_seen);
+  s->b = known(s->b, is_seen);
+  s->a = known(s->a, is_seen);
+  const ints has_shape = is_seen & covers;
+  s->conic_xx = known(s->conic_xx, has_shape);
+  s->conic_xy = known(s->conic_xy, has_shape);
+  s->conic_yy = known(s->conic_yy, has_shape);
+  s->amplitude = known(s->amplitude, has_shape);
+  s->disc_px = known(s->disc_px, has_shape);
+  const ints has_pixels = has_shape & IS(s->first_x < s->end_x) & IS(s->first_y < s->end_y);
+  s->first_x &= has_pixels;
+  s->end_x &= has_pixels;
+  s->first_y &= has_pixels;
+  s->end_y &= has_pixels;
+}
+
+// What sixteen structures, or one, have in a field.
+#ifdef DEFRAY_SCALARS
+#define FIELD(name) (nodes[at].name)
+#else
+#define FIELD(name)                                                                      \
+  ((float16)(nodes[at.s0].name, nodes[at.s1].name, nodes[at.s2].name, nodes[at.s3].name, \
+             nodes[at.s4].name, nodes[at.s5].name, nodes[at.s6].name, nodes[at.s7].name, \
+             nodes[at.s8].name, nodes[at.s9].name, nodes[at.sa].name, nodes[at.sb].name, \
+             nodes[at.sc].name, nodes[at.sd].name, nodes[at.se].name, nodes[at.sf].name))
+#endif
+
+// The nodes `at`, a lane each.
+INLINED SplatNodes read_nodes(__global const DefraySplatNode* nodes, const uints at) {
+  SplatNodes n;
+  n.place.x = FIELD(x);
+  n.place.y = FIELD(y);
+  n.place.z = FIELD(z);
+  n.area.x = FIELD(area_x);
+  n.area.y = FIELD(area_y);
+  n.area.z = FIELD(area_z);
+  n.variance = FIELD(variance);
+  n.low.xx = FIELD(low_xx);
+  n.low.xy = FIELD(low_xy);
+  n.low.xz = FIELD(low_xz);
+  n.low.yy = FIELD(low_yy);
+  n.low.yz = FIELD(low_yz);
+  n.low.zz = FIELD(low_zz);
+  n.r = FIELD(r);
+  n.g = FIELD(g);
+  n.b = FIELD(b);
+  n.a = FIELD(a);
+  return n;
+}
+
+// How far the basis function reaches towards the camera: no less than its own width, or neighbours
+// on a curved surface that faces the camera would lie apart.
+INLINED floats half_depth_of(const DefraySplatParams p, const SplatNodes* n,
+                             const SplatVectors forward, const SplatVectors normal) {
+  const floats slant = product(forward, normal);
+  const floats along = n->variance * (1.0f - slant * slant) + between(forward, n->low, forward);
+  return fmax(sqrt(2.0f * p.cutoff * along), sqrt(n->variance));
+}
+
+// A row of the Jacobian.
+INLINED SplatVectors jacobian_row(const SplatVectors axis, const SplatVectors forward,
+                                  const floats tan, const floats scale) {
+  const SplatVectors row = {scale * (axis.x - tan * forward.x), scale * (axis.y - tan * forward.y),
+                            scale * (axis.z - tan * forward.z)};
+  return row;
+}
+
+// Shape and mass of what lies at depth z, from its Jacobian. `spread`: of a unit of area.
+INLINED void blur_nodes(const DefraySplatParams p, const SplatNodes* n, const SplatVectors row_x,
+                        const SplatVectors row_y, const SplatVectors normal, const floats scale,
+                        const floats spread, const floats mass, SplatLanes* s) {
+  const floats coc = splat_coc(p, s->z);
+  const ints is_disc = IS(fabs(coc) > DEFRAY_SPLAT_DISC * (1.0f + scale * sqrt(n->variance))) &
+                       (ints)(p.has_discs ? -1 : 0);
+  // 1/4, or 1 / (2 ln 4)
+  const floats blur = select((floats)(0.36067376f), (floats)(0.25f), is_disc) * (coc * coc);
+  const SplatVariances low = {between(row_x, n->low, row_x), between(row_x, n->low, row_y),
+                              between(row_y, n->low, row_y), 0.0f};
+  const SplatVariances added = circumellipse(low, blur);
+  const floats tilt_x = product(row_x, normal), tilt_y = product(row_y, normal);
+  const SplatVariances own = {n->variance * (product(row_x, row_x) - tilt_x * tilt_x),
+                              n->variance * (product(row_x, row_y) - tilt_x * tilt_y),
+                              n->variance * (product(row_y, row_y) - tilt_y * tilt_y), 0.0f};
+  const SplatVariances variance = {own.xx + 1.0f + added.xx, own.xy + added.xy,
+                                   own.yy + 1.0f + added.yy, 0.0f};
+  const floats determinant = determinant_of(own, n->variance * spread, added);
+  shape_splats(p, variance, determinant, mass, is_disc, s);
+}
+
+INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, SplatLanes* s) {
+  const SplatVectors right = FRAME_VECTOR(p, right), down = FRAME_VECTOR(p, down);
+  const SplatVectors forward = FRAME_VECTOR(p, forward);
+  const SplatVectors from_eye = {n->place.x - p.eye_x, n->place.y - p.eye_y, n->place.z - p.eye_z};
+  const floats size = size_of(n->area);
+  const SplatVectors normal = {n->area.x / size, n->area.y / size, n->area.z / size};
+  const floats z = product(forward, from_eye), towards = product(normal, from_eye);
+  const floats half_depth = half_depth_of(p, n, forward, normal);
   s->z = z;
   s->z_near = z - half_depth;
   s->z_far = z + half_depth;
-  if (!(size > 0.0f) || !(z - half_depth > p.near_units)) return false;
+  const ints is_seen = IS(size > 0.0f) & IS(z - half_depth > p.near_units) &
+                       (IS(towards < 0.0f) | (ints)(p.one_sided ? 0 : -1));
 
-  const float towards = product(normal, from_eye);
-  if (p.one_sided && !(towards < 0.0f)) return false;
-  const float scale = p.focal_px / z, tan_x = x / z, tan_y = y / z;
-  const float spread = scale * scale * (fabs(towards) / z);  // of a unit of area
-  const float mass = spread * size;
+  const floats scale = p.focal_px / z;
+  const floats tan_x = product(right, from_eye) / z, tan_y = product(down, from_eye) / z;
   s->x = p.centre_x + p.focal_px * tan_x;
   s->y = p.centre_y + p.focal_px * tan_y;
-
-  const float3 row_x = scale * (right - tan_x * forward);
-  const float3 row_y = scale * (down - tan_y * forward);
-  const float tilt_x = product(row_x, normal), tilt_y = product(row_y, normal);
-  const float3 low =
-      (float3)(between(row_x, n, row_x), between(row_x, n, row_y), between(row_y, n, row_y));
-  const float coc = splat_coc(p, z);
-  const bool is_disc =
-      p.has_discs && fabs(coc) > DEFRAY_SPLAT_DISC * (1.0f + scale * sqrt(n->variance));
-  const float blur = is_disc ? 0.25f * (coc * coc) : 0.36067376f * (coc * coc);  // 1 / (2 ln 4)
-  const float4 added = circumellipse(low, blur);
-  const float3 own = (float3)(n->variance * (product(row_x, row_x) - tilt_x * tilt_x),
-                              n->variance * (product(row_x, row_y) - tilt_x * tilt_y),
-                              n->variance * (product(row_y, row_y) - tilt_y * tilt_y));
-  const float3 variance = (float3)(own.x + 1.0f + added.x, own.y + added.y, own.z + 1.0f + added.z);
-  const float determinant = determinant_of(own, n->variance * spread, added);
+  const floats spread = scale * scale * (fabs(towards) / z), mass = spread * size;
+  blur_nodes(p, n, jacobian_row(right, forward, tan_x, scale),
+             jacobian_row(down, forward, tan_y, scale), normal, scale, spread, mass, s);
 
   // A light at the eye: a third of it from all around.
-  const float facing = fabs(towards) / sqrt(product(from_eye, from_eye));
-  const float light = p.has_headlight ? 0.333333343f + 0.666666687f * facing : 1.0f;
+  floats light = 1.0f;
+  if (p.has_headlight) {
+    const floats facing = fabs(towards) / sqrt(product(from_eye, from_eye));
+    light = 0.333333343f + 0.666666687f * facing;
+  }
   s->r = n->r * light;
   s->g = n->g * light;
   s->b = n->b * light;
   s->a = n->a;
-  return mass > 0.0f && shape_splat(p, variance, determinant, mass, is_disc, s);
+  cull(s, is_seen, IS(mass > 0.0f));
 }
+
+// A field of the splats from `first` on, through memory.
+#define PUT(name)                                                       \
+  do {                                                                  \
+    STORE(s.name, lanes);                                               \
+    for (uint i = 0; i < count; ++i) splats[first + i].name = lanes[i]; \
+  } while (0)
+#define PUT_INTS(name)                                                  \
+  do {                                                                  \
+    STORE(s.name, whole);                                               \
+    for (uint i = 0; i < count; ++i) splats[first + i].name = whole[i]; \
+  } while (0)
 
 __kernel void splat_project(const DefraySplatParams p, __global const DefraySplatNode* nodes,
                             __global DefraySplat* splats) {
-  const uint i = get_global_id(0);
-  if (i >= p.count) return;
-  DefraySplat s;
-  s.x = s.y = s.conic_xx = s.conic_xy = s.conic_yy = s.amplitude = s.disc_px = 0.0f;
-  s.r = s.g = s.b = s.a = 0.0f;
-  if (!project_node(p, nodes + i, &s)) s.first_x = s.end_x = s.first_y = s.end_y = 0;
-  splats[i] = s;
+  const uint first = (uint)get_global_id(0) * LANES;
+  if (first >= p.count) return;
+  const uint count = min((uint)LANES, p.count - first);
+  const SplatNodes n = read_nodes(nodes, min(as_uints((ints)(LANE)) + first, (uints)(p.count - 1)));
+  SplatLanes s;
+  project_nodes(p, &n, &s);
+  float lanes[LANES];
+  int whole[LANES];
+  PUT(x);
+  PUT(y);
+  PUT(conic_xx);
+  PUT(conic_xy);
+  PUT(conic_yy);
+  PUT(amplitude);
+  PUT(disc_px);
+  PUT(z);
+  PUT(z_near);
+  PUT(z_far);
+  PUT_INTS(first_x);
+  PUT_INTS(end_x);
+  PUT_INTS(first_y);
+  PUT_INTS(end_y);
+  PUT(r);
+  PUT(g);
+  PUT(b);
+  PUT(a);
 }

@@ -134,13 +134,19 @@ INLINED float16 weight_in_square(__global const DefraySplat* s, const Square* q,
 // Writes what of a square lies in the picture.
 INLINED void store_square(const DefraySplatTileParams p, __global float* plane, const Square* q,
                           const float16 values) {
-  const float4 rows[SIDE] = {values.lo.lo, values.lo.hi, values.hi.lo, values.hi.hi};
-  for (int j = 0; j < min(SIDE, (int)p.height - q->y); ++j) {
-    __global float* const to = plane + (size_t)(q->y + j) * p.width + q->x;
-    float lanes[SIDE];
-    vstore4(rows[j], 0, lanes);
-    if (q->x + SIDE <= (int)p.width) vstore4(rows[j], 0, to);
-    for (int i = 0; q->x + SIDE > (int)p.width && q->x + i < (int)p.width; ++i) to[i] = lanes[i];
+  __global float* const to = plane + (size_t)q->y * p.width + q->x;
+  const int columns = (int)p.width - q->x, rows = (int)p.height - q->y;
+  if (columns >= SIDE && rows >= SIDE) {
+    vstore4(values.lo.lo, 0, to);
+    vstore4(values.lo.hi, 0, to + p.width);
+    vstore4(values.hi.lo, 0, to + 2 * (size_t)p.width);
+    vstore4(values.hi.hi, 0, to + 3 * (size_t)p.width);
+    return;
+  }
+  float pixels[SIDE * SIDE];
+  vstore16(values, 0, pixels);
+  for (int j = 0; j < min(SIDE, rows); ++j) {
+    for (int i = 0; i < min(SIDE, columns); ++i) to[(size_t)j * p.width + i] = pixels[j * SIDE + i];
   }
 }
 
