@@ -35,10 +35,15 @@ SplatModel model_of(const SplatCommand& job, bool has_bar) {
     fail(ErrorKind::usage,
          "{}: one cloud goes with all frames: a pattern is for cameras and pictures", job.input);
   }
-  ProgressBar bar(1, "points", has_bar);
+  ProgressBar bar(1, "clouds", has_bar);
   const auto update = [&](double share) { bar.update(0, share); };
-  return job.model.empty() ? SplatModel::read(job.input, job.has_cache, update)
-                           : SplatModel(make_point_cloud(job.model, job.model_points), update);
+  try {
+    return job.model.empty() ? SplatModel::read(job.input, job.has_cache, update)
+                             : SplatModel(make_point_cloud(job.model, job.model_points), update);
+  } catch (const std::bad_alloc&) {
+    fail(ErrorKind::input, "{}: not enough memory for so many points: thin it out, or split it",
+         job.model.empty() ? job.input : "model " + job.model);
+  }
 }
 
 void show(const std::vector<Plane>& colour, const SplatSettings& s, const std::string& title) {

@@ -44,6 +44,7 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
                {"drawn", r.drawn},
                {"seen", r.seen},
                {"from_behind", r.from_behind},
+               {"is_inside_out", r.is_inside_out},
                {"fragments", std::llround(r.fragments)},
                {"from", outcome.camera.pose.from},
                {"look_at", outcome.camera.pose.look_at},

@@ -16,6 +16,8 @@ namespace {
 
 /// Of a closed surface half is seen from behind; of the built-in models' parts never so much.
 constexpr double mostly_behind = 0.9;
+/// Less of it is a few normals that point the other way.
+constexpr double partly_behind = 0.1;
 
 /// Returns notes on the file.
 std::vector<std::string> write_splats(const std::string& path, const SplatCommand& job,
@@ -59,7 +61,14 @@ std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatRepor
         "draws it; normals may point inwards",
         100 * report.from_behind));
   } else if (report.seen == 0) {
-    notes.push_back("nothing of the cloud is in the picture: see --from, --look-at");
+    notes.push_back(
+        "nothing of the cloud is seen: it lies beside the picture, or is seen from its edge: see "
+        "--from, --look-at");
+  } else if (report.is_inside_out && report.from_behind > partly_behind) {
+    notes.push_back(fmt::format(
+        "{:.0f} % of what is before the camera is seen from behind and not drawn, and lies before "
+        "what is: normals may point inwards; --two-sided draws both",
+        100 * report.from_behind));
   }
   return notes;
 }

@@ -1,5 +1,8 @@
 #include "splat/cloud_cache.h"
 
+#include <OpenImageIO/hash.h>
+
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,7 +15,7 @@ namespace defray {
 namespace {
 
 /// Changes with whatever changes the bytes of what follows, or how they are made.
-constexpr char mark[16] = "defray surfels2";
+constexpr char mark[16] = "defray surfels3";
 
 /// The file that the cache was made of, and what the cache holds.
 struct Head {
@@ -22,6 +25,7 @@ struct Head {
   std::uint64_t points, nodes, notes_bytes;
   double origin[3];
   std::uint32_t has_normals, has_colours;
+  std::uint64_t hash;  ///< Of all that follows, and of this with a hash of 0.
 };
 
 Head head_of(const std::string& cloud) {
@@ -31,6 +35,20 @@ Head head_of(const std::string& cloud) {
   head.cloud_bytes = std::filesystem::file_size(cloud, ignored);
   head.cloud_time = std::filesystem::last_write_time(cloud, ignored).time_since_epoch().count();
   return head;
+}
+
+std::uint64_t hash_of(const void* bytes, std::size_t count) {
+  return OIIO::xxhash::xxhash(bytes, count);
+}
+
+std::uint64_t hash_of(Head head, const Hierarchy& tree, const std::string& notes) {
+  head.hash = 0;
+  const std::array<std::uint64_t, 4> parts{
+      hash_of(&head, sizeof(head)),
+      hash_of(tree.points.data(), tree.points.size() * sizeof(DefraySplatNode)),
+      hash_of(tree.nodes.data(), tree.nodes.size() * sizeof(HierarchyNode)),
+      hash_of(notes.data(), notes.size())};
+  return hash_of(parts.data(), sizeof(parts));
 }
 
 template <typename T>
@@ -87,19 +105,20 @@ std::optional<CachedCloud> read_cache(const std::string& cloud, std::string& why
                    head.has_normals != 0,
                    head.has_colours != 0,
                    {}};
-  std::vector<char> notes;
+  std::vector<char> letters;
   std::error_code ignored;
   const std::uint64_t bytes = std::filesystem::file_size(path, ignored);
   const bool fits = head.points < bytes && head.nodes < bytes && head.notes_bytes < bytes &&
                     bytes == sizeof(head) + head.points * sizeof(DefraySplatNode) +
                                  head.nodes * sizeof(HierarchyNode) + head.notes_bytes;
   if (!fits || !read_all(file, made.tree.points, head.points) ||
-      !read_all(file, made.tree.nodes, head.nodes) || !read_all(file, notes, head.notes_bytes) ||
+      !read_all(file, made.tree.nodes, head.nodes) || !read_all(file, letters, head.notes_bytes) ||
+      hash_of(head, made.tree, {letters.begin(), letters.end()}) != head.hash ||
       !is_sound(made.tree)) {
     why = path + ": is damaged: made anew";
     return std::nullopt;
   }
-  made.notes = lines_of({notes.begin(), notes.end()});
+  made.notes = lines_of({letters.begin(), letters.end()});
   return made;
 }
 
@@ -113,6 +132,7 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
   std::copy(cached.origin.begin(), cached.origin.end(), head.origin);
   head.has_normals = cached.has_normals;
   head.has_colours = cached.has_colours;
+  head.hash = hash_of(head, cached.tree, notes);
   write_safely(cache_path(cloud), [&](const std::string& name) {
     std::ofstream file(name, std::ios::binary);
     file.write(reinterpret_cast<const char*>(&head), sizeof(head));

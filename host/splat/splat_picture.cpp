@@ -37,15 +37,41 @@ void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, Spl
   report.farthest_coc_px = splat_coc_px(p, report.farthest_units);
 }
 
-/// The share of nodes whose normals point away from the camera.
-double share_from_behind(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p) {
-  const auto is_away = [&](const DefraySplatNode& n) {
-    const Vec3 from_eye = Vec3{n.x, n.y, n.z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
-    return dot({n.area_x, n.area_y, n.area_z}, from_eye) >= 0;
-  };
-  const std::size_t count =
-      parallel_count(nodes.size(), [&](std::size_t i) { return is_away(nodes.begin()[i]); });
-  return nodes.empty() ? 0 : static_cast<double>(count) / static_cast<double>(nodes.size());
+/// Nodes whose normals point away from the camera, and the others: how many, and their depths.
+struct Sides {
+  double away = 0, away_units = 0, towards = 0, towards_units = 0;
+
+  Sides& operator+=(const Sides& other) {
+    away += other.away;
+    away_units += other.away_units;
+    towards += other.towards;
+    towards_units += other.towards_units;
+    return *this;
+  }
+};
+
+Sides sides_of(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p) {
+  return parallel_sum(nodes.size(), [&](std::size_t first, std::size_t end) {
+    Sides sides;
+    for (const DefraySplatNode* n = nodes.begin() + first; n != nodes.begin() + end; ++n) {
+      const Vec3 from_eye = Vec3{n->x, n->y, n->z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
+      const double depth = dot(from_eye, {p.forward_x, p.forward_y, p.forward_z});
+      const bool is_away = dot({n->area_x, n->area_y, n->area_z}, from_eye) >= 0;
+      (is_away ? sides.away : sides.towards) += 1;
+      (is_away ? sides.away_units : sides.towards_units) += depth;
+    }
+    return sides;
+  });
+}
+
+/// What is seen of one-sided surfaces.
+void describe_sides(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p,
+                    SplatReport& report) {
+  if (nodes.empty()) return;
+  const Sides sides = sides_of(nodes, p);
+  report.from_behind = sides.away / (sides.away + sides.towards);
+  report.is_inside_out =
+      sides.away_units / sides.away < sides.towards_units / sides.towards;  // false without one
 }
 
 void make_transparent(Values<DefraySplatNode>& nodes, double transparency) {
@@ -89,7 +115,7 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   Values<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
   make_transparent(nodes, transparency);
   report.drawn = nodes.size();
-  if (params.one_sided) report.from_behind = share_from_behind(nodes, params);
+  if (params.one_sided) describe_sides(nodes, params, report);
   done("cut");
   Values<DefraySplat> splats = backend.splat_project(nodes, params);
   splats.host();  // once the kernel has made them

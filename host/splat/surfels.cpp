@@ -1,6 +1,7 @@
 #include "splat/surfels.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -33,6 +34,45 @@ void check_counts(const PointCloud& cloud) {
   check("alpha", cloud.alpha.size());
 }
 
+/// Whether any place may have more points than `most`: counted by hashes.
+bool may_have_heaps(const PointCloud& cloud, const std::vector<std::uint32_t>& kept, int most) {
+  std::vector<std::uint8_t> counts(std::bit_ceil(2 * kept.size()));
+  for (const std::uint32_t i : kept) {
+    std::uint64_t hash = 0;
+    for (const float along : cloud.positions[i]) {  // + 0: of both zeros one
+      hash = (hash + std::bit_cast<std::uint32_t>(along + 0.0f)) * 0x9e3779b97f4a7c15;
+      hash ^= hash >> 32;
+    }
+    if (++counts[hash & (counts.size() - 1)] > most) return true;
+  }
+  return false;
+}
+
+/// Leaves out what lies where neighbour_count points lie already, in their order: around each of
+/// them are then those alone, which say nothing of a surface, and each search meets all of them.
+/// Scanners write what they have not met as 0 0 0.
+void leave_out_heaps(const PointCloud& cloud, std::vector<std::uint32_t>& kept, Surfels& out) {
+  constexpr auto most = static_cast<int>(neighbour_count);
+  if (!may_have_heaps(cloud, kept, most)) return;
+  std::vector<std::uint32_t> by_place = kept;
+  std::stable_sort(by_place.begin(), by_place.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return cloud.positions[a] < cloud.positions[b];
+  });
+  const std::size_t before = kept.size();
+  std::vector<std::uint8_t> is_left_out(cloud.positions.size());
+  std::uint32_t first = by_place.front();
+  int count = 0;
+  for (const std::uint32_t i : by_place) {
+    count = cloud.positions[i] == cloud.positions[first] ? count + 1 : 1;
+    if (count == 1) first = i;
+    is_left_out[i] = count > most;
+  }
+  std::erase_if(kept, [&](std::uint32_t i) { return is_left_out[i] != 0; });
+  if (kept.size() == before) return;
+  out.notes.push_back(fmt::format("{} points lie where {} others do already: left out",
+                                  before - kept.size(), most));
+}
+
 /// The points that have a place, in their order; notes what is left out.
 std::vector<std::uint32_t> placed_points(const PointCloud& cloud, Surfels& out) {
   std::vector<std::uint32_t> kept;
@@ -54,6 +94,7 @@ std::vector<std::uint32_t> placed_points(const PointCloud& cloud, Surfels& out) 
     out.notes.push_back(fmt::format("{} of {} points have no finite place: left out", lost,
                                     cloud.positions.size()));
   }
+  leave_out_heaps(cloud, kept, out);
   return kept;
 }
 
@@ -75,12 +116,15 @@ void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t
     if (points[i].spacing > 0) known.push_back(points[i].spacing);
   }
   if (known.empty()) {
-    const std::size_t lost = given_cloud.positions.size() - kept.size();
-    fail(ErrorKind::input,
-         "the cloud's points ({}{}) all lie in one place, and say nothing of their size: give them "
-         "a radius",
-         points.size() == 1 ? "one" : std::to_string(points.size()),
-         lost == 0 ? "" : fmt::format("; {} without a finite place are left out", lost));
+    const std::size_t all = given_cloud.positions.size();
+    const auto placed = static_cast<std::size_t>(
+        std::count_if(given_cloud.positions.begin(), given_cloud.positions.end(), is_finite));
+    fail(
+        ErrorKind::input,
+        "the cloud's points ({}{}) all lie in one place, and say nothing of their size: give them "
+        "a radius",
+        placed == 1 ? "one" : std::to_string(placed),
+        placed == all ? "" : fmt::format("; {} without a finite place are left out", all - placed));
   }
   if (without > 0) {
     out.notes.push_back(

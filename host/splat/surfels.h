@@ -16,9 +16,10 @@ struct Surfels {
   std::vector<std::string> notes;
 };
 
-/// Leaves out points without a finite place, estimates what the cloud does not say, and weighs the
-/// points so that their basis functions add up to 1 all over the surface (Krivanek & Zara 2003,
-/// section 6.3, but on the surface itself instead of in rendered images). Throws Error(input).
+/// Leaves out points without a finite place, or more than 20 in one, estimates what the cloud does
+/// not say, and weighs the points so that their basis functions add up to 1 all over the surface
+/// (Krivanek & Zara 2003, section 6.3, but on the surface itself instead of in rendered images).
+/// Throws Error(input).
 Surfels make_surfels(const PointCloud& cloud, const Progress& progress = {});
 
 }  // namespace defray

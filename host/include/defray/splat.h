@@ -62,7 +62,9 @@ struct SplatReport {
   std::size_t drawn = 0;   ///< Nodes of the hierarchy that stood for them.
   std::size_t seen = 0;    ///< Of those, splats with pixels.
   double from_behind = 0;  ///< Share of those drawn that are left out as seen from behind.
-  double fragments = 0;    ///< Of all pixels, up to where nothing shines through.
+  /// On average those lie before the ones that are drawn: of closed surfaces normals point inwards.
+  bool is_inside_out = false;
+  double fragments = 0;  ///< Of all pixels, up to where nothing shines through.
   double nearest_units = 0, farthest_units = 0;    ///< Depths of the splats seen.
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Their signed CoC radii.
   std::vector<StageTime> stages;

@@ -55,7 +55,9 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   const Result text = defray(folder_, figure + "-o o.exr " + wide_lens);
   expect_ok(text);
   EXPECT_NE(text.out.find("2000 points drawn as "), std::string::npos) << text.out;
-  const std::string nothing = "nothing of the cloud is in the picture: see --from, --look-at";
+  const std::string nothing =
+      "nothing of the cloud is seen: it lies beside the picture, or is seen from its edge: see "
+      "--from, --look-at";
   const Result away =
       defray(folder_, figure + "-o o.exr --from 0,0,9 --look-at 0,0,20 " + wide_lens);
   EXPECT_NE(away.out.find("  note: " + nothing + "\n"), std::string::npos) << away.out;
@@ -165,9 +167,51 @@ TEST_F(SplatCommand, ACacheGivesTheSamePictureUntilItsFileChanges) {
   damage(static_cast<std::streamoff>(bytes) - notes_bytes - 4);
   EXPECT_NE(notes("--cache").find("is damaged: made anew"), std::string::npos);
   EXPECT_EQ(file_hash(folder_ / "o.exr"), plain);
+  damage(sizeof(char[16]) + 5 * sizeof(std::uint64_t) + 10);  // in the origin, or the first point
+  EXPECT_NE(notes("--cache").find("is damaged: made anew"), std::string::npos);
+  damage(static_cast<std::streamoff>(bytes) / 4);  // a number like another
+  EXPECT_NE(notes("--cache").find("is damaged: made anew"), std::string::npos);
+  EXPECT_EQ(file_hash(folder_ / "o.exr"), plain);
   write(21);
   EXPECT_NE(notes("--cache").find("was made of an older p.xyz"), std::string::npos);
   EXPECT_NE(file_hash(folder_ / "o.exr"), plain);
+}
+
+/// A closed body whose normals all point inwards shows its inside, about as many points as its
+/// outside would.
+TEST_F(SplatCommand, ABodyTurnedInsideOutIsNoted) {
+  const auto ball = [&](double outwards) {
+    std::ofstream points(folder_ / "ball.xyz");
+    for (int i = 0; i < 600; ++i) {
+      const double y = (i + 0.5) / 300 - 1, turn = 2.399963 * i, across = std::sqrt(1 - y * y);
+      const double x = across * std::cos(turn), z = across * std::sin(turn);
+      points << x << ' ' << y << ' ' << z << ' ' << outwards * x << ' ' << outwards * y << ' '
+             << outwards * z << '\n';
+    }
+    points.close();
+    const Result result = defray(
+        folder_,
+        "splat ball.xyz -o o.exr --json --size 200x200 --aperture-diameter 300 --focal-length 50");
+    expect_ok(result);
+    return json::parse(result.out);
+  };
+  EXPECT_TRUE(ball(1)["notes"].empty());
+  EXPECT_FALSE(ball(1)["is_inside_out"].get<bool>());
+  const json turned = ball(-1);
+  ASSERT_EQ(turned["notes"].size(), 1u);
+  EXPECT_NE(turned["notes"][0].get<std::string>().find("normals may point inwards"),
+            std::string::npos);
+  EXPECT_TRUE(turned["is_inside_out"].get<bool>());
+}
+
+TEST_F(SplatCommand, APointCloudTooLargeForTheMemoryIsNamed) {
+  const Result result =
+      shell(folder_, "ulimit -v 3000000; " + program() +
+                         " splat --model figure --model-points 40000000 -o o.exr " + wide_lens);
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_NE(result.err.find("model figure: not enough memory for so many points"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(SplatCommand, MistakesAreNamed) {

@@ -194,6 +194,36 @@ TEST(Surfels, PointsAlongALineOrAloneFaceAcrossIt) {
   }
 }
 
+/// As scanners write what they have not met. Found among all others they would take minutes.
+TEST(Surfels, OfPointsInOnePlaceTwentyCount) {
+  PointCloud cloud = slope(21);
+  const std::size_t count = cloud.positions.size();
+  for (int i = 0; i < 19; ++i) cloud.positions.push_back({0, 0, 0});  // and the slope's own
+  EXPECT_TRUE(make_surfels(cloud).notes.empty());
+  for (int i = 0; i < 200000; ++i) cloud.positions.push_back({0, i % 2 == 0 ? 0.0f : -0.0f, 0});
+  const Surfels surfels = make_surfels(cloud);
+  EXPECT_EQ(surfels.points.size(), count + 19);
+  ASSERT_EQ(surfels.notes.size(), 1u);
+  EXPECT_EQ(surfels.notes[0], "200000 points lie where 20 others do already: left out");
+  // The first are kept, with what belongs to them.
+  cloud.colours.assign(cloud.positions.size(), {0.25f, 0.5f, 1});
+  cloud.colours[0] = {1, 0, 0};
+  cloud.colours.back() = {0, 0, 7};
+  const Surfels coloured = make_surfels(cloud);
+  EXPECT_EQ(coloured.points[0].r, 1);
+  EXPECT_EQ(coloured.points.back().b, 1);
+  PointCloud heap;
+  heap.positions.assign(100, {1, 2, 3});
+  try {
+    make_surfels(heap);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("points (100) all lie in one place"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Surfels, WhatItRefuses) {
   const auto refused = [](const PointCloud& cloud, ErrorKind kind, const std::string& words) {
     try {
