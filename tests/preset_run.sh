@@ -23,7 +23,7 @@ export TSAN_OPTIONS=suppressions=$tests/presets/tsan.supp:print_suppressions=0
 unset DEFRAY_TEST_LONG
 left_out=*SharedDamaged*:KernelCache.*:*PictureFloor*:HighlightDisc*
 left_out+=:RdbScatter.*WithJitter:Cutout.*:LensSamples.AreMoreEven*:Fill.*FarAway:Repair.IsDone*:CocAccuracy.*:Lamp.*
-left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup:Windows.AFrameTooLarge*
+left_out+=:Blender*:Mistakes.HalfFloatDepthOfASteepPlane:Streams.ClosedOnes*:Files.WhatKilled*:*FastArithmetic*:*WorkGroup*NoBit*:*ReportOpensInABrowser:TuneCommand.FindsKeeps*:ShowWindow.*:Rdb.SameBitsForEveryWorkGroup:Windows.AFrameTooLarge*:SplatCommand.APointCloudTooLarge*
 left_out+=:Render.EveryOption*:Render.LensFromMetadata*:Render.ReportsWhat*:TradeCommand.ATruthTells*
 left_out+=:Defaults.OfRender*:MethodCommand.MethodsAnd*:TunerAtWork.TriesAShape*
 perf=PerfCommand.*:ReportCommand.*

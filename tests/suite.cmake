@@ -41,7 +41,7 @@ set(left_to_full
     MethodCommand.FastArithmetic* MethodCommand.EyeAnd* OptionsCommand.WorkGroups*
     TradeCommand.CommandsAre* TradeCommand.WithoutATruth* ChainCommand.Reference*
     ChainCommand.SameBits* ChannelsCommand.KernelsGive* Mistakes.* Sequences.* RenderFormats.*
-    Files.APicture* Files.AGrey* Files.SkipExisting* Streams.Messages* Windows.Grow*
+    SplatCommand.APointCloudTooLarge* Files.APicture* Files.AGrey* Files.SkipExisting* Streams.Messages* Windows.Grow*
     Metadata.OptionsWin* Info.Suggests* BudgetCommand.AFile* BudgetCommand.Learns*
     SplatCommand.FramesOf* SplatCommand.AnEye* ErrorCommand.TheSummary* ErrorCommand.WrongUse*
     OutputCommand.*

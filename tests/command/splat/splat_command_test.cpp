@@ -206,7 +206,7 @@ TEST_F(SplatCommand, ABodyTurnedInsideOutIsNoted) {
 
 TEST_F(SplatCommand, APointCloudTooLargeForTheMemoryIsNamed) {
   const Result result =
-      shell(folder_, "ulimit -v 3000000; " + program() +
+      shell(folder_, "ulimit -v 1500000; " + program() +
                          " splat --model figure --model-points 40000000 -o o.exr " + wide_lens);
   EXPECT_EQ(result.code, 3) << result.err;
   EXPECT_NE(result.err.find("model figure: not enough memory for so many points"),
