@@ -8,7 +8,4 @@ namespace defray {
 /// again. Where the system knows no such thing they stay.
 void give_back_pages(void* first, std::size_t bytes);
 
-/// Asks for large pages where the system has them: they come 512 at once, and are found sooner.
-void prefer_large_pages(void* first, std::size_t bytes);
-
 }  // namespace defray

@@ -47,7 +47,6 @@ class Values {
   static Values room(std::size_t count) {
     Values v;
     v.store_->room = std::make_unique_for_overwrite<T[]>(count);
-    prefer_large_pages(v.store_->room.get(), count * sizeof(T));
     v.store_->host = v.store_->room.get();
     v.store_->count = count;
     return v;
