@@ -18,38 +18,7 @@
 // splats  [count]
 // A work-item: LANES nodes (base/lanes.clh), a lane each.
 // Global size: count / LANES, rounded up, or more.
-#include "base/lanes.clh"
-#include "splat_params.h"
-
-// Places or directions in the scene.
-typedef struct {
-  floats x, y, z;
-} SplatVectors;
-
-// Symmetric matrices of the scene.
-typedef struct {
-  floats xx, xy, xz, yy, yz, zz;
-} SplatCovariances;
-
-// Of the picture; `shorter`: along its shorter axis.
-typedef struct {
-  floats xx, xy, yy, shorter;
-} SplatVariances;
-
-// As the fields of DefraySplatNode.
-typedef struct {
-  SplatVectors place, area;
-  floats variance;
-  SplatCovariances low;
-  floats r, g, b, a;
-} SplatNodes;
-
-// As those of DefraySplat.
-typedef struct {
-  floats x, y, conic_xx, conic_xy, conic_yy, amplitude, disc_px, z, z_near, z_far;
-  ints first_x, end_x, first_y, end_y;
-  floats r, g, b, a;
-} SplatLanes;
+#include "splat/node_lanes.clh"
 
 #define FRAME_VECTOR(p, name) \
   { (p).name##_x, (p).name##_y, (p).name##_z }
@@ -170,40 +139,6 @@ INLINED void cull(SplatLanes* s, const ints is_seen, const ints covers) {
   s->end_y &= has_pixels;
 }
 
-// What sixteen structures, or one, have in a field.
-#ifdef DEFRAY_SCALARS
-#define FIELD(name) (nodes[at].name)
-#else
-#define FIELD(name)                                                                      \
-  ((float16)(nodes[at.s0].name, nodes[at.s1].name, nodes[at.s2].name, nodes[at.s3].name, \
-             nodes[at.s4].name, nodes[at.s5].name, nodes[at.s6].name, nodes[at.s7].name, \
-             nodes[at.s8].name, nodes[at.s9].name, nodes[at.sa].name, nodes[at.sb].name, \
-             nodes[at.sc].name, nodes[at.sd].name, nodes[at.se].name, nodes[at.sf].name))
-#endif
-
-// The nodes `at`, a lane each.
-INLINED SplatNodes read_nodes(__global const DefraySplatNode* nodes, const uints at) {
-  SplatNodes n;
-  n.place.x = FIELD(x);
-  n.place.y = FIELD(y);
-  n.place.z = FIELD(z);
-  n.area.x = FIELD(area_x);
-  n.area.y = FIELD(area_y);
-  n.area.z = FIELD(area_z);
-  n.variance = FIELD(variance);
-  n.low.xx = FIELD(low_xx);
-  n.low.xy = FIELD(low_xy);
-  n.low.xz = FIELD(low_xz);
-  n.low.yy = FIELD(low_yy);
-  n.low.yz = FIELD(low_yz);
-  n.low.zz = FIELD(low_zz);
-  n.r = FIELD(r);
-  n.g = FIELD(g);
-  n.b = FIELD(b);
-  n.a = FIELD(a);
-  return n;
-}
-
 // How far the basis function reaches towards the camera: no less than its own width, or neighbours
 // on a curved surface that faces the camera would lie apart.
 INLINED floats half_depth_of(const DefraySplatParams p, const SplatNodes* n,
@@ -278,18 +213,6 @@ INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, Splat
   cull(s, is_seen, IS(mass > 0.0f));
 }
 
-// A field of the splats from `first` on, through memory.
-#define PUT(name)                                                       \
-  do {                                                                  \
-    STORE(s.name, lanes);                                               \
-    for (uint i = 0; i < count; ++i) splats[first + i].name = lanes[i]; \
-  } while (0)
-#define PUT_INTS(name)                                                  \
-  do {                                                                  \
-    STORE(s.name, whole);                                               \
-    for (uint i = 0; i < count; ++i) splats[first + i].name = whole[i]; \
-  } while (0)
-
 __kernel void splat_project(const DefraySplatParams p, __global const DefraySplatNode* nodes,
                             __global DefraySplat* splats) {
   const uint first = (uint)get_global_id(0) * LANES;
@@ -298,24 +221,5 @@ __kernel void splat_project(const DefraySplatParams p, __global const DefraySpla
   const SplatNodes n = read_nodes(nodes, min(as_uints((ints)(LANE)) + first, (uints)(p.count - 1)));
   SplatLanes s;
   project_nodes(p, &n, &s);
-  float lanes[LANES];
-  int whole[LANES];
-  PUT(x);
-  PUT(y);
-  PUT(conic_xx);
-  PUT(conic_xy);
-  PUT(conic_yy);
-  PUT(amplitude);
-  PUT(disc_px);
-  PUT(z);
-  PUT(z_near);
-  PUT(z_far);
-  PUT_INTS(first_x);
-  PUT_INTS(end_x);
-  PUT_INTS(first_y);
-  PUT_INTS(end_y);
-  PUT(r);
-  PUT(g);
-  PUT(b);
-  PUT(a);
+  write_splats(&s, splats + first, count);
 }
