@@ -47,33 +47,24 @@ struct DepthKey {
 
 constexpr std::uint32_t without_pixels = ~0u;  ///< Instead of a depth.
 
-/// By depth, equal ones as they are, and none without pixels: digit by digit of what they are above
-/// the least, the last first.
+/// By depth, equal ones as they are: digit by digit of what they are above the least, the last
+/// first.
 void sort(std::vector<DepthKey>& keys) {
-  std::uint32_t least = without_pixels, most = 0;
-  for (const DepthKey& key : keys) {
-    if (key.depth == without_pixels) continue;
-    least = std::min(least, key.depth);
-    most = std::max(most, key.depth);
-  }
+  if (keys.empty()) return;
+  const auto by_depth = [](const DepthKey& a, const DepthKey& b) { return a.depth < b.depth; };
+  const auto [nearest, farthest] = std::minmax_element(keys.begin(), keys.end(), by_depth);
+  const std::uint32_t least = nearest->depth, range = farthest->depth - least;
   constexpr int digit = 12;
   std::vector<DepthKey> other(keys.size());
-  for (int shift = 0; shift == 0 || (shift < 32 && (most - least) >> shift != 0); shift += digit) {
+  for (int shift = 0; shift < 32 && range >> shift != 0; shift += digit) {
     const auto digit_of = [&](const DepthKey& key) {
       return (key.depth - least) >> shift & ((1u << digit) - 1);
     };
     std::array<std::uint32_t, 1 << digit> place{};
-    for (const DepthKey& key : keys) place[digit_of(key)] += key.depth != without_pixels;
+    for (const DepthKey& key : keys) ++place[digit_of(key)];
     std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
-    std::uint32_t count = 0;
-    for (const DepthKey& key : keys) {
-      if (key.depth == without_pixels) continue;
-      other[place[digit_of(key)]++] = key;
-      ++count;
-    }
-    other.resize(count);
+    for (const DepthKey& key : keys) other[place[digit_of(key)]++] = key;
     keys.swap(other);
-    other.resize(count);
   }
 }
 
@@ -86,6 +77,7 @@ Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
     keys[i] = {has_pixels(all[i]) ? std::bit_cast<std::uint32_t>(all[i].z_near) : without_pixels,
                static_cast<std::uint32_t>(i)};
   });
+  std::erase_if(keys, [](const DepthKey& key) { return key.depth == without_pixels; });
   sort(keys);
   auto sorted = Values<DefraySplat>::room(keys.size());
   const std::span<DefraySplat> to = sorted.edit();

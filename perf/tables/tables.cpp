@@ -1,12 +1,18 @@
 #include "tables/tables.h"
 
 #include "base/text.h"
+#include "experiments.h"
 
 namespace defray::perf {
 
 const std::vector<Setup>& TableBench::setups() {
   if (!setups_) setups_ = make_setups(bench_);
   return *setups_;
+}
+
+const Section& TableBench::splats() {
+  if (!splats_) splats_ = experiments().at("splat-table1").run(bench_);
+  return *splats_;
 }
 
 const std::map<std::string, ReadmeTable>& readme_tables() {
@@ -20,6 +26,7 @@ const std::map<std::string, ReadmeTable>& readme_tables() {
       {"prediction", {"expected errors beside true ones, and of --scenes", measure_prediction}},
       {"roofline", {"kernels beside the machine's memory and arithmetic", measure_roofline}},
       {"splats", {"point clouds: time and error by aperture", measure_splats}},
+      {"splat-ratios", {"the same at the largest aperture, in short", measure_splat_ratios}},
       {"splat-speed", {"point clouds: time by points and pixels", measure_splat_speed}},
       {"splat-close", {"point clouds: surfaces close to each other", measure_close_splats}},
       {"papers", {"the papers' claims beside our figures", measure_papers}},
