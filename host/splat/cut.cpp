@@ -66,17 +66,24 @@ class View {
   bool is_small(const SeenNode& s, const HierarchyNode& n) const {
     const double near = s.z - s.radius;
     if (!(near > p_.near_units)) return false;
-    const double spanned = length({n.splat.area_x, n.splat.area_y, n.splat.area_z});
-    if (spanned < least_coherence * static_cast<double>(n.whole_area)) return false;
     const double width_px = 2.0 * n.radius * p_.focal_px / near;
-    if (width_px <= widest_px) return true;
-    const double here = splat_coc_px(p_, near), there = splat_coc_px(p_, s.z + s.radius);
+    return (width_px <= widest_px || is_small_in_blur(width_px, near, s.z + s.radius)) &&
+           is_coherent(n);
+  }
+
+ private:
+  bool is_small_in_blur(double width_px, double near, double far) const {
+    const double here = splat_coc_px(p_, near), there = splat_coc_px(p_, far);
     if ((here < 0) != (there < 0)) return false;  // some of it is in focus
     const double blur = std::min(std::abs(here), std::abs(there));
     return width_px <= (p_.has_discs ? widest_disc : widest_gaussian) * blur;
   }
 
- private:
+  static bool is_coherent(const HierarchyNode& n) {
+    const double spanned = length({n.splat.area_x, n.splat.area_y, n.splat.area_z});
+    return spanned >= least_coherence * static_cast<double>(n.whole_area);
+  }
+
   /// The plane through the eye and a side of the picture, `edge` px from the axis.
   struct Side {
     double focal, edge, slant;
