@@ -48,7 +48,8 @@ struct DepthKey {
 constexpr std::uint32_t without_pixels = ~0u;  ///< Instead of a depth.
 
 /// By depth, equal ones as they are: digit by digit of what they are above the least, the last
-/// first.
+/// first. With three digits of eleven bits, before, `in_order` took 0.55 to 0.6 of the time with
+/// std::sort (a quarter of a million to four million splats).
 void sort(std::vector<DepthKey>& keys) {
   if (keys.empty()) return;
   const auto by_depth = [](const DepthKey& a, const DepthKey& b) { return a.depth < b.depth; };

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "faults/fault.h"
 #include "splat_support.h"
 
 namespace defray::test::splat_project_test {
@@ -241,73 +240,6 @@ TEST(SplatProject, AHeadlightShadesBySlant) {
   EXPECT_NEAR(s.g, slanted, 1e-5);
   EXPECT_EQ(s.a, 1);
 }
-
-const FaultRows faults{
-    {"splat_project",
-     "places from the cloud's origin, not the eye",
-     {"n->place.x - p.eye_x", "n->place.x"}},
-    {"splat_project",
-     "the CoC of infinite focus everywhere",
-     {"p.focus_is_infinite ? -p.infinite_focus_scale / z", "true ? -p.infinite_focus_scale / z"}},
-    {"splat_project",
-     "no limit of the CoC",
-     {"return clamp(radius, (floats)(-p.limit_px), (floats)(p.limit_px));", "return radius;"}},
-    {"splat_project", "no prefilter", {"{own.xx + 1.0f + added.xx,", "{own.xx + added.xx,"}},
-    {"splat_project",
-     "a surface that is seen from its edge alone",
-     {"return root * root + circle", "return circle"}},
-    {"splat_project",
-     "longer blur does not meet the surface",
-     {"fmax(across, (floats)(0.0f))", "0.0f"}},
-    {"splat_project",
-     "what is longer along one axis twice",
-     {"xx = added.xx - added.shorter", "xx = added.xx"}},
-    {"splat_project",
-     "basis functions round in the picture",
-     {"(product(row_x, row_y) - tilt_x * tilt_y)", "product(row_x, row_y)"}},
-    {"splat_project",
-     "the smaller of blur and low-pass",
-     {"fmax(mean - spread, circle)", "fmin(mean - spread, circle)"}},
-    {"splat_project",
-     "circumellipse turned the other way",
-     {"stretch * m.xy,", "-stretch * m.xy,"}},
-    {"splat_project",
-     "the low-pass of a circle forgotten",
-     {"IS(mean + spread <= circle)", "IS(mean - spread <= circle)"}},
-    {"splat_project",
-     "slanted surfaces cover as much",
-     {"(fabs(towards) / z), mass", "1.0f, mass"}},
-    {"splat_project", "surfaces seen from behind", {"IS(towards < 0.0f)", "IS(towards >= 0.0f)"}},
-    {"splat_project",
-     "nearer than the near plane",
-     {"IS(z - half_depth > p.near_units)", "IS(z > p.near_units)"}},
-    {"splat_project",
-     "thin basis functions",
-     {"fmax(sqrt(2.0f * p.cutoff * along), sqrt(n->variance))", "sqrt(2.0f * p.cutoff * along)"}},
-    {"splat_project",
-     "variance of a disc half its square radius",
-     {"(floats)(0.36067376f), (floats)(0.25f)", "(floats)(0.36067376f), (floats)(0.5f)"}},
-    {"splat_project",
-     "the whole of a Gaussian within the cut-off",
-     {"6.28318531f * root * p.gaussian_share", "6.28318531f * root"}},
-    {"splat_project",
-     "an exponent without its half",
-     {"(floats)(0.5f), (floats)(0.25f)", "(floats)(1.0f), (floats)(0.25f)"}},
-    {"splat_project", "the last pixel left out", {"floor(to - 0.5f) + 1.0f", "floor(to - 0.5f)"}},
-    {"splat_project",
-     "light from the side",
-     {"0.333333343f + 0.666666687f * facing", "0.333333343f + 0.666666687f * normal.x"}},
-    {"splat_project", "a node twice", {"nodes[at.sb].name", "nodes[at.sa].name"}},
-    {"splat_project", "the last but one instead of the last", {"(p.count - 1))", "(p.count - 2))"}},
-    {"splat_project", "the last lane left out", {"min((uint)LANES,", "min((uint)LANES - 1,"}},
-    {"splat_project",
-     "what is culled has a shape",
-     {"has_shape = is_seen & covers", "has_shape = covers"}},
-    {"splat_project", "what is culled has a place", {"s->y = known(s->y, is_seen)", "s->y = s->y"}},
-    {"splat_project",
-     "what lies beside the picture has columns",
-     {"has_shape & IS(s->first_x < s->end_x) &", "has_shape &"}},
-};
 
 }  // namespace
 }  // namespace defray::test::splat_project_test
