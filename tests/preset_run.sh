@@ -35,6 +35,7 @@ case $name in
   asan) left_out+=:$perf ;;  # defray-perf is not built there
   tsan)
     left_out+=:*EveryDamagedFile*  # minutes, in OpenEXR's threads and not ours
+    left_out+=:Parallel.AFork*
     export DEFRAY_TEST_EXEC=1 ;;   # it takes no forks of a process with threads
   coverage)
     left_out=*Huge*

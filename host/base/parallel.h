@@ -6,10 +6,16 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace defray {
+
+/// Of this machine that the process may use; at least 1.
+int core_count();
+
+/// Calls `own` here and meanwhile `help` on up to `most` - 1 other cores, once on each that is free
+/// before `own` is done. Neither may throw.
+void run_on_cores(int most, const std::function<void()>& help, const std::function<void()>& own);
 
 /// Calls task(i) for every i from 0 to count - 1, once, on every core, this thread included. What a
 /// task throws, no memory for one, is thrown here, once those at work are done. `progress` gets the
@@ -30,14 +36,8 @@ void parallel_for(int count, const Task& task, const std::function<void(double)>
       next = count;
     }
   };
-  {
-    std::vector<std::jthread> helpers;
-    const int cores = static_cast<int>(std::thread::hardware_concurrency());
-    for (int i = 1; i < std::min(cores, count); ++i) {
-      helpers.emplace_back(work, false);
-    }
-    work(true);
-  }
+  run_on_cores(
+      count, [&] { work(false); }, [&] { work(true); });
   if (thrown) std::rethrow_exception(thrown);
 }
 

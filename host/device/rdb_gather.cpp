@@ -8,6 +8,7 @@
 #include "device/rdb_scatter.h"
 #include "device/rdb_tiles.h"
 #include "opencl/launch_table.h"
+#include "rdb/light_sources.h"
 #include "rdb/rdb_plan.h"
 #include "rdb/segments.h"
 

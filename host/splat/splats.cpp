@@ -5,7 +5,6 @@
 #include <bit>
 #include <numeric>
 #include <span>
-#include <thread>
 
 #include "base/parallel.h"
 
@@ -33,8 +32,7 @@ void for_each_tile(const DefraySplat& s, int tiles_x, TileRows rows, const Visit
 template <typename Work>
 void for_rows_of_tiles(TileRows all, const Work& work) {
   const int rows = all.end - all.first;
-  const int cores = static_cast<int>(std::thread::hardware_concurrency());  // 0: not known
-  const int parts = std::min(rows, std::max(cores, 1));
+  const int parts = std::min(rows, core_count());
   parallel_for(parts, [&](int i) {
     work(TileRows{all.first + rows * i / parts, all.first + rows * (i + 1) / parts});
   });

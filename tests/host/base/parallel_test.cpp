@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <thread>
 #include <vector>
 
 namespace defray::test::parallel_test {
@@ -48,6 +50,42 @@ TEST(Parallel, FindsTheOnlyOneWhereverItIs) {
       EXPECT_TRUE(parallel_any(length, [&](std::size_t i) { return i == place; })) << length;
     }
   }
+}
+
+TEST(Parallel, LoopsWithinLoopsOnThreadsOfTheirOwnAllEnd) {
+  std::atomic<int> visits = 0;
+  {
+    std::vector<std::jthread> callers;
+    for (int i = 0; i < 8; ++i) {
+      callers.emplace_back([&] {
+        for (int round = 0; round < 100; ++round) {
+          parallel_for(5, [&](int) { parallel_for(7, [&](int) { ++visits; }); });
+        }
+      });
+    }
+  }
+  EXPECT_EQ(visits, 8 * 100 * 5 * 7);
+}
+
+TEST(Parallel, AllCoresAreAtWorkAtOnce) {
+  if (core_count() == 1) GTEST_SKIP() << "needs two cores";
+  std::atomic<int> here = 0;
+  parallel_for(2, [&](int) {  // each waits for the other
+    for (++here; here < 2;) std::this_thread::yield();
+  });
+  EXPECT_EQ(here, 2);
+}
+
+/// A fork has none of the threads of its process.
+TEST(Parallel, AForkGoesOnWithThreadsOfItsOwn) {
+  parallel_for(100, [](int) {});
+  EXPECT_EXIT(
+      {
+        std::atomic<int> visits = 0;
+        for (int i = 0; i < 10; ++i) parallel_for(100, [&](int) { ++visits; });
+        std::_Exit(visits == 1000 ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
