@@ -8,8 +8,9 @@ namespace {
 
 class Feather {
  public:
-  Feather(const Frame& behind, const Words& marks, const Words& strips)
+  Feather(const Frame& behind, const Quanta& seen, const Words& marks, const Words& strips)
       : frame_(behind),
+        seen_(seen.host()),
         inverse_(behind.inverse.host()),
         marks_(marks.host()),
         strips_(strips.host()) {}
@@ -27,7 +28,7 @@ class Feather {
     return is_edge;
   }
 
-  /// Of the square's colours to that in its middle.
+  /// Of the square's colours to that in its middle, whose surface has its own where it is seen.
   Colour mean_difference(Place middle) const {
     const Planes& channels = frame_.frame.channels;
     const Colour own = colour_at(channels, frame_.index(middle));
@@ -37,10 +38,11 @@ class Feather {
       if (!is_there(at)) return;
       const Place d = at - middle;
       const auto weight = static_cast<float>(DEFRAY_FEATHER_WEIGHT - d.x * d.x - d.y * d.y);
+      weights += weight;
+      if (!are_two(frame_.coc(middle), tame(seen_[frame_.index(at)]))) return;
       Colour difference = colour_at(channels, frame_.index(at));
       add(difference, -1, own);
       add(sum, weight, difference);
-      weights += weight;
     });
     return divided(sum, weights);
   }
@@ -53,19 +55,24 @@ class Feather {
   }
   bool are_parted(Place a, Place b) const {
     return is_there(a) && is_there(b) && !is_drawn(frame_.index(a)) && !is_drawn(frame_.index(b)) &&
-           std::abs(frame_.coc(a) - frame_.coc(b)) > DEFRAY_JUMP_QUANTA;
+           are_two(frame_.coc(a), frame_.coc(b));
+  }
+  static bool are_two(std::int32_t a, std::int32_t b) {
+    return std::abs(a - b) > DEFRAY_JUMP_QUANTA;
   }
 
   CocFrame frame_;
+  std::span<const std::int32_t> seen_;
   std::span<const float> inverse_;
   std::span<const std::uint32_t> marks_, strips_;
 };
 
 }  // namespace
 
-Planes TwinBackend::feather(const Frame& behind, const Words& marks, const Words& strips, Planes) {
+Planes TwinBackend::feather(const Frame& behind, const Quanta& seen, const Words& marks,
+                            const Words& strips, Planes) {
   std::vector<Plane> out = planes_of(behind.channels);
-  const Feather feather(behind, marks, strips);
+  const Feather feather(behind, seen, marks, strips);
   CocFrame(behind).for_each_place([&](Place at) {
     if (!feather.is_there(at) || !feather.is_at_edge(at)) return;
     const Colour difference = feather.mean_difference(at);

@@ -49,7 +49,7 @@ Outcome run_feather(Backend& backend, const Case& c, const Input& in) {
   const Words marks = marks_of(c, f);
   const Frame behind = reference::TwinBackend().fill(f, marks, directions_of(c));
   Outcome v;
-  for (const auto& channel : backend.feather(behind, marks, strips_of(c))) {
+  for (const auto& channel : backend.feather(behind, f.coc_quanta, marks, strips_of(c))) {
     add_plane(v, channel.host());
   }
   return v;

@@ -1,10 +1,13 @@
 // feather: where surfaces that were made up meet, along an edge that nothing seen tells, their
 // colours run into each other. The edge may lie anywhere thereabouts: a hard one is wrong nearly
 // everywhere, and shows wherever what hides it is blurred more than itself. Each pixel keeps its
-// surface. Silhouettes that were seen to go on there (host/chain/silhouettes) stay hard.
+// surface. Silhouettes that were seen to go on there (host/chain/silhouettes) stay hard. Where a
+// made-up surface goes on as one that is seen, it has its own colour there, not that of what lies
+// behind it.
 //
 // coc_quanta   [height][width]  signed radius of what lies behind, 1/256 px
 // inverse      [height][width]  1/depth of it; negative: nothing lies behind
+// seen_quanta  [height][width]  signed radius of what is seen
 // marks        [height][width]  DEFRAY_SILHOUETTE: one goes on there
 // strips       [height][width]  not 0: a thin surface goes on there
 // channel0..3  [height][width]
@@ -45,10 +48,13 @@ INLINED void find_pixels(const MadeUp* b, const int2 at, MadeUpPixels* pixels) {
   pixels->is_drawn = ((marks & (int16)(DEFRAY_SILHOUETTE)) != (int16)(0)) | (strips != (int16)(0));
 }
 
+INLINED int16 are_two(const int16 a, const int16 b) {
+  return apart(a, b) > (int16)(DEFRAY_JUMP_QUANTA);
+}
+
 // Where neighbours are of two surfaces, and nothing tells that one ends there.
 INLINED int16 are_parted(const MadeUpPixels* a, const MadeUpPixels* b) {
-  return a->is_there & b->is_there & ~(a->is_drawn | b->is_drawn) &
-         (apart(a->coc, b->coc) > (int16)(DEFRAY_JUMP_QUANTA));
+  return a->is_there & b->is_there & ~(a->is_drawn | b->is_drawn) & are_two(a->coc, b->coc);
 }
 
 // For which pixels of a run any such neighbours are close.
@@ -76,7 +82,8 @@ float16 with_mean(const float16 own, const float16 sum, const float16 weights,
 }
 
 __kernel void feather(const DefrayFrameParams p, __global const int* restrict coc_quanta,
-                      __global const float* restrict inverse, __global const uint* restrict marks,
+                      __global const float* restrict inverse,
+                      __global const int* restrict seen_quanta, __global const uint* restrict marks,
                       __global const uint* restrict strips, CHANNEL_PARAMETERS(channel),
                       WRITTEN_CHANNELS(out)) {
   const int2 start = run_start();
@@ -88,22 +95,25 @@ __kernel void feather(const DefrayFrameParams p, __global const int* restrict co
   float16 own3 = floats_of_run(p.width, p.height, channel3, start);
   const int16 is_edge = any_lane(there_of_run(&b, start)) ? are_at_edge(&b, start) : (int16)(0);
   if (any_lane(is_edge)) {
+    const int16 coc = coc_of_run(p.width, p.height, coc_quanta, start);
     float16 sum0 = 0.0f, sum1 = 0.0f, sum2 = 0.0f, sum3 = 0.0f, weights = 0.0f;
     for (int j = -DEFRAY_FEATHER_PX; j <= DEFRAY_FEATHER_PX; ++j) {
       for (int i = -DEFRAY_FEATHER_PX; i <= DEFRAY_FEATHER_PX; ++i) {
         const int2 at = start + (int2)(i, j);
-        const int16 counts = there_of_run(&b, at);
+        const int16 weighs = there_of_run(&b, at);
+        const int16 seen = coc_of_run(p.width, p.height, seen_quanta, at);
+        const int16 differs = weighs & are_two(coc, seen);
         const float weight = (float)(DEFRAY_FEATHER_WEIGHT - i * i - j * j);
         const float16 none = 0.0f;
         const float16 c0 = floats_of_run(p.width, p.height, channel0, at) - own0;
         const float16 c1 = floats_of_run(p.width, p.height, channel1, at) - own1;
         const float16 c2 = floats_of_run(p.width, p.height, channel2, at) - own2;
         const float16 c3 = floats_of_run(p.width, p.height, channel3, at) - own3;
-        sum0 += select(none, weight * c0, counts);
-        sum1 += select(none, weight * c1, counts);
-        sum2 += select(none, weight * c2, counts);
-        sum3 += select(none, weight * c3, counts);
-        weights += select(none, (float16)(weight), counts);
+        sum0 += select(none, weight * c0, differs);
+        sum1 += select(none, weight * c1, differs);
+        sum2 += select(none, weight * c2, differs);
+        sum3 += select(none, weight * c3, differs);
+        weights += select(none, (float16)(weight), weighs);
       }
     }
     own0 = with_mean(own0, sum0, weights, is_edge);

@@ -140,8 +140,8 @@ void Behind::to(int end) {
   if (rows.empty()) return;
   patterns_to(rows.end + feather_reach());
   made_.wanted = rows;
-  feathered_ =
-      work_.backend.feather(made_, silhouettes_.marks, silhouettes_.strips, std::move(feathered_));
+  feathered_ = work_.backend.feather(made_, front_.frame.coc_quanta, silhouettes_.marks,
+                                     silhouettes_.strips, std::move(feathered_));
   work_.done("feather");
 }
 
@@ -158,7 +158,8 @@ int Behind::front_needed() const {
   const int by_fill = fill_done_ < height ? fill_done_ - around_fill : height;
   const bool has_matches = patterns_done_ < height && has_patterns();
   const int by_patterns = has_matches ? patterns_done_ - work_.reach.patterns : height;
-  return std::min(by_fill, by_patterns);
+  const int by_feather = done_ < height ? done_ - feather_reach() : height;
+  return std::min({by_fill, by_patterns, by_feather});
 }
 
 void Behind::give_back_to(int end) {

@@ -76,10 +76,10 @@ class WatchedStages : public DeviceBackend {
     expect_frames("patterns", made, twin, f.wanted_rows());
     return made;
   }
-  Planes feather(const Frame& behind, const Words& marks, const Words& strips,
+  Planes feather(const Frame& behind, const Quanta& seen, const Words& marks, const Words& strips,
                  Planes into) override {
-    Planes made = DeviceBackend::feather(behind, marks, strips, std::move(into));
-    expect_planes("feather", behind, made, twins_.feather(behind, marks, strips));
+    Planes made = DeviceBackend::feather(behind, seen, marks, strips, std::move(into));
+    expect_planes("feather", behind, made, twins_.feather(behind, seen, marks, strips));
     return made;
   }
   Frame split(const Frame& f, const Words& mixed, const Frame& behind, Frame into) override {

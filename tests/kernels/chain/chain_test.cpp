@@ -31,8 +31,9 @@ class LateBackend : public reference::TwinBackend {
   Frame fill(const Frame& f, const Words& m, int n, Frame i) override {
     return wait("fill"), TwinBackend::fill(f, m, n, std::move(i));
   }
-  Planes feather(const Frame& b, const Words& m, const Words& s, Planes i) override {
-    return wait("feather"), TwinBackend::feather(b, m, s, std::move(i));
+  Planes feather(const Frame& b, const Quanta& q, const Words& m, const Words& s,
+                 Planes i) override {
+    return wait("feather"), TwinBackend::feather(b, q, m, s, std::move(i));
   }
   Frame split(const Frame& f, const Words& m, const Frame& b, Frame i) override {
     return wait("split"), TwinBackend::split(f, m, b, std::move(i));

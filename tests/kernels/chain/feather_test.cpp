@@ -1,5 +1,6 @@
 // Kernel feather: what it does to edges between made-up surfaces. That it equals its twin in frames
 // of all kinds: 'defray validate'.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,9 +18,13 @@ constexpr std::int32_t near_coc = 300, far_coc = near_coc + DEFRAY_JUMP_QUANTA +
 /// Two surfaces behind all of a frame: 0.25 left of an edge, 0.75 right of it.
 struct MadeUp {
   Canvas canvas{width, height};
+  std::vector<std::int32_t> seen;
   std::vector<std::uint32_t> marks, strips;
 
-  MadeUp() : marks(canvas.count()), strips(canvas.count()) {
+  MadeUp()
+      : seen(canvas.count(), near_coc - DEFRAY_JUMP_QUANTA - 1),  // another surface
+        marks(canvas.count()),
+        strips(canvas.count()) {
     canvas.each([&](int x, int y) {
       const bool is_near = x < edge_x;
       canvas.coc[canvas.at(x, y)] = is_near ? near_coc : far_coc;
@@ -27,7 +32,7 @@ struct MadeUp {
       canvas.paint(x, y, c, c, c);
     });
   }
-  Planes feathered() const { return device().feather(canvas.view(), marks, strips); }
+  Planes feathered() const { return device().feather(canvas.view(), seen, marks, strips); }
   float at(int x, int y) const { return feathered()[0][canvas.at(x, y)]; }
 };
 
@@ -104,6 +109,19 @@ TEST(Feather, SilhouettesAndStripsStayHard) {
   EXPECT_NE(f.at(edge_x, edge_y - 2), 0.75f);
 }
 
+TEST(Feather, WhereASurfaceIsSeenItHasItsOwnColour) {
+  MadeUp f;
+  for (int y = 0; y < height; ++y) {  // the near one is seen beyond the edge, but for one column
+    for (int x = edge_x + 1; x < width; ++x) f.seen[f.canvas.at(x, y)] = near_coc;
+  }
+  EXPECT_FLOAT_EQ(f.at(edge_x - 2, edge_y), 0.25f + 0.5f * 15 / 125);
+  EXPECT_FLOAT_EQ(f.at(edge_x - 1, edge_y), 0.25f + 0.5f * 30 / 125);
+  EXPECT_FLOAT_EQ(f.at(edge_x, edge_y), 0.75f - 0.5f * 45 / 125);  // not that one
+  // As far from it as one surface may be.
+  std::replace(f.seen.begin(), f.seen.end(), near_coc, near_coc - DEFRAY_JUMP_QUANTA);
+  EXPECT_FLOAT_EQ(f.at(edge_x - 1, edge_y), 0.25f + 0.5f * 30 / 125);
+}
+
 TEST(Feather, AnEdgeAcrossRowsIsOneToo) {
   MadeUp f;
   f.canvas.each([&](int x, int y) {
@@ -153,6 +171,12 @@ const FaultRows faults{
     {"feather",
      "last row of the square",
      {"j <= DEFRAY_FEATHER_PX; ++j", "j < DEFRAY_FEATHER_PX; ++j"}},
+    {"feather",
+     "what lies behind a surface that is seen colours it",
+     {"weighs & are_two(coc, seen)", "weighs"}},
+    {"feather",
+     "what is seen weighs nothing",
+     {"(float16)(weight), weighs)", "(float16)(weight), differs)"}},
     {"feather", "seen surfaces count", {"b->inverse, at) >= 0.0f)", "b->inverse, at) >= -2.0f)"}},
     {"feather",
      "left of the frame counts",
@@ -167,7 +191,7 @@ const FaultRows faults{
     {"feather", "any mark is a silhouette", {"(marks & (int16)(DEFRAY_SILHOUETTE))", "marks"}},
     {"feather", "strips are soft", {" | (strips != (int16)(0))", ""}},
     {"feather", "drawn on both", {"~(a->is_drawn | b->is_drawn)", "~(a->is_drawn & b->is_drawn)"}},
-    {"feather", "steps of a surface part it", {"(int16)(DEFRAY_JUMP_QUANTA));", "(int16)(96));"}},
+    {"feather", "steps of a surface part it", {"(int16)(DEFRAY_JUMP_QUANTA);", "(int16)(96);"}},
     {"feather", "no edges across rows", {"if (j > 0) is_edge", "if (j > 99) is_edge"}},
     {"feather", "no edges across columns", {"if (i > 0) is_edge", "if (i > 99) is_edge"}},
     {"feather", "pixels that were seen change", {"is_edge & there_of_run(b, start)", "is_edge"}},

@@ -42,7 +42,7 @@ TEST(Memory, BandsTakeWhatTheLaunchTableSays) {
       {"repair", 0, 1, [&] { device().repair(deep); }},
       {"mixed", 0, 1, [&] { device().mixed(frame); }},
       {"fill", 4, DEFRAY_FILL_TILE, [&] { device().fill(frame, mixed, DEFRAY_FILL_DIRECTIONS); }},
-      {"feather", 0, 1, [&] { device().feather(behind, mixed, mixed); }},
+      {"feather", 0, 1, [&] { device().feather(behind, behind.coc_quanta, mixed, mixed); }},
       {"split", 0, 1, [&] { device().split(frame, mixed, behind); }},
       {"highlights", 6, DEFRAY_HIGHLIGHT_TILE, [&] { device().highlights(frame, 3); }},
       {"soften", 0, 1, [&] { device().soften(frame, 100); }},
