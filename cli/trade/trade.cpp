@@ -44,7 +44,7 @@ struct TradeCommand : RenderCommand {
 
 struct Candidate {
   std::string name, options;
-  MethodSettings method;
+  MethodSettings method;  ///< Without stages: beside the others, where the truth tells of it.
   std::optional<double> target_db = {};
 };
 
@@ -248,6 +248,22 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
   return truth;
 }
 
+/// Throws what `measure` throws, but for a method beside the others that has a limit of its own: it
+/// is left out, with a note.
+template <typename Measure>
+void add_point(const TradeCommand& job, const Candidate& candidate, Trade& trade,
+               const Measure& measure) {
+  try {
+    trade.points.push_back(measure());
+  } catch (const Error& error) {
+    if (candidate.method.chain || error.kind() != ErrorKind::usage) throw;
+    if (!job.quiet) {
+      print_error(fmt::format("defray: note: {} is left out: {}", candidate.name,
+                              with_field_names(error.marked(), option_of_field)));
+    }
+  }
+}
+
 int run(const OptionTable& options, TradeCommand& job) {
   options.set();
   job.given = options.given();
@@ -262,8 +278,10 @@ int run(const OptionTable& options, TradeCommand& job) {
   Trade trade{job.paths.input, device.name(), !job.truth.empty(), {}, 0, ""};
   const TemporaryFolder made("defray-trade");  // a run that is interrupted changes nothing
   for (std::size_t i = 0; i < all.size(); ++i) {
-    trade.points.push_back(measured(job, all[i], settings, truth, made.path(), device,
-                                    [&](double share) { bar.update(i, share); }));
+    add_point(job, all[i], trade, [&] {
+      return measured(job, all[i], settings, truth, made.path(), device,
+                      [&](double share) { bar.update(i, share); });
+    });
   }
   bar.clear();
   recommend(trade, job.target_db);

@@ -60,7 +60,8 @@ std::vector<OptionGroup> tune_options(TuneCommand& job) {
       {"",
        {{"input", value(job.paths.input), "A picture with depth, instead of built-in ones"},
         {"-o,--output", value(job.folder), "Folder for a report: a heat map a kernel", tunes},
-        {"--budget", value(job.budget), "Time for all of it: 60s, 10m, 1h", tunes},
+        {"--budget", value(job.budget),
+         "Time for all of it: 60s, 10m, 1h; one try a kernel takes longer, if need be", tunes},
         {"--kernel", values(job.kernels),
          "These kernels; without it, those that take 2 % or more of a picture", tunes},
         {"--methods", values(job.methods), "rdb, gather, linear, splat (built-in pictures)", tunes},
@@ -149,10 +150,10 @@ void check_ran(const TuneCommand& job, const std::set<std::string>& tuned) {
 
 std::vector<tuning::Result> tune(const TuneCommand& job, Device& device, const std::string& path) {
   const double seconds = parse_seconds("--budget", job.budget);
+  const Stopwatch watch;  // pictures are made within it
   Tuner tuner(device, path, job.kernels);
   const std::vector<Workload> all = workloads(job, device);
   ProgressBar bar(static_cast<std::size_t>(std::ceil(seconds)), "s", !job.quiet && !job.json);
-  const Stopwatch watch;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double before = watch.seconds();
     const double own = std::max(seconds - before, 0.0) / static_cast<double>(all.size() - i);
@@ -183,6 +184,15 @@ void clear(const TuneCommand& job, const tuning::Key& key) {
   if (job.json) fmt::print("{}\n", nlohmann::ordered_json{{"removed", removed}}.dump());
 }
 
+/// Throws Error(input) where there is nothing: an older file is worth more.
+void export_results(const std::string& to, const TuneReport& report) {
+  if (report.results.empty()) {
+    fail(ErrorKind::input, "{}: nothing is tuned, {} is not written; run 'defray tune' first",
+         report.path, to);
+  }
+  write_text(to, to_text(report.key, report.results));
+}
+
 int run(const OptionTable& options, TuneCommand& job) {
   options.set();
   job.given = options.given();
@@ -201,8 +211,9 @@ int run(const OptionTable& options, TuneCommand& job) {
     fail(ErrorKind::output, "no folder to keep it in: set XDG_CACHE_HOME or HOME");
   }
   if (job.clears) return clear(job, report.key), 0;
-  const bool is_told = job.shows || !job.export_to.empty();
-  if (is_told) {
+  const bool exports = !job.export_to.empty();
+  if (exports) check_can_write(job.export_to);
+  if (job.shows || exports) {
     tuning::Tuning known =
         tuning::read(report.path, report.key, device.properties().max_work_group);
     if (!known.notice.empty()) fmt::print(stderr, "defray: note: {}\n", known.notice);
@@ -211,11 +222,11 @@ int run(const OptionTable& options, TuneCommand& job) {
     report.results = tune(job, device, report.path);
   }
   report.findings = tuning::findings(report.results, device.properties().is_gpu());
-  if (!job.export_to.empty()) write_text(job.export_to, to_text(report.key, report.results));
+  if (exports) export_results(job.export_to, report);
   if (!job.folder.empty()) write_report(job.folder, report);
   if (job.json) {
     print_json(report);
-  } else if (!job.export_to.empty() && !job.quiet) {
+  } else if (exports && !job.quiet) {
     fmt::print("{}\n", job.export_to);
   } else if (!job.quiet) {
     print_text(report);

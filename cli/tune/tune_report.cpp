@@ -87,8 +87,18 @@ std::string use_of(const Finding& f) {
 
 }  // namespace
 
+/// Those of a picture together.
+std::vector<Finding> by_picture(std::vector<Finding> all) {
+  for (auto at = all.begin(); at != all.end();) {
+    const std::string picture = at->place.picture;
+    at = std::stable_partition(at, all.end(),
+                               [&](const Finding& f) { return f.place.picture == picture; });
+  }
+  return all;
+}
+
 void print_text(const TuneReport& report) {
-  const std::vector<Finding>& all = report.findings;
+  const std::vector<Finding> all = by_picture(report.findings);
   fmt::print("{}, {}\n", report.key.device, report.key.driver);
   if (all.empty()) {
     fmt::print("  nothing is tuned; 'defray tune' does it\n");

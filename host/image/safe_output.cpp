@@ -158,6 +158,16 @@ std::string behind_links(const std::string& path) {
   return at.string();
 }
 
+/// Renaming puts a file in the place of anything: pipes and devices, too.
+void refuse_device(const std::string& path) {
+  std::error_code names_nothing;  // what is wrong with it then, opening tells
+  if (!fs::exists(path, names_nothing) || fs::is_directory(path, names_nothing) ||
+      fs::is_regular_file(path, names_nothing)) {
+    return;
+  }
+  fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", path);
+}
+
 /// Renaming needs no more than a folder that may be written in: the file itself is to be asked,
 /// too. Root may write any, but who took the right from all means it.
 void refuse_protected(const std::string& path) {
@@ -184,9 +194,7 @@ void check_can_write(const std::string& to, const std::string& hint) {
   if (fs::is_directory(to, names_nothing)) {
     fail(ErrorKind::output, "{}: is a folder, not a file name", to);
   }
-  if (fs::exists(to, names_nothing) && !fs::is_regular_file(to, names_nothing)) {
-    fail(ErrorKind::output, "{}: is a pipe or a device, and would be replaced; name a file", to);
-  }
+  refuse_device(to);
   refuse_protected(to);
   const std::string path = behind_links(to);
   remove_stale_files(folder_of(path));
@@ -213,6 +221,7 @@ void check_can_make(const std::string& path) {
 }
 
 void write_safely(const std::string& to, const std::function<void(const std::string&)>& write) {
+  refuse_device(to);
   refuse_protected(to);
   const std::string path = behind_links(to);
   const std::string name = temporary_name(path);

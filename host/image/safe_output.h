@@ -18,8 +18,8 @@ void check_can_write(const std::string& path, const std::string& hint = "");
 void check_can_make(const std::string& path);
 
 /// Calls `write` with a temporary name in the folder of `path`, syncs what it wrote and renames it
-/// to `path`, which it refuses to do with a write-protected file. When anything fails, the
-/// temporary file is removed and an old `path` stays.
+/// to `path`, which it refuses to do with a write-protected file, a pipe or a device. When anything
+/// fails, the temporary file is removed and an old `path` stays.
 void write_safely(const std::string& path, const std::function<void(const std::string&)>& write);
 
 /// write_safely for a text.

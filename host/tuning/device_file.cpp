@@ -93,7 +93,8 @@ std::string read_device_file(const std::string& path, const Key& key, const std:
     }
     take(json);
   } catch (const std::exception& e) {
-    const std::string what = e.what();
+    std::string what = e.what();
+    if (what.starts_with("[json")) what.erase(0, what.find("] ") + 2);  // the library's own name
     return fmt::format("{}: is damaged and not used ({}); {}", path, what, otherwise);
   }
   return "";

@@ -37,6 +37,18 @@ class TradeCommand : public testing::Test {
   }
 };
 
+TEST_F(TradeCommand, AMethodThatCannotIsLeftOut) {
+  const std::string close =
+      "trade pinhole.exr -o t --runs 1 --focus 0.02 --focal-length 10 --fstop 0.001 ";
+  const Result result = defray(folder, close + "--truth truth_bg.exr --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.err.find("defray: note: linear is left out: CoC radii"), std::string::npos)
+      << result.err;
+  const json trade = json::parse(result.out);
+  EXPECT_GT(named(trade, "gather")["true_db"], 0.0);
+  for (const json& point : trade["points"]) EXPECT_NE(point["picture"], "linear");
+}
+
 /// Terminated when there is a picture, it leaves what was there.
 TEST_F(TradeCommand, InterruptedItChangesNothing) {
   std::filesystem::create_directories(folder / "tmp");

@@ -33,8 +33,9 @@ class TuneCommand : public testing::Test {
     return folder / ("cache/defray/" + std::filesystem::path(path).filename().string());
   }
   /// As if a tuner had found it.
-  void keep(const std::string& frame_class, const std::string& kernel, std::size_t runs = 5) const {
-    const tuning::Place place{frame_class, "a picture", kernel};
+  void keep(const std::string& frame_class, const std::string& kernel, std::size_t runs = 5,
+            const std::string& picture = "a picture") const {
+    const tuning::Place place{frame_class, picture, kernel};
     const tuning::Validity correct = tuning::Validity::correct;
     tuning::add(file(), tuning::key_of(device_under_test()), device_under_test().max_work_group,
                 {{place, tuning::own_shape(kernel, device_under_test().is_gpu()), correct,
@@ -90,10 +91,30 @@ TEST_F(TuneCommand, FindsKeepsShowsExportsAndForgets) {
   EXPECT_EQ(cleared["removed"][0], file());
   EXPECT_FALSE(std::filesystem::exists(std::string(cleared["removed"][1])));
   EXPECT_TRUE(parsed("tune --show")["kernels"].empty());
+  expect_refused("tune --export t4.json", 3, {file(), "nothing is tuned, t4.json is not written"});
+  EXPECT_EQ(json::parse(std::ifstream(folder / "t4.json")), exported);
   EXPECT_NE(run("tune --show").out.find("nothing is tuned"), std::string::npos);
   EXPECT_NE(run("tune --clear").out.find("was not there"), std::string::npos);
   expect_ok(run("render in.exr -o out.exr --budget-ms 500" + lens));
   EXPECT_NE(run("tune --clear").out.find(": removed"), std::string::npos);
+}
+
+TEST_F(TuneCommand, ExportsToFilesOnly) {
+  keep("small narrow", "fill");
+  expect_ok(shell(folder, "mkfifo pipe"));
+  expect_refused("tune --export pipe", 4, {"pipe: is a pipe or a device", "name a file"});
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  expect_refused("tune --export no/t4.json", 4, {"no/t4.json", "No such file or directory"});
+}
+
+TEST_F(TuneCommand, ShowsAPicturesKernelsTogether) {
+  for (const char* kernel : {"fill", "split"}) {
+    for (const char* picture : {"one", "two"}) keep("small narrow", kernel, 5, picture);
+  }
+  const std::string said = run("tune --show").out;
+  EXPECT_LT(said.find("  one; for small"), said.find("  two; for small"));
+  EXPECT_EQ(said.find("  one; for small"), said.rfind("  one; for small")) << said;
+  EXPECT_EQ(said.find("  two; for small"), said.rfind("  two; for small")) << said;
 }
 
 TEST_F(TuneCommand, OfTheBuiltInPicturesTakesTheirNamesAndClasses) {
@@ -168,6 +189,7 @@ TEST_F(TuneCommand, ADamagedFileIsOneNote) {
     EXPECT_EQ(result.code, 0) << job << result.err;
     EXPECT_EQ(result.err.rfind(note, 0), 0u) << job << ": " << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.err.find("[json"), std::string::npos) << result.err;
   }
   EXPECT_EQ(run("render in.exr -o out.exr -q" + lens).err, "");
   EXPECT_EQ(run("render in.exr -o out.exr --no-tuning" + lens).err, "");

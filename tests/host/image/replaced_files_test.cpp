@@ -64,6 +64,8 @@ TEST(SafeOutput, KeepsPermissionsAndReplacesNoPipe) {
   ASSERT_EQ(mkfifo((folder / "pipe.exr").c_str(), 0600), 0);
   expect_error(ErrorKind::output, {"pipe.exr: is a pipe or a device", "name a file"},
                [&] { check_can_write(folder / "pipe.exr"); });
+  expect_error(ErrorKind::output, {"pipe.exr: is a pipe or a device", "name a file"},
+               [&] { write_text(folder / "pipe.exr", "after"); });
   EXPECT_TRUE(fs::is_fifo(folder / "pipe.exr"));
 }
 
