@@ -36,14 +36,14 @@ void print_part(const PartInfo& part, std::size_t index) {
   }
 }
 
-void print_depth(const DepthCandidate& d) {
+void print_depth(const DepthCandidate& d, const std::vector<PartInfo>& parts) {
+  const std::string name = unique_name(d.channel, parts);
   if (!d.place) {
-    fmt::print("  depth {}: nothing but background, {} px\n", d.channel.full, d.background);
+    fmt::print("  depth {}: nothing but background, {} px\n", name, d.background);
     return;
   }
-  fmt::print("  depth {}: {:.6g} to {:.6g}, background {} px{}{}\n", d.channel.full, d.smallest,
-             d.largest, d.background,
-             d.negative > 0 ? fmt::format(", negative {} px", d.negative) : "",
+  fmt::print("  depth {}: {:.6g} to {:.6g}, background {} px{}{}\n", name, d.smallest, d.largest,
+             d.background, d.negative > 0 ? fmt::format(", negative {} px", d.negative) : "",
              d.is_mist ? ", a mist pass: no depth" : "");
 }
 
@@ -65,11 +65,11 @@ void print_text(const FileInfo& info) {
   }
   if (info.unnamed_depth) {
     fmt::print("  no depth by its name: is it {0}? --depth-channel {0}, or --depth FILE\n",
-               info.unnamed_depth->channel.full);
+               unique_name(info.unnamed_depth->channel, info.parts));
   } else if (info.depth.empty()) {
     fmt::print("  no depth: give it with --depth FILE\n");
   }
-  for (const DepthCandidate& d : info.depth) print_depth(d);
+  for (const DepthCandidate& d : info.depth) print_depth(d, info.parts);
   for (const FoundAttribute& found : info.camera) {
     fmt::print("  {} {} ({}, {}){}\n", found.attribute.field, value_of(found), found.name,
                found.attribute.written,

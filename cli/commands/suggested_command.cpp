@@ -32,7 +32,8 @@ std::string depth_options(const FileInfo& info) {
   std::string options;
   const bool is_first = !info.depth.empty() && found == &info.depth.front();
   const bool is_clear = is_first && (info.depth.size() == 1 || info.depth[1].is_mist);
-  if (!is_clear) options += " --depth-channel " + shell_quoted(depth.channel.full);
+  if (!is_clear)
+    options += " --depth-channel " + shell_quoted(unique_name(depth.channel, info.parts));
   if (2 * depth.negative > depth.pixels - depth.background) options += " --depth-kind negative-z";
   return options;
 }

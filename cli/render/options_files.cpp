@@ -148,7 +148,7 @@ OptionGroup channel_options(RenderCommand& job) {
        {"--view", value(s.request.view), "Stereo view, 'left'"},
        {"--depth-channel",
         value(s.request.depth_channel),
-        "Depth channel by its full name, 'depth.Z'",
+        "Depth channel by its full name, 'depth.Z', or with its part's before it, 'depth_left.Z'",
         {.scope = of_depth}},
        {"--channels",
         parsed<std::string>([&s](const auto& list) { s.channels = parse_channel_list(list); }),

@@ -26,6 +26,24 @@ std::string without_view(const std::string& name, const std::string& view) {
   return name[cut] == '_' || name[cut] == '.' ? name.substr(0, cut) : name;
 }
 
+/// The view that a name ends in, "left" of "rgba.left"; empty: none.
+std::string view_at_end(const std::string& name, const std::set<std::string>& views) {
+  const std::size_t cut = name.find_last_of("._");
+  const std::string last = cut == std::string::npos ? "" : name.substr(cut + 1);
+  return views.count(lower_case(last)) > 0 ? last : "";
+}
+
+/// With the views of a stereo file that names them in its parts' names alone: in each.
+std::vector<PartInfo> with_views(std::vector<PartInfo> parts, const std::set<std::string>& views) {
+  const bool are_all_of_views =
+      parts.size() > 1 && std::all_of(parts.begin(), parts.end(), [&](const PartInfo& part) {
+        return part.view.empty() && !view_at_end(part.name, views).empty();
+      });
+  if (!are_all_of_views) return parts;
+  for (PartInfo& part : parts) part.view = view_at_end(part.name, views);
+  return parts;
+}
+
 ChannelName take_apart(const std::vector<PartInfo>& parts, std::size_t part, std::size_t channel,
                        const std::set<std::string>& views) {
   const PartInfo& info = parts[part];
@@ -130,8 +148,9 @@ bool matches_glob(const std::string& name, const std::string& pattern) {
   return pattern.find_first_not_of('*', p) == std::string::npos;
 }
 
-std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts) {
-  const std::set<std::string> views = view_names(parts);
+std::vector<ChannelName> channel_names(const std::vector<PartInfo>& all) {
+  const std::set<std::string> views = view_names(all);
+  const std::vector<PartInfo> parts = with_views(all, views);
   std::vector<ChannelName> names;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (std::size_t c = 0; c < parts[p].channels.size(); ++c) {
@@ -139,6 +158,18 @@ std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts) {
     }
   }
   return names;
+}
+
+std::string name_in_part(const ChannelName& name, const std::vector<PartInfo>& parts) {
+  return parts[static_cast<std::size_t>(name.part)].name + "." + name.full;
+}
+
+std::string unique_name(const ChannelName& name, const std::vector<PartInfo>& parts) {
+  const auto has_it = [&](const PartInfo& part) {
+    return std::find(part.channels.begin(), part.channels.end(), name.full) != part.channels.end();
+  };
+  const bool is_unique = std::count_if(parts.begin(), parts.end(), has_it) == 1;
+  return is_unique ? name.full : name_in_part(name, parts);
 }
 
 std::string describe(const ChannelName& name, const std::vector<PartInfo>& parts) {

@@ -31,6 +31,12 @@ bool matches_glob(const std::string& name, const std::string& pattern);
 /// Every channel of these parts.
 std::vector<ChannelName> channel_names(const std::vector<PartInfo>& parts);
 
+/// "depth_left.Z", whatever other parts have.
+std::string name_in_part(const ChannelName& name, const std::vector<PartInfo>& parts);
+
+/// "Z", or "depth_left.Z" where other parts have a Z as well.
+std::string unique_name(const ChannelName& name, const std::vector<PartInfo>& parts);
+
 /// "Z", or "Z (part depth_left)" where the file has several parts.
 std::string describe(const ChannelName& name, const std::vector<PartInfo>& parts);
 

@@ -62,7 +62,7 @@ int depth_rank(const std::vector<ChannelName>& names, const ChannelName& name,
 std::string depth_listing(const std::vector<ChannelName>& names,
                           const std::vector<PartInfo>& parts) {
   std::vector<std::string> lines;
-  for (const ChannelName& name : names) lines.push_back(describe(name, parts));
+  for (const ChannelName& name : names) lines.push_back(unique_name(name, parts));
   return join(lines, ", ");
 }
 
@@ -84,7 +84,10 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
   std::vector<std::string> all;
   for (const ChannelName& name : names) {
     if (name.full == request.depth_channel) found.push_back(name);
-    all.push_back(name.full);
+    all.push_back(unique_name(name, parts));
+  }
+  for (const ChannelName& name : names) {
+    if (name_in_part(name, parts) == request.depth_channel) return name;
   }
   if (found.empty()) {
     fail(ErrorKind::input, "{}: has no channel '{}'.{} It has: {}", path, request.depth_channel,
@@ -93,8 +96,8 @@ ChannelName asked_depth(const std::string& path, const std::vector<PartInfo>& pa
   prefer(found, [&](const ChannelName& n) { return n.view == colour.view; });
   prefer(found, [&](const ChannelName& n) { return n.part == colour.part; });
   if (found.size() > 1) {
-    fail(ErrorKind::input, "{}: several channels are called '{}': {}; choose with {}", path,
-         request.depth_channel, depth_listing(found, parts), field("view"));
+    fail(ErrorKind::input, "{}: several channels are called '{}'; choose with {}, or one of {}",
+         path, request.depth_channel, field("view"), depth_listing(found, parts));
   }
   return found.front();
 }

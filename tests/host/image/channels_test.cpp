@@ -146,9 +146,33 @@ TEST(Channels, ANameThatSeveralPartsHaveIsAmbiguous) {
   const std::vector<PartInfo> parts{part({"R", "G", "B"}, "rgba"), part({"Z"}, "left"),
                                     part({"Z"}, "right")};
   expect_error(ErrorKind::input,
-               {"f.exr: several channels are called 'Z': ", "left", "right", "choose with"}, [&] {
+               {"f.exr: several channels are called 'Z'; choose with", "one of left.Z, right.Z"},
+               [&] {
                  depth(parts, {"", "", "Z"});
                });
+  for (const int wanted : {1, 2}) {
+    const ChannelRequest request{"", "", wanted == 1 ? "left.Z" : "right.Z"};
+    EXPECT_EQ(choose_depth("f.exr", parts, request, colour(parts)).part, wanted);
+  }
+  expect_error(ErrorKind::input, {"depth could be left.Z, right.Z; choose with"},
+               [&] { depth(parts); });
+  expect_error(ErrorKind::input, {"has no channel 'righ.Z'", "right.Z"}, [&] {
+    depth(parts, {"", "", "righ.Z"});
+  });
+}
+
+TEST(Channels, NamesOfPartsTellTheViewsWhereAllEndInOne) {
+  std::vector<PartInfo> parts{part({"R", "G", "B"}, "rgba.left"), part({"Z"}, "depth.left"),
+                              part({"R", "G", "B"}, "rgba.right"), part({"Z"}, "depth.right")};
+  expect_error(ErrorKind::input, {"view 'left'", "view 'right'"}, [&] { colour(parts); });
+  const ChannelRequest right{"", "right", ""};
+  EXPECT_EQ(colour(parts, right).part, 2);
+  EXPECT_EQ(colour(parts, right).layer, "rgba");
+  EXPECT_EQ(choose_depth("f.exr", parts, right, colour(parts, right)).part, 3);
+  // Two lights, not two views.
+  parts.push_back(part({"R", "G", "B"}, "beauty"));
+  EXPECT_EQ(colour(parts, {"rgba.right", "", ""}).part, 2);
+  expect_error(ErrorKind::input, {"no colour in view 'right'"}, [&] { colour(parts, right); });
 }
 
 TEST(Channels, OfManyThatAreNoColourTwoDozenAreNamed) {
