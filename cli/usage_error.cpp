@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <vector>
 
 #include "base/error.h"
@@ -42,9 +43,23 @@ bool is_picture(const std::string& word) {
   return false;
 }
 
+/// What other programs, and our own JSON, call an option of ours; empty: nothing.
+std::string by_another_name(const std::string& word, const std::vector<std::string>& known) {
+  static const std::map<std::string, std::string> names{
+      {"--anamorphic", "--squeeze"},   {"--bit-depth", "--bits"},
+      {"--bokeh", "--aperture-image"}, {"--f-number", "--fstop"},
+      {"--focal-distance", "--focus"}, {"--focus-distance", "--focus"},
+      {"--iris-blades", "--blades"},   {"--z-channel", "--depth-channel"}};
+  const auto found = names.find(word);
+  const bool is_here =
+      found != names.end() && std::find(known.begin(), known.end(), found->second) != known.end();
+  return is_here ? " Did you mean '" + found->second + "'?" : "";
+}
+
 std::string about_option(const std::string& word, const CLI::App& scope) {
   if (!word.starts_with("--") && is_picture(word)) return " A file of that name is ./" + word + ".";
   const std::vector<std::string> known = known_words(scope);
+  if (std::string other = by_another_name(word, known); !other.empty()) return other;
   const std::string hint = continued(word, known);
   const bool is_letter = word.size() < 3;  // any other is as near
   return hint.empty() && !is_letter ? did_you_mean(word, known) : hint;

@@ -117,7 +117,8 @@ void check_bits(const std::string& path, Bits bits) {
                           : is_ldr_path(path) ? !is_float
                                               : false;
   if (is_allowed) return;
-  fail(ErrorKind::usage, "{}: {} has no such format; allowed are {}", path, field("bits"), allowed);
+  fail(ErrorKind::usage, "{}: its format has no such {}; allowed are {}", path, field("bits"),
+       allowed);
 }
 
 void check_compression(const std::vector<std::string>& paths, const std::string& compression) {

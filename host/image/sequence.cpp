@@ -220,7 +220,7 @@ std::string gaps_between(const std::vector<int>& frames) {
                    : first == last     ? fmt::format("{}", first)
                                        : fmt::format("{}-{}", first, last));
   }
-  return is_even ? "" : join(gaps, " ");
+  return is_even ? "" : join(gaps, ", ");
 }
 
 std::string frame_path(const std::string& pattern, int frame) {

@@ -29,6 +29,13 @@ TEST_F(UsageErrors, AnUnknownOptionIsNamedBeforeWhatIsMissing) {
   expect_refused("render -v", {"unknown option '-v'. See 'defray render --help'"});
   expect_refused("render in.exr --outptu o.exr", {"'--outptu'. Did you mean '--output'?"});
   expect_refused("render more.exr", {"--output is missing: "});
+  // As other programs call it, where there is such an option.
+  expect_refused("render in.exr --focus-distance 3",
+                 {"'--focus-distance'. Did you mean '--focus'?"});
+  expect_refused("splat --iris-blades 5", {"unknown option '--iris-blades'. See"});
+  for (const std::string name : {"anamorphic", "bit-depth", "bokeh", "f-number", "iris-blades"}) {
+    expect_refused("render in.exr --" + name + " 3", {"'--" + name + "'. Did you mean '--"});
+  }
 }
 
 TEST_F(UsageErrors, WhatIsMissingOrEmpty) {

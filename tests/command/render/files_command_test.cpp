@@ -61,7 +61,7 @@ TEST_F(Files, BitsAreThoseAskedFor) {
   expect_ok(render("a.png --depth in.exr -o p.tif"));
   EXPECT_EQ(type("p.tif"), "float") << "eight linear bits would show steps";
   expect_refused("in.exr -o o.exr --bits 16", 2,
-                 {"o.exr: --bits has no such format; allowed are half float"});
+                 {"o.exr: its format has no such --bits; allowed are half float"});
   expect_refused("in.exr -o o.jpg --bits 16", 2, {"allowed are 8"});
   expect_refused("in.exr -o o.png --bits half", 2, {"allowed are 8 16"});
   expect_refused("in.exr -o o.tif --bits half", 2, {"allowed are 8 16 float"});

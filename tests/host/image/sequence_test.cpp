@@ -94,9 +94,9 @@ TEST(Sequence, GapsAreWhatIsMissingBetweenFrames) {
   EXPECT_EQ(gaps_between({7}), "");
   EXPECT_EQ(gaps_between({-1, 0, 1, 2}), "");
   EXPECT_EQ(gaps_between({1, 3, 5}), "");  // on twos
-  EXPECT_EQ(gaps_between({1, 2, 4, 10}), "3 5-9");
-  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11}), "2 4 6 8 10");
-  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11, 13, 15}), "2 4 6 8 10 ...");
+  EXPECT_EQ(gaps_between({1, 2, 4, 10}), "3, 5-9");
+  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11}), "2, 4, 6, 8, 10");
+  EXPECT_EQ(gaps_between({0, 1, 3, 5, 7, 9, 11, 13, 15}), "2, 4, 6, 8, 10, ...");
   EXPECT_EQ(gaps_between({-2147483647, 0, 2147483647}), "");
 }
 
