@@ -12,24 +12,29 @@
 namespace defray::reference {
 namespace {
 
-/// What shows through where no ray arrives: the farthest fragment behind a pixel and those around
-/// it, two columns and one row to each side, by the least of its span. -1: none.
+/// What shows through where no ray arrives: the farthest fragment of a pixel and those around it,
+/// two columns and one row to each side, by the least of its span, where anything lies behind any
+/// of them. -1: nothing does.
 std::int64_t farthest_behind(const Frame& f, const RayPlan& plan, std::size_t pixel) {
   if (f.layers < 2 || f.coverage.empty()) return -1;
   const int x0 = static_cast<int>(pixel % static_cast<std::size_t>(f.width));
   const int y0 = static_cast<int>(pixel / static_cast<std::size_t>(f.width));
   std::int64_t found = -1;
   std::int32_t farthest = 0;
-  for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
-    for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
-      const std::size_t i = f.index(x, y, 1);
-      if (!is_fragment(f.depth[i]) || (f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0) continue;
-      const std::int32_t radius = span_of(f, plan, i).least;
-      if (found >= 0 && radius <= farthest) continue;
-      found = static_cast<std::int64_t>(i);
-      farthest = radius;
+  const auto look_at = [&](int layer) {
+    for (int y = std::max(y0 - 1, 0); y <= std::min(y0 + 1, f.height - 1); ++y) {
+      for (int x = std::max(x0 - 2, 0); x <= std::min(x0 + 2, f.width - 1); ++x) {
+        const std::size_t i = f.index(x, y, layer);
+        if (!is_fragment(f.depth[i]) || (f.coverage[i] & ~DEFRAY_SYNTHESISED) == 0) continue;
+        const std::int32_t radius = span_of(f, plan, i).least;
+        if (found >= 0 && radius <= farthest) continue;
+        found = static_cast<std::int64_t>(i);
+        farthest = radius;
+      }
     }
-  }
+  };
+  look_at(1);
+  if (found >= 0) look_at(0);
   return found;
 }
 

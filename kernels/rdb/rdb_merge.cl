@@ -1,12 +1,12 @@
 // rdb_merge: the mean over the cells of each pixel's ray distribution buffer (Shinya 1994,
 // section 4, step 5).
 //
-// Cells that no ray reached take what lies behind the pixel or beside it, if anything, or else do
-// not count. Where all cells have the pixel's own colour, as in focus, or there are none, that
-// comes out bit for bit, not as a rounded mean; elsewhere colours are simply added: sums of
-// differences to one of them would lose dark cells beside a bright one. The cells come in passes,
-// and sums run over them in lens order whatever the passes: one result, bit for bit, for every band
-// height and memory budget.
+// Cells that no ray reached take the farthest of what is at the pixel and beside it, where anything
+// lies behind, or else do not count. Where all cells have the pixel's own colour, as in focus, or
+// there are none, that comes out bit for bit, not as a rounded mean; elsewhere colours are simply
+// added: sums of differences to one of them would lose dark cells beside a bright one. The cells
+// come in passes, and sums run over them in lens order whatever the passes: one result, bit for
+// bit, for every band height and memory budget.
 //
 // winner          [cell_count][band_rows][width]   from rdb_scatter
 // coc_quanta, depth_bits, coverage  [window_rows][layers][width]  as in rdb_scatter
@@ -23,9 +23,9 @@
 #include "rdb/rim.clh"
 #include "rdb/span.clh"
 
-// What shows through where no ray arrives: the farthest fragment behind the pixel and those around
-// it, by the least of the radii that it spans. Windows reach one row beyond their band, and two
-// more where there are spans: no band changes the answer.
+// What shows through where no ray arrives: the farthest fragment of the pixel and those around it,
+// by the least of the radii that it spans, where anything lies behind any of them. Windows reach
+// one row beyond their band, and two more where there are spans: no band changes the answer.
 uint farthest_behind(const DefrayRdbParams p, __global const int* restrict coc_quanta,
                      __global const uint* restrict depth_bits,
                      __global const uint* restrict coverage, const int2 target) {
@@ -33,18 +33,22 @@ uint farthest_behind(const DefrayRdbParams p, __global const int* restrict coc_q
   int farthest = 0;
   if (p.layers < 2u || !p.has_coverage) return found;
   const int row = (int)(p.band_y - p.window_y) + target.y;
-  for (int y = max(row - 1, 0); y <= min(row + 1, (int)p.window_rows - 1); ++y) {
-    for (int x = max(target.x - 2, 0); x <= min(target.x + 2, (int)p.width - 1); ++x) {
-      const uint i = ((uint)y * p.layers + 1u) * p.width + (uint)x;
-      if (depth_bits[i] == DEFRAY_EMPTY || (coverage[i] & ~DEFRAY_SYNTHESISED) == 0u) continue;
-      int radius = coc_quanta[i];
-      if (p.has_spans) {
-        const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
-        radius = span_of(all, (int3)(x, y, 1)).x;
+  const int end_y = min(row + 2, (int)p.window_rows), end_x = min(target.x + 3, (int)p.width);
+  for (int layer = 1; layer >= 0; --layer) {
+    if (layer == 0 && found == DEFRAY_EMPTY) break;
+    for (int y = max(row - 1, 0); y < end_y; ++y) {
+      for (int x = max(target.x - 2, 0); x < end_x; ++x) {
+        const uint i = ((uint)y * p.layers + (uint)layer) * p.width + (uint)x;
+        if (depth_bits[i] == DEFRAY_EMPTY || (coverage[i] & ~DEFRAY_SYNTHESISED) == 0u) continue;
+        int radius = coc_quanta[i];
+        if (p.has_spans) {
+          const Fragments all = {coc_quanta, depth_bits, p.width, p.layers, p.window_rows};
+          radius = span_of(all, (int3)(x, y, layer)).x;
+        }
+        if (found != DEFRAY_EMPTY && radius <= farthest) continue;
+        found = i;
+        farthest = radius;
       }
-      if (found != DEFRAY_EMPTY && radius <= farthest) continue;
-      found = i;
-      farthest = radius;
     }
   }
   return found;

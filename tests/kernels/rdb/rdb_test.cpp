@@ -216,6 +216,12 @@ const FaultRows faults{
     {"rdb_merge",
      "what has no share shows through",
      {"(coverage[i] & ~DEFRAY_SYNTHESISED) == 0u", "false"}},
+    {"rdb_merge",
+     "what is in front does not show through",
+     {"layer == 0 && found == DEFRAY_EMPTY", "layer == 0"}},
+    {"rdb_merge",
+     "something shows through where nothing is behind",
+     {"layer == 0 && found == DEFRAY_EMPTY", "false"}},
     {"rdb_merge", "the nearest behind", {"radius <= farthest", "radius >= farthest"}},
 };
 
