@@ -153,6 +153,7 @@ SignValues signs_of(const PixelBlock& b, const Variances& v, float reach) {
           b.unseen * v.result,
           b.rim,
           b.bright_rim,
+          b.rim,
           b.unseen_rim,
           b.edge * b.edge * b.edge * v.back,
           b.edge_gradient,

@@ -8,7 +8,7 @@
 namespace defray {
 
 /// In the order of the model's weights (error_model.cpp).
-inline constexpr std::size_t sign_count = 15;
+inline constexpr std::size_t sign_count = 16;
 using SignValues = std::array<float, sign_count>;
 
 /// Rows of blocks beyond which nothing is looked at, in either direction; whole windows begin here.

@@ -162,7 +162,10 @@ Frame TwinBackend::split(const Frame& f, const Words& mixed_pixels, const Frame&
     bool saw_front = frame.coc(at) < middle;
     std::size_t saw = pixel;  // whose surface
     std::optional<std::size_t> lamp;
-    if (is_thin && saw_front) lamp = splitter.lamp_of(at, middle);
+    if (saw_front) {
+      lamp =
+          is_thin ? splitter.lamp_of(at, middle) : splitter.lamp_of(at, middle, found->colour, b);
+    }
     const int own = frame.coc(at);
     auto seen = splitter.pure(at, own - DEFRAY_JUMP_QUANTA, own + DEFRAY_JUMP_QUANTA);
     const bool is_third = std::abs(tame(behind.coc_quanta[pixel]) - own) > DEFRAY_JUMP_QUANTA;

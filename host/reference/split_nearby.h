@@ -137,11 +137,17 @@ class Splitter {
     return lamp_of(at, middle, brightest_front(at, middle));
   }
 
+  /// The same before a surface whose colours are known, where it is far brighter than both.
+  std::optional<std::size_t> lamp_of(Place at, int middle, const Colour& front,
+                                     const Colour& behind) const {
+    return lamp_of(at, middle, 7 * std::fmax(brightness(front), brightness(behind)));
+  }
+
  private:
-  float bright(std::size_t q) const {
-    const Colour c = colour_at(channels_, q);
+  static float brightness(const Colour& c) {
     return std::fabs(c[0]) + std::fabs(c[1]) + std::fabs(c[2]);
   }
+  float bright(std::size_t q) const { return brightness(colour_at(channels_, q)); }
 
   /// What is in front is at most so much brighter than the darkest behind it if something farther
   /// is brighter still: a lamp.

@@ -6,9 +6,9 @@
 // the pixel's colour C = a F + (1 - a) B has the coverage a nearest to it (least squares; alpha
 // counts like a colour). What the two colours do not explain goes to the surface that the depth
 // sample saw, so that both together still give C; but what lies behind gets no colour beyond C, B
-// and those of its pure pixels nearby. Where something thin crosses a lamp its
-// own colours are those that the lamp does not light, and a pixel whose depth is its has the lamp
-// behind it.
+// and those of its pure pixels nearby. Where something before a lamp has its light in part, which
+// tells by a colour far brighter than F and B, the lamp is behind it; of something thin, its own
+// colours are those that the lamp does not light.
 //
 // coc_quanta, inverse, mixed, channel0..3  [height][width]  as in fill
 // behind_coc      [height][width]     from fill: what lies behind
@@ -173,7 +173,7 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
   const Front best = best_front(p, coc_quanta, mixed, CHANNELS(channel), at, c, b);
   Nearby f = best.surface;
   bool saw_front = own < best.middle, is_lit = false;
-  if (best.is_thin && saw_front && brightness_of(c) > best.brightest) {
+  if (saw_front && brightness_of(c) > best.brightest) {
     const uint lamp = lamp_beside(p, coc_quanta, CHANNELS(channel), at, best.middle);
     is_lit = lamp != pixel;
     if (is_lit) {  // as if the depth sample had seen the lamp
@@ -185,6 +185,11 @@ void part(const DefraySplitParams p, __global const int* restrict coc_quanta,
     }
   }
   Nearby seen = f;
+  if (is_lit) {  // of the lamp no more is known
+    seen.low = INFINITY;
+    seen.high = -INFINITY;
+    seen.variance = 0.0f;
+  }
   if (!saw_front && !is_lit) {
     seen = pure_nearby(p, coc_quanta, mixed, CHANNELS(channel), at, own - DEFRAY_JUMP_QUANTA,
                        own + DEFRAY_JUMP_QUANTA);
