@@ -180,19 +180,19 @@ TEST(Split, ABladeBeforeALampHasNoneOfItsLight) {
   EXPECT_GT(bright.parted().front.channels[0][bright.at(20, 9)], 50);
 }
 
-/// A lamp of 5 x 5 px, the last column of which a dark bar covers by half.
+/// A lamp of 4 x 2 px, the last column of which a dark bar covers by half.
 TEST(Split, ABarBeforeALampHasNoneOfItsLight) {
   Canvas f(40, 20);
   f.add_bar(22, 40, bar_coc);
   f.each([&](int x, int y) {
-    const bool is_lamp = x >= 18 && x < 23 && y >= 6 && y < 11;
+    const bool is_lamp = x >= 19 && x < 23 && y >= 8 && y < 10;
     const float there = is_lamp ? 60.0f : 0.1f;
     const float c = x > 22 ? 0.3f : x == 22 ? (there + 0.3f) / 2 : there;
     f.paint(x, y, c, c, c);
     if (is_lamp && x < 22) f.coc[f.at(x, y)] = 1400, f.inverse[f.at(x, y)] = 0.21f;
   });
   const auto [front, behind] = f.parted();
-  for (int y = 6; y < 11; ++y) {
+  for (int y = 8; y < 10; ++y) {
     const std::size_t i = f.at(22, y);
     EXPECT_LT(front.channels[0][i], 1) << y;
     EXPECT_EQ(front.coc_quanta[i], bar_coc) << y;
