@@ -43,19 +43,35 @@ double seconds_of(const std::function<void()>& run) {
   return watch.seconds();
 }
 
+namespace {
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+}  // namespace
+
 Timing time_of(int repetitions, const std::function<void()>& run,
                const std::function<void()>& after) {
-  std::vector<double> seconds;
-  for (int i = 0; i <= repetitions; ++i) {
-    seconds.push_back(seconds_of(run));
+  const auto timed = [&] {
+    const double seconds = seconds_of(run);
     if (after) after();
+    return seconds;
+  };
+  timed();
+  constexpr double whole_s = 0.1, most_runs = 25;
+  const double runs = repetitions > 3 ? std::clamp(whole_s / timed(), 1.0, most_runs) : 1;
+  std::vector<double> medians;
+  for (int i = 0; i < repetitions; ++i) {
+    std::vector<double> seconds;
+    for (int k = 0; k < static_cast<int>(runs); ++k) seconds.push_back(timed());
+    medians.push_back(median_of(seconds));
   }
-  seconds.erase(seconds.begin());
-  std::sort(seconds.begin(), seconds.end());
-  const std::size_t middle = seconds.size() / 2;
-  const double median =
-      seconds.size() % 2 == 1 ? seconds[middle] : (seconds[middle - 1] + seconds[middle]) / 2;
-  return {median, (seconds.back() - seconds.front()) / median};
+  const auto [least, largest] = std::minmax_element(medians.begin(), medians.end());
+  const double median = median_of(medians);
+  return {median, (*largest - *least) / median};
 }
 
 std::string to_text(const Timing& t) {

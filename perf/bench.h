@@ -34,7 +34,8 @@ struct Timing {
 
 double seconds_of(const std::function<void()>& run);
 
-/// Runs once to warm up, then `repetitions` times; `after` each, not timed.
+/// Runs once to warm up, then `repetitions` times; `after` each, not timed. More than three
+/// repetitions are medians of as many runs as take a tenth of a second: few short ones are chance.
 Timing time_of(int repetitions, const std::function<void()>& run,
                const std::function<void()>& after = {});
 
