@@ -1,18 +1,15 @@
 // defray trade: what speed costs in accuracy, on the user's own picture.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <set>
 
 #include "base/temporary_folder.h"
 #include "chain/quality.h"
 #include "commands.h"
-#include "commands/colour_file.h"
 #include "defray/defray.h"
 #include "image/safe_output.h"
 #include "image/sequence.h"
-#include "measure/metrics.h"
 #include "open_device.h"
 #include "options/shell_quoted.h"
 #include "prediction/with_error.h"
@@ -20,6 +17,7 @@
 #include "render/render_command.h"
 #include "standard_streams.h"
 #include "trade/trade_report.h"
+#include "trade/trade_truth.h"
 
 namespace defray::cli {
 namespace {
@@ -130,27 +128,6 @@ std::string command_of(const TradeCommand& job, const Candidate& candidate) {
          candidate.options;
 }
 
-/// The truth's R G B: its only colour, or the input's layer and view of it.
-ColourFile read_truth(const TradeCommand& job) {
-  const ChannelRequest& request = job.settings.request;
-  try {
-    return read_colour_file(job.truth);
-  } catch (const Error&) {
-    if (request.layer.empty() && request.view.empty()) throw;
-  }
-  return read_colour_file(job.truth, {request.layer, request.view, {}});
-}
-
-/// Where both have pixels.
-double true_db_of(ColourFile truth, const FrameResult& result) {
-  ColourFile own{result.report.paths.output, result.colour, result.report.data,
-                 result.report.display};
-  own.planes.resize(3);
-  truth.planes.resize(3);
-  bring_together({&own, &truth}, {true, {}});
-  return compare(own.planes, truth.planes, own.data.width).psnr_srgb_db;
-}
-
 /// Renders it so many times, into this folder.
 TradePoint measured(const TradeCommand& job, const Candidate& candidate,
                     const RenderSettings& common, const std::optional<ColourFile>& truth,
@@ -200,26 +177,6 @@ void check_files(const TradeCommand& job, const std::vector<Candidate>& all) {
   }
 }
 
-/// Throws Error(input) where the truth cannot be compared.
-void check_truth(const TradeCommand& job, const FrameReport& input, const ColourFile& truth) {
-  if (truth.display != input.display) {
-    fail(ErrorKind::input, "{} has display window {}, {} has {}: both must be the same", job.truth,
-         to_string(truth.display), job.paths.input, to_string(input.display));
-  }
-  if (truth.is_grey && input.colour_channels.size() > 2) {
-    fail(ErrorKind::input, "{}: is grey, {} has {}: no truth of it", job.truth, job.paths.input,
-         join(input.colour_channels, " "));
-  }
-  for (const Plane& plane : truth.planes) {
-    for (std::size_t i = 0; i < plane.size(); ++i) {
-      if (std::isfinite(plane[i])) continue;
-      const std::size_t width = static_cast<std::size_t>(truth.data.width);
-      fail(ErrorKind::input, "{}: has {} at pixel ({}, {}): a truth has none of it", job.truth,
-           plane[i], i % width, i / width);
-    }
-  }
-}
-
 /// Before anything is rendered. The truth, where there is one.
 std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candidate>& all) {
   if (has_frame_pattern(job.paths.input) &&
@@ -242,7 +199,10 @@ std::optional<ColourFile> check(const TradeCommand& job, const std::vector<Candi
     if (!job.quiet) print_error("defray: note: " + with_field_names(note, option_of_field));
   }
   std::optional<ColourFile> truth;
-  if (!job.truth.empty()) check_truth(job, input, truth.emplace(read_truth(job)));
+  if (!job.truth.empty()) {
+    truth.emplace(read_truth(job.truth, job.settings.request));
+    check_truth(job.truth, *truth, job.paths.input, input);
+  }
   create_folder(job.folder);
   check_can_write(job.folder + "/index.html");
   return truth;
