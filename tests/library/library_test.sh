@@ -32,6 +32,7 @@ export PATH=$prefix/bin:$PATH PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig
 soname=$(readelf -d "$library" | sed -n 's/.*SONAME.*\[\(.*\)\]/\1/p')
 [ "$soname" = "libdefray.so.$abi" ] || complain "its name is '$soname'"
 [ -e "$(dirname "$library")/$soname" ] || complain "$soname is missing"
+readelf -d "$library" | grep -q NODELETE || complain "it can be unloaded under its own threads"
 
 # Only the API shows.
 nm -DC --defined-only "$library" | cut -d' ' -f2- >symbols
