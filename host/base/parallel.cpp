@@ -32,9 +32,9 @@ class Helpers {
     const auto job = [&] {
       const std::lock_guard lock(mutex_);
       start(most);
+      most < started_ ? wake(most) : wanted_.notify_all();
       return jobs_.insert(jobs_.end(), Job{&help, most});
     }();
-    most < started_ ? wake(most) : wanted_.notify_all();
     own();
     std::unique_lock lock(mutex_);
     job->places = 0;  // none that has not begun by now
