@@ -1,8 +1,8 @@
 #include "validation/case_queue.h"
 
-#include <thread>
 #include <utility>
 
+#include "base/parallel.h"
 #include "reference/twin_backend.h"
 
 namespace defray::validation {
@@ -26,7 +26,7 @@ CaseQueue::CaseQueue(const KernelCheck& check, std::vector<Case> cases, bool alo
     : check_(check), cases_(std::move(cases)), alone_(alone) {}
 
 void CaseQueue::fill() {
-  const std::size_t most = alone_ ? 1 : std::thread::hardware_concurrency() + more_than_cores;
+  const std::size_t most = alone_ ? 1 : static_cast<std::size_t>(core_count()) + more_than_cores;
   while (ahead_.size() < most && begun_ < cases_.size()) {
     ahead_.push_back(std::async(alone_ ? std::launch::deferred : std::launch::async,
                                 [this, i = begun_] { return prepare(check_, cases_[i]); }));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <thread>
 #include <vector>
@@ -70,8 +71,10 @@ TEST(Parallel, LoopsWithinLoopsOnThreadsOfTheirOwnAllEnd) {
 TEST(Parallel, AllCoresAreAtWorkAtOnce) {
   if (core_count() == 1) GTEST_SKIP() << "needs two cores";
   std::atomic<int> here = 0;
-  parallel_for(2, [&](int) {  // each waits for the other
-    for (++here; here < 2;) std::this_thread::yield();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  parallel_for(2, [&](int) {  // each waits for the other, which alone would come after it
+    for (++here; here < 2 && std::chrono::steady_clock::now() < end;) std::this_thread::yield();
+    EXPECT_EQ(here, 2);
   });
   EXPECT_EQ(here, 2);
 }
