@@ -7,8 +7,11 @@
 #define DEFRAY_SPLAT_TILE 8
 #define DEFRAY_SPLAT_SQUARE 4
 #define DEFRAY_SPLAT_SQUARES (DEFRAY_SPLAT_TILE * DEFRAY_SPLAT_TILE / 16)
-/// From this times its own size on, a splat's blur is a disc, where discs are asked for.
-#define DEFRAY_SPLAT_DISC 4.0f
+/// What neighbours' weights add up to at least where they are sharp: more does not count there.
+#define DEFRAY_SPLAT_AIM 1.02f
+/// A disc's square radius over a splat's own square size: from here on its blur is a disc, where
+/// discs are asked for, and below a Gaussian is as near to what it should be.
+#define DEFRAY_SPLAT_DISC 7.4f
 /// A pixel that lets less through is opaque.
 #define DEFRAY_SPLAT_OPAQUE 0.000244140625f
 
@@ -26,9 +29,11 @@ typedef struct {
 /// A node's resampling kernel in the picture.
 typedef struct {
   float x, y;                                 ///< Centre, px.
-  float conic_xx, conic_xy, conic_yy;         ///< 1/2 d^T W^-1 d; of discs d^T (4 W)^-1 d.
-  float amplitude;                            ///< At the centre.
-  float disc_px;                              ///< 0: Gaussian; else the disc's mean radius.
+  float conic_xx, conic_xy, conic_yy;         ///< 1/2 d^T W^-1 d; of discs d^T (D W)^-1 d.
+  float amplitude;                            ///< At the centre, or, of discs, where it would be 1.
+  float disc_top;                             ///< 0: Gaussian; else where a disc's conic ends.
+  float disc_bulge;                           ///< How steeply a disc falls: 0 to 2.
+  float lean_x, lean_y;                       ///< Of a disc's amplitude, per px.
   float z;                                    ///< Depth, scene units.
   float z_near, z_far;                        ///< Of the basis function.
   DEFRAY_INT first_x, end_x, first_y, end_y;  ///< Pixels within the cut-off; none: culled.
@@ -50,15 +55,18 @@ typedef struct {
   float coc_scale_px;          ///< K: coc(z) = K (z - z0) / z.
   float focus_units;           ///< z0; with focus_is_infinite unused.
   float infinite_focus_scale;  ///< coc(z) = -scale / z.
+  float lens_units;            ///< The lens's radius.
   DEFRAY_UINT focus_is_infinite;
   float limit_px;             ///< Largest CoC radius let through.
   float cutoff;               ///< c: where 1/2 d^T W^-1 d reaches it, a Gaussian ends.
   float edge;                 ///< e^-c, which Gaussians are lowered by: they end at 0.
   float gaussian_share;       ///< 1 - e^-c (1 + c): what is then left of one.
+  float gaussian_variance;    ///< And of its variance: 1 - c^2 e^-c / 2 over that share.
   DEFRAY_UINT one_sided;      ///< 1: surfaces are seen from where their normals point.
   DEFRAY_UINT has_discs;      ///< 1: what is mostly blur becomes a disc.
   DEFRAY_UINT has_headlight;  ///< 1: colours are shaded by a light at the eye.
   DEFRAY_UINT averages;       ///< 1: a surface's fragments are averaged; 0: the nearest count.
+  DEFRAY_INT layers;          ///< Surfaces that a pixel is made of, at most.
 } DefraySplatParams;
 
 /// A group of tiles of `splat_resolve`.
@@ -71,13 +79,15 @@ typedef struct {
   float cutoff;
   float edge;
   DEFRAY_UINT averages;
+  DEFRAY_UINT one_sided;
+  DEFRAY_INT layers;
 } DefraySplatTileParams;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefraySplatNode) == 68);
-static_assert(sizeof(DefraySplat) == 72);
-static_assert(sizeof(DefraySplatParams) == 124);
-static_assert(sizeof(DefraySplatTileParams) == 32);
+static_assert(sizeof(DefraySplat) == 84);
+static_assert(sizeof(DefraySplatParams) == 136);
+static_assert(sizeof(DefraySplatTileParams) == 40);
 #endif
 
 #endif

@@ -114,6 +114,10 @@ OptionGroup splat_rows(SplatCommand& job) {
        {"--merge", word(s.merge, merge_words),
         "Surfaces too close to be told apart: the nearest counts, or, as the paper has it, their "
         "average"},
+       {"--layers", value(s.layers),
+        "Surfaces that a pixel is made of at most, the nearest (the depth of its A-buffer); 0: "
+        "all. "
+        "A note says what it leaves out"},
        {"--two-sided", flag(s.two_sided),
         "Surfaces are seen from behind, too (always where normals are estimated)"},
        {"--transparency", value(s.transparency), "What all points let through, 0 to below 1"}}};

@@ -46,6 +46,7 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
                {"from_behind", r.from_behind},
                {"is_inside_out", r.is_inside_out},
                {"fragments", std::llround(r.fragments)},
+               {"spilled", r.spilled},
                {"from", outcome.camera.pose.from},
                {"look_at", outcome.camera.pose.look_at},
                {"focal_length_mm", lens.focal_length_mm},

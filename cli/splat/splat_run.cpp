@@ -47,6 +47,7 @@ std::vector<std::string> write_splats(const std::string& path, const SplatComman
 
 /// What to know about a picture; `written` about its file.
 std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatReport& report,
+                                     const SplatSettings& settings,
                                      const std::vector<std::string>& written) {
   std::vector<std::string> notes = camera.notes;
   notes.insert(notes.end(), written.begin(), written.end());
@@ -54,6 +55,13 @@ std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatRepor
     note_small_coc(camera.lens,
                    std::max(std::abs(report.nearest_coc_px), std::abs(report.farthest_coc_px)),
                    notes);
+  }
+  if (report.spilled > 0) {
+    notes.push_back(fmt::format(
+        "{} pixel{} ha{} more than --layers {} surfaces to be seen: what lies behind those is left "
+        "out",
+        report.spilled, report.spilled == 1 ? "" : "s", report.spilled == 1 ? "s" : "ve",
+        settings.layers));
   }
   if (report.from_behind > mostly_behind) {
     notes.push_back(fmt::format(
@@ -113,8 +121,9 @@ std::future<WrittenSplats> SplatRun::write_later(const SplatShot& shot, SplatCam
                                                  SplatResult result, double seconds) const {
   return std::async(std::launch::async, [=, this, result = std::move(result)]() mutable {
     const std::vector<std::string> notes = write_splats(shot.output, job_, result);
-    SplatOutcome outcome{source_,       device_.name(), camera,
-                         result.report, seconds,        splat_notes(camera, result.report, notes)};
+    SplatOutcome outcome{source_, device_.name(),
+                         camera,  result.report,
+                         seconds, splat_notes(camera, result.report, job_.settings, notes)};
     return WrittenSplats{shot, std::move(outcome), std::move(result.colour)};
   });
 }

@@ -48,7 +48,8 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
     SplatTiles tiles = next_tiles(splats, counts, static_cast<int>(tiles_x), tile, most);
     if (tiles.list.empty()) tiles.list.push_back(0);
     const DefraySplatTileParams p{params.width,     params.height, tiles_x,     tile,
-                                  tiles.tile_count, params.cutoff, params.edge, params.averages};
+                                  tiles.tile_count, params.cutoff, params.edge, params.averages,
+                                  params.one_sided, params.layers};
     session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_SQUARES}, p, in,
                     session_.view(tiles.first), session_.view(tiles.list), colour, depth, count);
     session_.finish();  // before the lists go

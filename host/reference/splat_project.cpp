@@ -12,6 +12,13 @@ using Row = std::array<float, 3>;
 
 float dot(const Row& a, const Row& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// A node from the lens's centre: its normal, the Jacobian's rows, how far the eye is behind its
+/// plane, and, px, what a unit of area covers, and what all of it would a unit before the eye.
+struct Seen {
+  Row normal, to_x, to_y;
+  float towards, spread, size;
+};
+
 /// A symmetric matrix of the scene.
 struct Covariance {
   std::array<Row, 3> rows;
@@ -20,15 +27,20 @@ struct Covariance {
   }
 };
 
+/// V_q.
+Covariance low_pass_of(const DefraySplatNode& n) {
+  return {{Row{n.low_xx, n.low_xy, n.low_xz}, Row{n.low_xy, n.low_yy, n.low_yz},
+           Row{n.low_xz, n.low_yz, n.low_zz}}};
+}
+
 /// One of the picture.
 struct Variance {
   float xx, xy, yy;
 };
 
 float coc_px(const DefraySplatParams& p, float z) {
-  const float radius = p.focus_is_infinite ? -p.infinite_focus_scale / z
-                                           : p.coc_scale_px * ((z - p.focus_units) / z);
-  return std::clamp(radius, -p.limit_px, p.limit_px);
+  return p.focus_is_infinite ? -p.infinite_focus_scale / z
+                             : p.coc_scale_px * ((z - p.focus_units) / z);
 }
 
 /// A variance in an axis and a circle's in all directions.
@@ -45,21 +57,21 @@ float size_of(const Row& a) {
   return largest * std::sqrt(dot(share, share));
 }
 
-/// Eigenvalues of m, each at least `circle`, in m's axes.
-Around circumellipse(const Variance& m, float circle) {
+/// Eigenvalues of m, each at least `circle`, or, of discs, with it, in m's axes.
+Around circumellipse(const Variance& m, float circle, bool is_disc) {
   const float mean = 0.5f * (m.xx + m.yy), difference = 0.5f * (m.xx - m.yy);
   const float spread = std::sqrt(difference * difference + m.xy * m.xy);
-  const float largest = mean + spread;
-  if (largest <= circle) return {{circle, 0, circle}, circle};
+  const float most = mean + spread, least = std::fmax(mean - spread, 0.0f);
+  const float largest = is_disc ? most + circle : std::fmax(most, circle);
+  const float smallest = is_disc ? least + circle : std::fmax(least, circle);
   if (spread == 0) return {{largest, 0, largest}, largest};
-  const float smallest = std::fmax(mean - spread, circle);
   const float middle = 0.5f * (largest + smallest), half = 0.5f * (largest - smallest) / spread;
   return {{middle + half * difference, half * m.xy, middle - half * difference}, smallest};
 }
 
-/// Of own + I + around; own's is root^2.
-float determinant_of(const Variance& own, float root, const Around& around) {
-  const float circle = 1 + around.circle;
+/// Of own + prefilter I + around; own's is root^2.
+float determinant_of(const Variance& own, float root, float prefilter, const Around& around) {
+  const float circle = prefilter + around.circle;
   const Variance axis{around.all.xx - around.circle, around.all.xy, around.all.yy - around.circle};
   const float mixed = own.xx * axis.yy + own.yy * axis.xx - 2 * (own.xy * axis.xy);
   const float traces = own.xx + own.yy + axis.xx + axis.yy;
@@ -74,17 +86,38 @@ std::array<std::int32_t, 2> pixels_between(float from, float to, std::uint32_t s
   return {limited(std::ceil(from - 0.5f)), limited(std::floor(to - 0.5f) + 1)};
 }
 
-void set_shape(const DefraySplatParams& p, const Variance& w, float determinant, float mass,
-               bool is_disc, DefraySplat& s) {
+/// A disc of variance 1 - share, blurred by a Gaussian of the rest.
+struct BlurredDisc {
+  float end, fall, bulge, whole;
+};
+
+BlurredDisc blurred_disc(float share) {
+  const float size = std::sqrt(share);
+  BlurredDisc d{};
+  d.fall = 15.8f * (size * std::sqrt(1 - share));
+  d.bulge = std::fmin(std::fmax(2.54f - 5.4f * size, 0.0f), 2.0f);
+  const float first = 0.333333343f + 0.0833333358f * d.bulge, second = 0.25f + 0.05f * d.bulge;
+  const float flat = d.fall * (1 - first);
+  const float square = flat * flat + 4 - d.fall * d.fall * (1 - 2 * second);
+  d.end = flat + 2 + std::sqrt(std::fmax(square, 0.0f));
+  d.whole = d.end - flat;
+  return d;
+}
+
+/// Returns the share of `blur`.
+float set_shape(const DefraySplatParams& p, const Variance& w, float determinant, float size,
+                float blur, bool is_disc, DefraySplat& s) {
   const float root = std::sqrt(determinant);
   float reach = 2 * p.cutoff, form = 0.5f;
-  s.amplitude = mass / (6.28318531f * root * p.gaussian_share);
+  s.amplitude = size / (6.28318531f * root * p.gaussian_share);
   if (is_disc) {
-    form = 0.25f;
-    s.disc_px = 2 * std::sqrt(root);
-    s.amplitude = mass / (12.5663706f * root + 0.261799388f);
-    const float edge = 1 + 0.5f / s.disc_px;
-    reach = 4 * edge * edge;
+    const float gaussian = std::fmax(root - blur, p.gaussian_variance);
+    const BlurredDisc d = blurred_disc(std::fmin(gaussian / root, 0.4f));
+    form = 1 / d.fall;
+    reach = d.end;
+    s.amplitude = size / (3.14159274f * DEFRAY_SPLAT_AIM * (root * d.whole));
+    s.disc_top = d.end / d.fall;
+    s.disc_bulge = d.bulge;
   }
   const float share = form / determinant;
   s.conic_xx = w.yy * share;
@@ -97,66 +130,99 @@ void set_shape(const DefraySplatParams& p, const Variance& w, float determinant,
   s.end_x = columns[1];
   s.first_y = rows[0];
   s.end_y = rows[1];
+  return blur / root;
 }
 
-/// Nothing but its depths: no pixels.
-DefraySplat culled(DefraySplat s) {
-  s.first_x = s.end_x = s.first_y = s.end_y = 0;
-  return s;
+/// Towards the camera.
+float half_depth_of(const DefraySplatParams& p, const DefraySplatNode& n, const Row& forward,
+                    const Row& normal) {
+  const Covariance low = low_pass_of(n);
+  const float slant = dot(forward, normal);
+  const float along = n.variance * (1 - slant * slant) + low.between(forward, forward);
+  return std::fmax(std::sqrt(2 * p.cutoff * along), std::sqrt(n.variance));
+}
+
+/// Returns the share of `blur`.
+float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen& seen, float blur,
+                bool is_disc, DefraySplat& s) {
+  const Covariance low = low_pass_of(n);
+  const Row &to_x = seen.to_x, &to_y = seen.to_y;
+  const Around added = circumellipse(
+      {low.between(to_x, to_x), low.between(to_x, to_y), low.between(to_y, to_y)}, blur, is_disc);
+  const float kept = is_disc ? p.gaussian_variance : 1, basis = kept * n.variance;
+  const float over_x = dot(to_x, seen.normal), over_y = dot(to_y, seen.normal);
+  const Variance own{basis * (dot(to_x, to_x) - over_x * over_x),
+                     basis * (dot(to_x, to_y) - over_x * over_y),
+                     basis * (dot(to_y, to_y) - over_y * over_y)};
+  const Variance w{own.xx + kept + added.all.xx, own.xy + added.all.xy,
+                   own.yy + kept + added.all.yy};
+  return set_shape(p, w, determinant_of(own, basis * seen.spread, kept, added), seen.size, blur,
+                   is_disc, s);
+}
+
+/// How much is seen, from an amplitude of 1: from the lens's centre, or, with discs, from the point
+/// of the lens that each pixel stands for. Returns whether any is.
+bool face_lens(const DefraySplatParams& p, const Seen& seen, float coc, float sharp_coc,
+               float share, DefraySplat& s) {
+  if (!p.has_discs) {
+    s.amplitude *= std::fabs(seen.towards);
+    return !p.one_sided || seen.towards < 0;
+  }
+  const float x = dot({p.right_x, p.right_y, p.right_z}, seen.normal);
+  const float y = dot({p.down_x, p.down_y, p.down_z}, seen.normal);
+  const float units_a_px = sharp_coc != 0 ? share * (p.lens_units / sharp_coc) : 0;
+  s.lean_x = s.amplitude * (units_a_px * x);
+  s.lean_y = s.amplitude * (units_a_px * y);
+  s.amplitude *= -seen.towards;
+  const float most = std::fabs(coc * units_a_px) * std::sqrt(x * x + y * y);
+  return !p.one_sided || most - seen.towards > 0;
 }
 
 DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const Row right{p.right_x, p.right_y, p.right_z}, down{p.down_x, p.down_y, p.down_z};
   const Row forward{p.forward_x, p.forward_y, p.forward_z};
   const Row from_eye{n.x - p.eye_x, n.y - p.eye_y, n.z - p.eye_z};
-  const Row area{n.area_x, n.area_y, n.area_z};
-  const Covariance low{{Row{n.low_xx, n.low_xy, n.low_xz}, Row{n.low_xy, n.low_yy, n.low_yz},
-                        Row{n.low_xz, n.low_yz, n.low_zz}}};
-  const float z = dot(forward, from_eye);
-  const float size = size_of(area);
-  const Row normal{area[0] / size, area[1] / size, area[2] / size};
+  const float z = dot(forward, from_eye), size = size_of({n.area_x, n.area_y, n.area_z});
+  Seen seen{.normal = {n.area_x / size, n.area_y / size, n.area_z / size}};
 
-  DefraySplat s{};
-  const float slant = dot(forward, normal);
-  const float along = n.variance * (1 - slant * slant) + low.between(forward, forward);
-  const float half_depth = std::fmax(std::sqrt(2 * p.cutoff * along), std::sqrt(n.variance));
-  s.z = z;
-  s.z_near = z - half_depth;
-  s.z_far = z + half_depth;
-  if (!(size > 0) || !(s.z_near > p.near_units)) return culled(s);
-  const float towards = dot(normal, from_eye);
-  if (p.one_sided && !(towards < 0)) return culled(s);
+  DefraySplat depths{};
+  const float half_depth = half_depth_of(p, n, forward, seen.normal);
+  depths.z = z;
+  depths.z_near = z - half_depth;
+  depths.z_far = z + half_depth;
+  if (!(size > 0) || !(depths.z_near > p.near_units)) return depths;
 
-  const float tan_x = dot(right, from_eye) / z, tan_y = dot(down, from_eye) / z;
   const float scale = p.focal_px / z;
-  const float spread = scale * scale * (std::fabs(towards) / z), mass = spread * size;
+  const float tan_x = dot(right, from_eye) / z, tan_y = dot(down, from_eye) / z;
+  for (std::size_t i = 0; i < 3; ++i) {
+    seen.to_x[i] = scale * (right[i] - tan_x * forward[i]);
+    seen.to_y[i] = scale * (down[i] - tan_y * forward[i]);
+  }
+  seen.towards = dot(seen.normal, from_eye);
+  seen.spread = scale * scale * (std::fabs(seen.towards) / z);
+  seen.size = scale * scale * (size / z);
+
+  DefraySplat s = depths;
   s.x = p.centre_x + p.focal_px * tan_x;
   s.y = p.centre_y + p.focal_px * tan_y;
-  Row to_x, to_y;  // the Jacobian
-  for (std::size_t i = 0; i < 3; ++i) {
-    to_x[i] = scale * (right[i] - tan_x * forward[i]);
-    to_y[i] = scale * (down[i] - tan_y * forward[i]);
-  }
-  const float coc = coc_px(p, z);
-  const bool is_disc =
-      p.has_discs && std::fabs(coc) > DEFRAY_SPLAT_DISC * (1 + scale * std::sqrt(n.variance));
-  const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
-  const Around added = circumellipse(
-      {low.between(to_x, to_x), low.between(to_x, to_y), low.between(to_y, to_y)}, blur);
-  const float over_x = dot(to_x, normal), over_y = dot(to_y, normal);
-  const Variance own{n.variance * (dot(to_x, to_x) - over_x * over_x),
-                     n.variance * (dot(to_x, to_y) - over_x * over_y),
-                     n.variance * (dot(to_y, to_y) - over_y * over_y)};
-  const Variance w{own.xx + 1 + added.all.xx, own.xy + added.all.xy, own.yy + 1 + added.all.yy};
-  const float facing = std::fabs(towards) / std::sqrt(dot(from_eye, from_eye));
+  const float facing = std::fabs(seen.towards) / std::sqrt(dot(from_eye, from_eye));
   const float light = p.has_headlight ? 0.333333343f + 0.666666687f * facing : 1;
   s.r = n.r * light;
   s.g = n.g * light;
   s.b = n.b * light;
   s.a = n.a;
-  if (!(mass > 0)) return culled(s);
-  set_shape(p, w, determinant_of(own, n.variance * spread, added), mass, is_disc, s);
-  return s.first_x < s.end_x && s.first_y < s.end_y ? s : culled(s);
+  const DefraySplat without_shape = s;
+
+  const float sharp_coc = coc_px(p, z), coc = std::clamp(sharp_coc, -p.limit_px, p.limit_px);
+  const float own = p.gaussian_variance * (1 + scale * scale * n.variance);
+  const bool is_disc = p.has_discs && coc * coc > DEFRAY_SPLAT_DISC * own;
+  const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
+  const float share = blur_node(p, n, seen, blur, is_disc, s);
+  if (!face_lens(p, seen, coc, sharp_coc, share, s)) return depths;
+  const float covered = std::fabs(s.amplitude) + std::fabs(s.lean_x) + std::fabs(s.lean_y);
+  if (!(covered > 0)) return without_shape;
+  if (!(s.first_x < s.end_x && s.first_y < s.end_y)) s.first_x = s.end_x = s.first_y = s.end_y = 0;
+  return s;
 }
 
 }  // namespace

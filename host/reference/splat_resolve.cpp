@@ -18,7 +18,8 @@ struct Pixel {
   float far = -std::numeric_limits<float>::infinity();
   float depth = std::numeric_limits<float>::infinity();
   float count = 0;
-  bool is_opaque = false;
+  int ended = 0;
+  bool is_opaque = false, has_spilled = false;
 
   void end_layer(bool averages) {
     float share = 1 - sum[3];
@@ -31,11 +32,15 @@ struct Pixel {
     is_opaque = 1 - sum[3] < DEFRAY_SPLAT_OPAQUE;
   }
 
-  void add(const DefraySplat& s, float of_splat, bool averages) {
+  void add(const DefraySplat& s, float of_splat, const DefraySplatParams& p) {
     if (is_opaque || !(of_splat > 0)) return;
-    if (s.z_near > far) end_layer(averages);
+    if (s.z_near > far) {
+      end_layer(p.averages);
+      has_spilled = !is_opaque && ++ended > p.layers;
+      is_opaque |= has_spilled;
+    }
     if (is_opaque) return;
-    const float taken = averages ? of_splat : std::fmin(of_splat, 1 - weight);
+    const float taken = p.averages ? of_splat : std::fmin(of_splat, 1 - weight);
     weight += taken;
     const float colour[] = {s.r, s.g, s.b, s.a};
     for (int c = 0; c < 4; ++c) layer[c] += taken * colour[c];
@@ -48,12 +53,14 @@ struct Pixel {
 float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) {
   const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;
   const float form = (s.conic_xx * dx + 2 * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
-  const float inside = std::fmax(form, 0.0f);
-  if (s.disc_px > 0) {
-    const float within = (1 - std::sqrt(inside)) * s.disc_px + 0.5f;
-    return s.amplitude * std::fmin(std::fmax(within, 0.0f), 1.0f);
+  const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
+  const float facing = p.one_sided ? std::fmax(leant, 0.0f) : std::fabs(leant);
+  if (s.disc_top > 0) {
+    const float left = std::fmin(std::fmax(s.disc_top - form, 0.0f), 1.0f);
+    return facing * (left * left * (1 + s.disc_bulge * (1 - left)));
   }
-  return form < p.cutoff ? s.amplitude * std::fmax(falloff(inside) - p.edge, 0.0f) : 0;
+  const float inside = std::fmax(form, 0.0f);
+  return form < p.cutoff ? facing * std::fmax(falloff(inside) - p.edge, 0.0f) : 0;
 }
 
 }  // namespace
@@ -65,7 +72,7 @@ SplatPlanes TwinBackend::splat_resolve(const Values<DefraySplat>& splats,
     const DefraySplat& s = splats[i];
     for (int y = s.first_y; y < s.end_y; ++y) {
       for (int x = s.first_x; x < s.end_x; ++x) {
-        pixels[size(y) * p.width + size(x)].add(s, weight_at(s, x, y, p), p.averages);
+        pixels[size(y) * p.width + size(x)].add(s, weight_at(s, x, y, p), p);
       }
     }
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(splats.size()));
@@ -76,7 +83,7 @@ SplatPlanes TwinBackend::splat_resolve(const Values<DefraySplat>& splats,
     if (!pixel.is_opaque) pixel.end_layer(p.averages);
     for (std::size_t c = 0; c < 4; ++c) out.colour[c].push_back(pixel.sum[c]);
     out.depth.push_back(pixel.depth);
-    out.fragments.push_back(pixel.count);
+    out.fragments.push_back(pixel.has_spilled ? -pixel.count : pixel.count);
   }
   return out;
 }

@@ -74,6 +74,33 @@ void describe_sides(const Values<DefraySplatNode>& nodes, const DefraySplatParam
       sides.away_units / sides.away < sides.towards_units / sides.towards;  // false without one
 }
 
+/// How many fragments pixels have, and how many of those lack surfaces (then below 0).
+struct FragmentCounts {
+  double fragments = 0;
+  std::size_t spilled = 0;
+
+  FragmentCounts& operator+=(const FragmentCounts& other) {
+    fragments += other.fragments;
+    spilled += other.spilled;
+    return *this;
+  }
+};
+
+/// Leaves the numbers without their signs.
+void count_fragments(Plane& counts, SplatReport& report) {
+  const auto all = parallel_sum(counts.size(), [&](std::size_t first, std::size_t end) {
+    FragmentCounts sum;
+    for (std::size_t i = first; i < end; ++i) {
+      sum.spilled += counts[i] < 0;
+      counts[i] = std::fabs(counts[i]);
+      sum.fragments += static_cast<double>(counts[i]);
+    }
+    return sum;
+  });
+  report.fragments += all.fragments;
+  report.spilled += all.spilled;
+}
+
 void make_transparent(Values<DefraySplatNode>& nodes, double transparency) {
   if (transparency == 0) return;
   const auto kept = static_cast<float>(1 - transparency);
@@ -84,11 +111,8 @@ void make_transparent(Values<DefraySplatNode>& nodes, double transparency) {
 
 /// The sharp picture from a point of the lens, (u, v) in units of its radius.
 DefraySplatParams view_from(DefraySplatParams p, double u, double v) {
-  // coc = K (z - z0) / z with K = A F / (2 z0): the lens's radius is K z0 / F.
-  const double focal = p.focal_px;
-  const double scale_px = p.focus_is_infinite ? static_cast<double>(p.infinite_focus_scale)
-                                              : static_cast<double>(p.coc_scale_px) * p.focus_units;
-  const double right = u * scale_px / focal, down = v * scale_px / focal;
+  const double right = u * static_cast<double>(p.lens_units);
+  const double down = v * static_cast<double>(p.lens_units);
   const auto moved = [&](float from, float along_right, float along_down) {
     return static_cast<float>(from + right * along_right + down * along_down);
   };
@@ -96,8 +120,8 @@ DefraySplatParams view_from(DefraySplatParams p, double u, double v) {
   p.eye_y = moved(p.eye_y, p.right_y, p.down_y);
   p.eye_z = moved(p.eye_z, p.right_z, p.down_z);
   if (!p.focus_is_infinite) {
-    p.centre_x += static_cast<float>(right * focal / p.focus_units);
-    p.centre_y += static_cast<float>(down * focal / p.focus_units);
+    p.centre_x += static_cast<float>(right * p.focal_px / p.focus_units);
+    p.centre_y += static_cast<float>(down * p.focal_px / p.focus_units);
   }
   p.focus_is_infinite = 0;
   p.coc_scale_px = 0;
@@ -124,10 +148,7 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   describe(splats, params, report);
   done("order");
   SplatPlanes planes = backend.splat_resolve(splats, params, progress);
-  const float* const counts = planes.fragments.data();
-  report.fragments += parallel_sum(planes.fragments.size(), [&](std::size_t i, std::size_t end) {
-    return std::accumulate(counts + i, counts + end, 0.0);
-  });
+  count_fragments(planes.fragments, report);
   done("resolve");
   return planes;
 }

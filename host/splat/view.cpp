@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "lens/lens.h"
@@ -62,6 +63,7 @@ void put_lens(const Lens& lens, int width, DefraySplatParams& p) {
   p.coc_scale_px = static_cast<float>(background_coc_px(lens, width));
   p.focus_units = p.focus_is_infinite ? 0 : static_cast<float>(lens.focus_distance_units);
   p.infinite_focus_scale = static_cast<float>(infinite_focus_scale(lens, width));
+  p.lens_units = lens_radius_of(p);
   p.limit_px =
       static_cast<float>(lens.max_coc_px > 0 ? std::min(lens.max_coc_px, most_px) : most_px);
 }
@@ -78,10 +80,28 @@ void validate(const SplatSettings& s) {
   if (!(s.cutoff >= 1 && s.cutoff <= 8)) {
     fail(ErrorKind::usage, "{} is {}: allowed are 1 to 8", field("cutoff"), s.cutoff);
   }
+  if (s.layers < 0) {
+    fail(ErrorKind::usage, "{} is {}: allowed are 1 on, and 0 for all", field("layers"), s.layers);
+  }
   if (!(s.transparency >= 0 && s.transparency < 1)) {
     fail(ErrorKind::usage, "{} is {}: allowed are 0 to below 1", field("transparency"),
          s.transparency);
   }
+}
+
+float lens_radius_of(const DefraySplatParams& p) {
+  // coc = K (z - z0) / z with K = A F / (2 z0): the lens's radius is K z0 / F.
+  const double scale_px = p.focus_is_infinite ? static_cast<double>(p.infinite_focus_scale)
+                                              : static_cast<double>(p.coc_scale_px) * p.focus_units;
+  return static_cast<float>(scale_px / p.focal_px);
+}
+
+void put_cutoff(double cutoff, DefraySplatParams& p) {
+  const double edge = std::exp(-cutoff), share = 1 - edge * (1 + cutoff);
+  p.cutoff = static_cast<float>(cutoff);
+  p.edge = static_cast<float>(edge);
+  p.gaussian_share = static_cast<float>(share);
+  p.gaussian_variance = static_cast<float>(1 - cutoff * cutoff * edge / (2 * share));
 }
 
 DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 3>& origin,
@@ -97,12 +117,10 @@ DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 
   p.centre_x = static_cast<float>(settings.width) / 2;
   p.centre_y = static_cast<float>(settings.height) / 2;
   put_lens(lens, settings.width, p);
-  p.cutoff = static_cast<float>(settings.cutoff);
-  const double edge = std::exp(-settings.cutoff);
-  p.edge = static_cast<float>(edge);
-  p.gaussian_share = static_cast<float>(1 - edge * (1 + settings.cutoff));
+  put_cutoff(settings.cutoff, p);
   p.has_discs = settings.psf == SplatPsf::disc;
   p.averages = settings.merge == SplatMerge::average;
+  p.layers = settings.layers > 0 ? settings.layers : std::numeric_limits<std::int32_t>::max();
   return p;
 }
 

@@ -14,6 +14,12 @@ void validate(const SplatSettings& settings);
 DefraySplatParams splat_params(const CameraPose& pose, const std::array<double, 3>& origin,
                                const Lens& lens, const SplatSettings& settings);
 
+/// Scene units, of the other fields.
+float lens_radius_of(const DefraySplatParams& p);
+
+/// Where Gaussians end, and what is left of them.
+void put_cutoff(double cutoff, DefraySplatParams& p);
+
 /// How far from its middle a camera sees a sphere of this radius with a tenth around it.
 double framing_distance(double radius, const Lens& lens, const SplatSettings& settings);
 

@@ -5,6 +5,7 @@
 
 #include "base/falloff.h"
 #include "base/parallel.h"
+#include "kernels/splat_params.h"
 #include "splat/cloud_points.h"
 
 namespace defray {
@@ -17,7 +18,7 @@ constexpr float look_at = 0.5f;
 /// Sums should be no less than 1, where what is behind would shine through; what is more does not
 /// count (SplatMerge), and weighs a tenth as much, but not along edges, which would grow. Of points
 /// in random places on a wall the least sum is then 0.99; with all alike, and 1.03, it is 0.91.
-constexpr double aim = 1.02;
+constexpr double aim = DEFRAY_SPLAT_AIM;
 constexpr float too_much = 0.1f;
 /// A basis function is nothing where it is e to the minus this.
 constexpr float nothing_from = 79;

@@ -11,10 +11,11 @@ namespace {
 /// Each field as a plane: its values differ in size from the others'.
 Outcome run_project(Backend& backend, const Case& c, const Input&) {
   constexpr float DefraySplat::*fields[] = {
-      &DefraySplat::x,        &DefraySplat::y,        &DefraySplat::conic_xx,
-      &DefraySplat::conic_xy, &DefraySplat::conic_yy, &DefraySplat::amplitude,
-      &DefraySplat::disc_px,  &DefraySplat::z,        &DefraySplat::z_near,
-      &DefraySplat::z_far,    &DefraySplat::r,        &DefraySplat::g,
+      &DefraySplat::x,        &DefraySplat::y,          &DefraySplat::conic_xx,
+      &DefraySplat::conic_xy, &DefraySplat::conic_yy,   &DefraySplat::amplitude,
+      &DefraySplat::disc_top, &DefraySplat::disc_bulge, &DefraySplat::lean_x,
+      &DefraySplat::lean_y,   &DefraySplat::z,          &DefraySplat::z_near,
+      &DefraySplat::z_far,    &DefraySplat::r,          &DefraySplat::g,
       &DefraySplat::b,        &DefraySplat::a};
   Outcome v;
   v.planes.resize(std::size(fields));

@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "base/vec3.h"
+#include "splat/view.h"
 
 namespace defray::validation {
 namespace {
@@ -108,14 +109,13 @@ DefraySplatParams splat_params(const Case& c) {
   p.focus_units = p.focus_is_infinite ? 0 : static_cast<float>(c.focus);
   p.infinite_focus_scale = p.focus_is_infinite ? static_cast<float>(c.coc_px) : 0;
   p.limit_px = 1 << 20;
-  p.cutoff = static_cast<float>(1 + 0.5 * (c.seed % 8));
-  const double edge = std::exp(-static_cast<double>(p.cutoff));
-  p.edge = static_cast<float>(edge);
-  p.gaussian_share = static_cast<float>(1 - edge * (1 + static_cast<double>(p.cutoff)));
+  p.lens_units = lens_radius_of(p);
+  put_cutoff(1 + 0.5 * (c.seed % 8), p);
   p.one_sided = c.seed % 4 == 1;
   p.has_discs = c.seed % 3 != 1;
   p.has_headlight = c.seed % 5 == 2;
   p.averages = c.seed % 2;
+  p.layers = c.seed % 3 == 0 ? 1 + static_cast<int>(c.seed % 4) : 1000;
   return p;
 }
 

@@ -6,14 +6,16 @@
 // surface at a time is all that a pixel keeps, whatever number of fragments it has.
 //
 // A surface's weights estimate how much of the pixel it covers; beyond 1 the nearest count, or, as
-// the paper has it (`averages`), all of them, divided by their sum.
+// the paper has it (`averages`), all of them, divided by their sum. Of surfaces behind the first
+// `layers` nothing is seen.
 //
 // splats   [count]           in order; DEFRAY_SPLAT_TILE-tiles know theirs
 // first    [tile_count + 1]  where a tile's part of `list` begins
 // list     splats that meet the tile, in order
 // out0..3  [height][width]   premultiplied colour and alpha
 // depth    [height][width]   of the nearest fragment's splat with any alpha, +inf without one
-// count    [height][width]   fragments, up to where nothing shines through any more
+// count    [height][width]   fragments, up to where nothing shines through any more; below 0 where
+//                            a surface is left out
 // A work-item: a square of a tile, of which splats of a few pixels fill more than of a row.
 // Global size: (tile_count, squares of a tile).
 #include "base/any.clh"
@@ -33,7 +35,8 @@ typedef struct {
   float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
   float16 sum0, sum1, sum2, sum3;                  // those before it
   float16 far, depth;
-  int16 count, opaque;
+  int16 count, ended, opaque;  // of surfaces; opaque: of any more nothing is seen
+  int16 spilled;               // -1: that is because of `layers`
 } SplatSquare;
 
 // e^-power for 0 <= power < 80, within 10^-6 of itself (2 10^-6 from 10 on): 2^whole times a
@@ -79,26 +82,32 @@ INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
 INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float16 dy,
                              const DefraySplatTileParams p) {
   const float16 form = (s->conic_xx * dx + 2.0f * s->conic_xy * dy) * dx + s->conic_yy * dy * dy;
-  if (s->disc_px > 0.0f) {
-    return s->amplitude * clamp((1.0f - sqrt(larger(form, 0.0f))) * s->disc_px + 0.5f, 0.0f, 1.0f);
+  const float16 leant = s->amplitude + s->lean_x * dx + s->lean_y * dy;
+  const float16 facing = p.one_sided ? larger(leant, 0.0f) : fabs(leant);
+  if (s->disc_top > 0.0f) {
+    const float16 left = smaller(larger(s->disc_top - form, 0.0f), 1.0f);
+    return facing * (left * left * (1.0f + s->disc_bulge * (1.0f - left)));
   }
   const float16 inside = smaller(larger(form, 0.0f), p.cutoff);
-  return select((float16)(0.0f), s->amplitude * larger(falloff(inside) - p.edge, 0.0f),
-                form < p.cutoff);
+  return select((float16)(0.0f), facing * larger(falloff(inside) - p.edge, 0.0f), form < p.cutoff);
 }
 
 // Most hit some pixel: a way out for those that do not costs more, guessed wrongly, than it saves.
 INLINED void add_splat(SplatSquare* r, __global const DefraySplat* s, const float16 weight,
-                       const bool averages) {
+                       const DefraySplatTileParams p) {
   const int16 hits = (weight > 0.0f) & ~r->opaque;
   const int16 begins = hits & (s->z_near > r->far);
   int16 joins = hits;
   if (any_lane(begins)) {
-    end_layer(r, begins, averages);
+    end_layer(r, begins, p.averages);
+    r->ended -= begins;
+    const int16 spills = begins & ~r->opaque & (r->ended > p.layers);
+    r->spilled |= spills;
+    r->opaque |= spills;
     joins &= ~r->opaque;
   }
   // Only where it joins: 0 times what is not finite is not 0.
-  const float16 taken = averages ? weight : smaller(weight, 1.0f - r->weight);
+  const float16 taken = p.averages ? weight : smaller(weight, 1.0f - r->weight);
   r->weight = select(r->weight, r->weight + taken, joins);
   r->layer0 = select(r->layer0, r->layer0 + taken * s->r, joins);
   r->layer1 = select(r->layer1, r->layer1 + taken * s->g, joins);
@@ -171,8 +180,7 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   r.sum0 = r.sum1 = r.sum2 = r.sum3 = 0.0f;
   r.far = -INFINITY;
   r.depth = INFINITY;
-  r.count = 0;
-  r.opaque = 0;
+  r.count = r.ended = r.opaque = r.spilled = 0;
   const uint end = first[get_global_id(0) + 1];
   uint i = next_in_square(splats, list, first[get_global_id(0)], end, &q);
   while (i < end && !all_lanes(r.opaque)) {
@@ -182,9 +190,9 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
     __global const DefraySplat* next = splats + list[j < end ? j : i];
     const float16 weight = weight_in_square(s, &q, p);
     const float16 next_weight = weight_in_square(next, &q, p);
-    add_splat(&r, s, weight, p.averages);
+    add_splat(&r, s, weight, p);
     if (j >= end) break;
-    add_splat(&r, next, next_weight, p.averages);
+    add_splat(&r, next, next_weight, p);
     i = next_in_square(splats, list, j + 1, end, &q);
   }
   end_layer(&r, ~r.opaque, p.averages);
@@ -194,5 +202,5 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   store_square(p, out2, &q, r.sum2);
   store_square(p, out3, &q, r.sum3);
   store_square(p, depth, &q, r.depth);
-  store_square(p, count, &q, convert_float16(r.count));
+  store_square(p, count, &q, convert_float16((r.count ^ r.spilled) - r.spilled));
 }

@@ -35,7 +35,7 @@ struct CameraPose {
 /// How a point's light is spread over its circle of confusion.
 enum class SplatPsf {
   gaussian,  ///< The paper's: the Gaussian that is nearest to the disc.
-  disc,      ///< An even disc where blur is most of a splat.
+  disc,      ///< An even disc, of what each point of the lens sees of a surface.
 };
 
 /// What becomes of a surface's fragments where they weigh more than 1: where surfaces are too close
@@ -49,8 +49,9 @@ struct SplatSettings {
   int width = 1024, height = 768;
   bool lod = true;      ///< Nodes of the hierarchy where blur hides single points.
   double cutoff = 2.5;  ///< c, 1 to 8: Gaussians end where they are down to e^-c.
-  SplatPsf psf = SplatPsf::gaussian;
+  SplatPsf psf = SplatPsf::disc;
   SplatMerge merge = SplatMerge::nearest;
+  int layers = 0;  ///< Surfaces that a pixel is made of at most, the nearest. 0: all.
   /// Surfaces are seen from both sides; otherwise from where normals point. Where normals are
   /// estimated, they have no outside: both.
   bool two_sided = false;
@@ -64,7 +65,8 @@ struct SplatReport {
   double from_behind = 0;  ///< Share of those drawn that are left out as seen from behind.
   /// On average those lie before the ones that are drawn: of closed surfaces normals point inwards.
   bool is_inside_out = false;
-  double fragments = 0;  ///< Of all pixels, up to where nothing shines through.
+  double fragments = 0;     ///< Of all pixels, up to where nothing shines through.
+  std::size_t spilled = 0;  ///< Pixels in which `layers` left something out that would be seen.
   double nearest_units = 0, farthest_units = 0;    ///< Depths of the splats seen.
   double nearest_coc_px = 0, farthest_coc_px = 0;  ///< Their signed CoC radii.
   std::vector<StageTime> stages;

@@ -150,9 +150,9 @@ TEST(Cut, IsAsFineAsPixelsOrBlurAskFor) {
   const auto coarse = cut_hierarchy(tree, blurred, true);
   EXPECT_LT(coarse.size(), 2500u);
   EXPECT_NEAR(area_of(coarse), 4, 1e-3);
-  DefraySplatParams discs = blurred;
-  discs.has_discs = 1;
-  EXPECT_GT(cut_hierarchy(tree, discs, true).size(), coarse.size());
+  DefraySplatParams gaussians = blurred;
+  gaussians.has_discs = 0;
+  EXPECT_LT(cut_hierarchy(tree, gaussians, true).size(), coarse.size());
 }
 
 TEST(Cut, KeepsTheHierarchysOrder) {

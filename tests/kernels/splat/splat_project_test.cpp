@@ -21,12 +21,18 @@ DefraySplatNode surfel(double x, double y, double z, std::array<double, 3> area,
   return n;
 }
 
-/// The variance that a splat's conic stands for; discs have a quarter of their square radius.
+/// The variance that a Gaussian splat's conic stands for.
 std::array<double, 3> variance_of(const DefraySplat& s) {
-  const double form = s.disc_px > 0 ? 0.25 : 0.5;
+  constexpr double form = 0.5;
   const double determinant = double{s.conic_xx} * s.conic_yy - double{s.conic_xy} * s.conic_xy;
   return {form * s.conic_yy / determinant, -form * s.conic_xy / determinant,
           form * s.conic_xx / determinant};
+}
+
+SplatSettings gaussians() {
+  SplatSettings settings;
+  settings.psf = SplatPsf::gaussian;
+  return settings;
 }
 
 DefraySplat project(const DefraySplatNode& node, const DefraySplatParams& p) {
@@ -67,7 +73,7 @@ TEST(SplatProject, ASharpSplatIsItsSurfelAndAPixel) {
 
 TEST(SplatProject, BlurIsTheGaussianNearestToTheDisc) {
   for (const double z : {2.0, 8.0}) {
-    const DefraySplatParams p = view_of(256, 4, 100);
+    const DefraySplatParams p = view_of(256, 4, 100, gaussians());
     const double coc = splat_coc_px(p, z);
     EXPECT_NEAR(coc, 0.5 * 0.1 * (256 * 50.0 / 36) * (z - 4) / (4 * z), 1e-4);
     const auto w = variance_of(project(surfel(0, 0, 4 - z, {0, 0, 1e-6}, 1e-9), p));
@@ -77,7 +83,7 @@ TEST(SplatProject, BlurIsTheGaussianNearestToTheDisc) {
 }
 
 TEST(SplatProject, TheBlurOfFocusAtInfinity) {
-  DefraySplatParams p = view_of(256, 4, 100);
+  DefraySplatParams p = view_of(256, 4, 100, gaussians());
   p.focus_is_infinite = 1;
   p.infinite_focus_scale = 20;
   EXPECT_DOUBLE_EQ(splat_coc_px(p, 5), -4);
@@ -85,16 +91,78 @@ TEST(SplatProject, TheBlurOfFocusAtInfinity) {
   EXPECT_NEAR(w[0], 16 / (2 * std::log(4)) + 1, 1e-3);
 }
 
-TEST(SplatProject, DiscsHaveTheirRadiusWhereBlurIsMostOfThem) {
-  SplatSettings settings;
-  settings.psf = SplatPsf::disc;
-  const DefraySplatParams p = view_of(256, 4, 300, settings);
-  const double coc = std::abs(splat_coc_px(p, 2));
-  ASSERT_GT(coc, 8);
-  const DefraySplat s = project(surfel(0, 0, 2, {0, 0, 1e-6}, 1e-9), p);
-  // Its own pixel widens it: the square of a radius 2 more in all.
-  EXPECT_NEAR(s.disc_px * s.disc_px, coc * coc + 4, 1e-3 * coc * coc);
-  EXPECT_EQ(project(surfel(0, 0, 0.1, {0, 0, 1e-6}, 1e-9), p).disc_px, 0);  // nearly in focus
+/// An even disc of this radius, blurred by a Gaussian of this variance that is lowered to end at 0
+/// where it is down to e^-2.5; the sum is 1.
+std::vector<double> blurred_disc(int side, double radius, double variance) {
+  const int reach = static_cast<int>(std::ceil(std::sqrt(5 * variance)));
+  std::vector<double> out(size(side * side)), row(size(side));
+  double whole = 0;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double height =
+          std::max(std::exp(-(dx * dx + dy * dy) / (2 * variance)) - std::exp(-2.5), 0.0);
+      if (height == 0) continue;
+      for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+          const double from = std::hypot(x + 0.5 - side / 2.0 - dx, y + 0.5 - side / 2.0 - dy);
+          const double inside = height * std::clamp(radius - from + 0.5, 0.0, 1.0);
+          out[size(y * side + x)] += inside;
+          whole += inside;
+        }
+      }
+    }
+  }
+  for (double& value : out) value /= whole;
+  return out;
+}
+
+TEST(SplatProject, DiscsAreWhatThePrefilterLeavesOfAnEvenDisc) {
+  for (const double aperture : {80.0, 160.0, 500.0}) {
+    DefraySplatParams p = view_of(256, 4, aperture);
+    const double coc = std::abs(splat_coc_px(p, 2));
+    const int side = 2 * static_cast<int>(coc + 6);
+    p.width = p.height = word(side);
+    p.centre_x = p.centre_y = static_cast<float>(side) / 2;
+    const double area = 1e-4;
+    const DefraySplat s = project(surfel(0, 0, 2, {0, 0, area}, 1e-9), p);
+    ASSERT_GT(s.disc_top, 0) << coc;
+    const Plane alpha = device().splat_resolve({s}, p).colour[3];
+    const std::vector<double> exact = blurred_disc(side, coc, 1);
+    const double covers = area * p.focal_px * p.focal_px / 4 / 1.02;  // px, at distance 2
+    double sum = 0, wrong = 0, all = 0;
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+      const double value = alpha[i] / covers;
+      sum += value;
+      wrong += (value - exact[i]) * (value - exact[i]);
+      all += exact[i] * exact[i];
+    }
+    EXPECT_NEAR(sum, 1, 2e-3) << coc;
+    EXPECT_LT(std::sqrt(wrong / all), 0.035) << coc;
+  }
+  // Nearly in focus a Gaussian is nearer.
+  EXPECT_EQ(project(surfel(0, 0, 0.1, {0, 0, 1e-6}, 1e-9), view_of(256, 4, 80)).disc_top, 0);
+}
+
+TEST(SplatProject, ASlantedDiscLeansTowardsWhereTheLensSeesMoreOfIt) {
+  // At distance 2 before the focus at 4, turned by 60 degrees about y: how much of it a lens point
+  // sees, over the centre.
+  const DefraySplatParams p = view_of(256, 4, 500);
+  const double normal[] = {std::sin(M_PI / 3), 0, std::cos(M_PI / 3)}, coc = splat_coc_px(p, 2);
+  const DefraySplat s = project(surfel(0, 0, 2, {normal[0] * 1e-6, 0, normal[2] * 1e-6}, 1e-12), p);
+  const double of_rim = 0.25;  // m to the right
+  const double more = (of_rim * normal[0] + 2 * normal[2]) / (2 * normal[2]);
+  // Before the focus what the right side sees goes to the left.
+  EXPECT_NEAR(1 + coc * static_cast<double>(s.lean_x) / static_cast<double>(s.amplitude), more,
+              2e-3);
+  EXPECT_NEAR(s.lean_y, 0, 1e-6 * std::abs(static_cast<double>(s.lean_x)));
+  // Turned by 95 degrees the centre sees it from behind, part of the lens does not.
+  const auto turned = [&](double degrees) {
+    const double turn = degrees / 180 * M_PI;
+    return project(surfel(0, 0, 2, {1e-6 * std::sin(turn), 0, 1e-6 * std::cos(turn)}, 1e-12), p);
+  };
+  EXPECT_FALSE(is_culled(turned(95)));
+  EXPECT_LT(turned(95).amplitude, 0);
+  EXPECT_TRUE(is_culled(turned(100)));  // tan 8 degrees: 0.25 / 2
 }
 
 /// An ellipse x^T V^-1 x = 1 holds another, touching it, or not.
@@ -109,7 +177,7 @@ double area_of(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[2] - 
 
 TEST(SplatProject, CircumellipseIsTheSmallestAroundLowPassAndBlur) {
   // A flat low-pass at the axis: its variance in the picture is scale^2 times its own.
-  const DefraySplatParams p = view_of(256, 4, 100);
+  const DefraySplatParams p = view_of(256, 4, 100, gaussians());
   const double scale = 256 * 50.0 / 36 / 2,
                blur = std::pow(splat_coc_px(p, 2), 2) / (2 * std::log(4));
   for (int i = 0; i < 200; ++i) {
@@ -145,7 +213,7 @@ TEST(SplatProject, CircumellipseIsTheSmallestAroundLowPassAndBlur) {
 
 /// A scene and a camera that turn together see the same: the ellipse turns with them.
 TEST(SplatProject, CircumellipseTurnsWithTheLowPass) {
-  const DefraySplatParams p = view_of(256, 4, 100);
+  const DefraySplatParams p = view_of(256, 4, 100, gaussians());
   const double scale = 256 * 50.0 / 36 / 2, blur = std::pow(splat_coc_px(p, 2), 2);
   const auto made_of = [&](double turn) {
     const double longer = 2 * blur, shorter = 0.1 * blur, c = std::cos(turn), s = std::sin(turn);

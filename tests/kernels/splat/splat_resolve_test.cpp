@@ -14,6 +14,7 @@ DefraySplatParams picture(int width, int height, bool averages = false) {
   p.height = word(height);
   p.cutoff = 2.5f;
   p.averages = averages;
+  p.layers = 100;
   return p;
 }
 
@@ -120,21 +121,58 @@ TEST(SplatResolve, GaussiansAreExponentialsToTheirCutOff) {
   }
 }
 
-TEST(SplatResolve, DiscsAreEvenAndHoldTheirLight) {
+TEST(SplatResolve, DiscsAreEvenInsideAndFallTowardsTheirEnd) {
   DefraySplat s = splat_at(20, 20, 1, 3, 0.1f, 1);
-  constexpr float radius = 9.3f;
-  s.conic_xx = s.conic_yy = 1 / (radius * radius);
-  s.disc_px = radius;
+  // t / D with D = 100 and T = 300: even within 14.1 px, nothing from 17.3 on.
+  s.conic_xx = s.conic_yy = 0.01f;
+  s.disc_top = 3;
+  s.disc_bulge = 1.5f;
   s.amplitude = 0.5f;
   s.first_x = s.first_y = 0;
   s.end_x = s.end_y = 41;
-  const SplatPlanes planes = device().splat_resolve({s}, picture(41, 41));
-  double sum = 0;
-  for (const float value : planes.colour[0]) sum += value;
-  EXPECT_NEAR(sum / (0.5 * M_PI * (radius * radius + 1.0 / 12)), 1, 2e-3);
-  EXPECT_EQ(planes.colour[0][20 * 41 + 20], 0.5f);
-  EXPECT_EQ(planes.colour[0][20 * 41 + 28], 0.5f);
-  EXPECT_EQ(planes.colour[0][20 * 41 + 30], 0);
+  DefraySplatParams p = picture(41, 41);
+  const auto row = [&] {
+    const SplatPlanes planes = device().splat_resolve({s}, p);
+    return std::vector<float>(planes.colour[0].begin() + 20 * 41,
+                              planes.colour[0].begin() + 21 * 41);
+  };
+  const std::vector<float> even = row();
+  for (int x = 0; x < 41; ++x) {
+    const double left = std::clamp(3 - 0.01 * (x - 20) * (x - 20), 0.0, 1.0);
+    EXPECT_NEAR(even[size(x)], 0.5 * left * left * (1 + 1.5 * (1 - left)), 1e-6) << x;
+  }
+  EXPECT_EQ(even[20], 0.5f);
+  EXPECT_EQ(even[34], 0.5f);
+  EXPECT_EQ(even[38], 0);
+  // It leans, and is seen from one side up to where that is 0; from both sides beyond.
+  s.lean_x = 0.05f;
+  p.one_sided = 1;
+  const std::vector<float> leaning = row();
+  EXPECT_FLOAT_EQ(leaning[25], 0.75f);
+  EXPECT_FLOAT_EQ(leaning[15], 0.25f);
+  EXPECT_EQ(leaning[9], 0);
+  p.one_sided = 0;
+  EXPECT_NEAR(row()[8], 0.1, 1e-6);
+}
+
+TEST(SplatResolve, LayersAreTheNearestSurfacesAndTheRestIsCounted) {
+  std::vector<DefraySplat> splats;
+  for (const float z : {3.0f, 4.0f, 5.0f}) splats.push_back(splat_at(1, 1, 1, z, 0.1f, z, 0.5f));
+  DefraySplatParams p = picture(3, 3);
+  const auto drawn = [&](int layers) {
+    p.layers = layers;
+    return device().splat_resolve(in_order(splats), p);
+  };
+  EXPECT_FLOAT_EQ(drawn(3).colour[3][4], 0.875f);
+  EXPECT_EQ(drawn(3).fragments[4], 3);
+  EXPECT_FLOAT_EQ(drawn(2).colour[3][4], 0.75f);
+  EXPECT_FLOAT_EQ(drawn(2).colour[0][4], 1.5f + 0.5f * 2);
+  EXPECT_EQ(drawn(2).fragments[4], -2);
+  EXPECT_EQ(drawn(1).fragments[4], -1);
+  EXPECT_EQ(drawn(1).fragments[0], 0);
+  // What hides all behind it leaves nothing out.
+  splats[1].a = 1;
+  EXPECT_EQ(drawn(2).fragments[4], 2);
 }
 
 /// Splats of all sizes over a picture of this size.
@@ -198,10 +236,19 @@ const FaultRows faults{
     {"splat_resolve",
      "the last surface forgotten",
      {"end_layer(&r, ~r.opaque, p.averages);\n\n", "\n"}},
-    {"splat_resolve", "no cut-off", {"form < p.cutoff);", "form < 80.0f);"}},
     {"splat_resolve",
-     "discs without an edge",
-     {"* s->disc_px + 0.5f, 0.0f, 1.0f)", "* s->disc_px + 1.0f, 0.0f, 1.0f)"}},
+     "one surface less than asked for",
+     {"(r->ended > p.layers)", "(r->ended >= p.layers)"}},
+    {"splat_resolve", "surfaces left out in silence", {"r->spilled |= spills;", ""}},
+    {"splat_resolve",
+     "discs as even as the bulge",
+     {"(1.0f + s->disc_bulge * (1.0f - left))", "1.0f"}},
+    {"splat_resolve", "cones", {"(left * left *", "(left *"}},
+    {"splat_resolve", "discs that lean the other way", {"+ s->lean_y * dy", "- s->lean_y * dy"}},
+    {"splat_resolve",
+     "surfaces with one side seen from behind",
+     {"p.one_sided ? larger(leant, 0.0f) : ", ""}},
+    {"splat_resolve", "no cut-off", {"form < p.cutoff);", "form < 80.0f);"}},
     {"splat_resolve",
      "pixels beside the splat's",
      {"(q->column >= s->first_x) & (q->column < s->end_x)", "(q->column >= s->first_x)"}},
@@ -228,9 +275,7 @@ const FaultRows faults{
     {"splat_resolve",
      "a whole square's third row is its last",
      {"to + 2 * (size_t)p.width", "to + 3 * (size_t)p.width"}},
-    {"splat_resolve",
-     "every second splat forgotten",
-     {"add_splat(&r, next, next_weight, p.averages);", ""}},
+    {"splat_resolve", "every second splat forgotten", {"add_splat(&r, next, next_weight, p);", ""}},
     {"splat_resolve", "the second is the first", {"list[j < end ? j : i]", "list[i]"}},
     {"splat_resolve", "every second splat twice", {"list, j + 1, end", "list, j, end"}},
     {"splat_resolve",
