@@ -10,6 +10,7 @@ namespace defray::perf {
 namespace {
 
 constexpr const char* source = R"CLC(
+#pragma OPENCL FP_CONTRACT OFF  // a weight that is just 0 for one and not the other decides what meets
 #define MOST 512
 
 __kernel void rasterise(const DefraySplatParams p, __global const DefraySplat* splats,
@@ -21,10 +22,15 @@ __kernel void rasterise(const DefraySplatParams p, __global const DefraySplat* s
   for (int y = s.first_y; y < s.end_y; ++y) {
     for (int x = s.first_x; x < s.end_x; ++x) {
       const float dx = x + 0.5f - s.x, dy = y + 0.5f - s.y;
-      const float form = s.conic_xx * dx * dx + 2.0f * s.conic_xy * dx * dy + s.conic_yy * dy * dy;
-      if (form >= p.cutoff) continue;
+      const float form = (s.conic_xx * dx + 2.0f * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
+      const float left = clamp(s.disc_top - form, 0.0f, 1.0f);
+      const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
+      const float weight = (p.one_sided ? leant : fabs(leant)) *
+                           (s.disc_top > 0.0f ? left * left * (1.0f + s.disc_bulge * (1.0f - left))
+                                              : form < p.cutoff ? exp(-form) - p.edge : 0.0f);
+      if (!(weight > 0.0f)) continue;
       const int at = atomic_inc(count);
-      weights[at] = s.amplitude * (exp(-form) - p.edge);
+      weights[at] = weight;
       splat_of[at] = i;
       next[at] = atomic_xchg(heads + y * (int)p.width + x, at);
     }

@@ -10,17 +10,19 @@ namespace {
 TEST_F(SplatCommand, EveryOptionChangesThePicture) {
   const std::uint64_t plain = hash(wide_lens);
   for (const std::string option :
-       {"--lod off", "--cutoff 3", "--psf disc", "--merge average", "--two-sided",
+       {"--cutoff 3", "--psf gaussian", "--merge average", "--layers 1", "--two-sided",
         "--transparency 0.5", "--focus 3", "--from 1,1,4", "--look-at 0.3,0,0", "--up 1,0,0",
         "--fov 20", "--sensor-width 30", "--sensor-height 20", "--fov 20 --sensor-fit vertical",
         "--pixel-scale 3000", "--unit ft", "--scale 2", "--perceived-distance 1", "--max-coc 2"}) {
     EXPECT_NE(hash(wide_lens + option), plain) << option;
   }
   EXPECT_NE(hash("--fstop 0.05"), hash("--fstop 0.1"));
+  EXPECT_NE(hash("--fstop 0.01 --lod off"), hash("--fstop 0.01"));
   EXPECT_EQ(hash("--fstop 0.1"), hash("--fstop 0.1 --focal-length 50"));
   EXPECT_EQ(hash("--fstop 0.1 --fov 90"), hash("--fstop 0.1 --focal-length 18"));
   EXPECT_EQ(hash(wide_lens + "--device reference"), plain);
   EXPECT_EQ(hash(wide_lens + "--quiet"), plain);
+  EXPECT_EQ(hash(wide_lens + "--layers 1000"), plain);
 }
 
 TEST_F(SplatCommand, ChannelsAndFormats) {
@@ -66,6 +68,21 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
             json::array({nothing}));
   EXPECT_TRUE(sharp["notes"].empty() && sharp["fragments"].is_number_integer());
   EXPECT_TRUE(sharp["render_s"] > 0.0 && sharp["stages_s"]["resolve"] >= 0.0);
+}
+
+TEST_F(SplatCommand, TheReportSaysWhatLayersLeaveOut) {
+  const std::string mask =
+      "splat --model mask --model-points 3000 --size 60x60 -o o.exr " + wide_lens;
+  EXPECT_EQ(json::parse(defray(folder_, mask + "--json").out)["spilled"], 0);
+  const json one = json::parse(defray(folder_, mask + "--layers 1 --json").out);
+  const std::string note =
+      one["spilled"].dump() +
+      " pixels have more than --layers 1 surfaces to be seen: what lies behind "
+      "those is left out";
+  EXPECT_GT(one["spilled"], 100);
+  EXPECT_EQ(one["notes"].back(), note);
+  const Result text = defray(folder_, mask + "--layers 1");
+  EXPECT_NE(text.out.find("  note: " + note + "\n"), std::string::npos) << text.out;
 }
 
 /// In the words of render.
@@ -249,6 +266,8 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   refused("splat --model figure --size 3 -o o.exr " + wide_lens, 2, {"--size '3'", "1920x1080"});
   refused("splat --model figure --size 0x4 -o o.exr " + wide_lens, 2, {"0x4", "1 to 16384"});
   refused(figure + "-o o.exr --cutoff 9 " + wide_lens, 2, {"--cutoff is 9"});
+  refused(figure + "-o o.exr --layers -1 " + wide_lens, 2,
+          {"--layers is -1: allowed are 1 on, and 0 for all"});
   refused(figure + "-o o.exr --transparency 1 " + wide_lens, 2, {"--transparency is 1"});
   refused(figure + "-o o.exr --psf dics " + wide_lens, 2, {"--psf", "Did you mean 'disc'?"});
   refused(figure + "-o o.exr --turntable 3 " + wide_lens, 2,
