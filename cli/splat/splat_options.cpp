@@ -110,7 +110,9 @@ OptionGroup splat_rows(SplatCommand& job) {
         "Nodes of a hierarchy stand for points that blur, or their size, hides"},
        {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 1 to 8"},
        {"--psf", word(s.psf, psf_words),
-        "Light over the circle of confusion: the Gaussian nearest to it, or evenly"},
+        "Light over the circle of confusion: evenly, as the lens's points see it, or as the "
+        "paper's "
+        "Gaussian"},
        {"--merge", word(s.merge, merge_words),
         "Surfaces too close to be told apart: the nearest counts, or, as the paper has it, their "
         "average"},
