@@ -39,7 +39,8 @@ PointCloud white_figure() {
 
 TEST(SplatPicture, AClosedSurfaceCoversItsInsideAtEveryApertureAndCutOff) {
   const Hierarchy tree = tree_of(white_figure());
-  for (const double aperture : {0.0, 100.0, 400.0, 1200.0}) {
+  for (const double aperture :
+       {0.0, 30.0, 60.0, 100.0, 140.0, 180.0, 220.0, 300.0, 400.0, 800.0, 1200.0, 2000.0}) {
     for (const double cutoff : {2.0, 2.5, 3.0}) {
       for (const SplatPsf psf : {SplatPsf::gaussian, SplatPsf::disc}) {
         SplatSettings settings;
