@@ -83,7 +83,7 @@ class View {
 
   static bool is_coherent(const HierarchyNode& n) {
     const double spanned = length({n.splat.area_x, n.splat.area_y, n.splat.area_z});
-    return spanned >= least_coherence * static_cast<double>(n.whole_area);
+    return spanned >= least_coherence * static_cast<double>(n.whole_area) && n.is_one_sheet;
   }
 
   /// The plane through the eye and a side of the picture, `edge` px from the axis.

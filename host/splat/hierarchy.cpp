@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/vec3.h"
+#include "splat/cloud_points.h"
 
 namespace defray {
 namespace {
@@ -81,6 +82,40 @@ struct Moments {
   }
 };
 
+/// Two sheets behind each other have twice the area of what their places lie in, and where they are
+/// narrow, or one has few of the points, are thick beside that. A cap of a sphere as wide as
+/// cut.cpp lets one node stand for has 0.02.
+constexpr double most_sheets = 1.5, most_thickness = 0.03;
+
+/// Whether a node's points, of so much area in all, lie on one sheet, by the covariance of their
+/// places. Each stands for a square of its own.
+bool is_one_sheet(const DefraySplatNode& n, double area) {
+  const double own = n.variance / (12 * basis_deviation * basis_deviation);
+  const double xx = n.low_xx + own, yy = n.low_yy + own, zz = n.low_zz + own;
+  const double xy = n.low_xy, xz = n.low_xz, yz = n.low_yz;
+  const auto between = [](const Vec3& v, const Vec3& x, const Vec3& y, const Vec3& z) {
+    return v.x * dot(v, x) + v.y * dot(v, y) + v.z * dot(v, z);
+  };
+  const Vec3 normal = normalized(area_of(n));
+  const double thickness = between(normal, {xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}) - own;
+  // Across the normal: by the adjugate.
+  const double determinant =
+      between(normal, {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy},
+              {xz * yz - xy * zz, xx * zz - xz * xz, xy * xz - xx * yz},
+              {xy * yz - xz * yy, xy * xz - xx * yz, xx * yy - xy * xy});
+  // A rectangle's, as of all that kd-trees have.
+  const double rectangle = 12 * std::sqrt(std::max(determinant, 0.0));
+  return area <= most_sheets * rectangle &&
+         thickness <= most_thickness * (xx + yy + zz - thickness);
+}
+
+/// What is the same of leaves and of what is above them.
+void set_node(const Moments& sum, const Vec3& origin, HierarchyNode& made) {
+  made.splat = sum.node(origin);
+  made.whole_area = static_cast<float>(sum.area);
+  made.is_one_sheet = is_one_sheet(made.splat, sum.area);
+}
+
 /// How many nodes there are above so many points.
 std::uint32_t nodes_above(std::uint32_t points) {
   if (points < leaf_points) return 1;
@@ -144,13 +179,12 @@ class Builder {
     const Vec3 origin = place_of(points.front());
     Moments sum;
     for (const DefraySplatNode& p : points) sum.add(p, length(area_of(p)), origin, one_sided_);
-    made.splat = sum.node(origin);
+    set_node(sum, origin, made);
     double radius = 0;
     for (const DefraySplatNode& p : points) {
       radius = std::max(radius, length(place_of(p) - place_of(made.splat)));
     }
     made.radius = static_cast<float>(radius);
-    made.whole_area = static_cast<float>(sum.area);
   }
 
   void join(HierarchyNode& made, const HierarchyNode& left, const HierarchyNode& right) const {
@@ -159,14 +193,13 @@ class Builder {
     for (const HierarchyNode* child : {&left, &right}) {
       sum.add(child->splat, static_cast<double>(child->whole_area), origin, one_sided_);
     }
-    made.splat = sum.node(origin);
+    set_node(sum, origin, made);
     double radius = 0;
     for (const HierarchyNode* child : {&left, &right}) {
       radius = std::max(radius, length(place_of(child->splat) - place_of(made.splat)) +
                                     static_cast<double>(child->radius));
     }
     made.radius = static_cast<float>(radius);
-    made.whole_area = static_cast<float>(sum.area);
   }
 
   Hierarchy& tree_;

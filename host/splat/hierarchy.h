@@ -10,9 +10,10 @@
 namespace defray {
 
 struct HierarchyNode {
-  DefraySplatNode splat;  ///< What it is drawn as.
-  float radius;           ///< Of a sphere around its place that holds all its points.
-  float whole_area;       ///< Of its points; the splat's is as long where they are flat.
+  DefraySplatNode splat;       ///< What it is drawn as.
+  float radius;                ///< Of a sphere around its place that holds all its points.
+  float whole_area;            ///< Of its points; the splat's is as long where they are flat.
+  std::uint32_t is_one_sheet;  ///< Its points do not lie behind each other.
   std::uint32_t first_point, end_point;
   std::uint32_t next;  ///< The node after all that is below this one.
 };

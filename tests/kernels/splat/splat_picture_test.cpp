@@ -99,7 +99,7 @@ TEST(SplatPicture, ATipOfFewPointsCoversWhatIsBehind) {
 }
 
 TEST(SplatPicture, IrregularPointsCoverTheirSurface) {
-  // Random places on a wall: what weighing is for.
+  // A jittered grid: what weighing is for.
   PointCloud cloud = wall(100, 1, 0, {1, 1, 1});
   for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
     Random random(static_cast<int>(i), 0, 3);
@@ -148,6 +148,37 @@ TEST(SplatPicture, LevelsOfDetailShowWhatPointsShow) {
       EXPECT_GT(compare(a.colour, b.colour, 128).psnr_srgb_db, 38) << name << ", " << aperture;
     }
   }
+}
+
+TEST(SplatPicture, SheetsBehindEachOtherStayApart) {
+  // White before black, closer than their blur is wide: no node stands for points of both.
+  const Hierarchy tree = tree_of(both(wall(120, 1, 0, {1, 1, 1}), wall(120, 1, -0.05, {0, 0, 0})));
+  for (const double focus : {3.5, 6.5}) {
+    CameraPose pose;
+    pose.from = {0, 0, 5};
+    Lens lens;
+    lens.aperture_diameter_mm = 1000;
+    lens.focus_distance_units = focus;
+    SplatSettings settings;
+    settings.width = settings.height = 256;
+    DefraySplatParams blurred = splat_params(pose, {}, lens, settings);
+    blurred.one_sided = 1;
+    SplatReport report;
+    const SplatPlanes planes = draw_splats(device(), tree, blurred, true, 0, report);
+    EXPECT_LT(report.drawn, 20000u);
+    EXPECT_NEAR(mean_over(planes.colour[0], 256, 110, 146, 110, 146), 1, 0.01) << focus;
+  }
+}
+
+TEST(SplatPicture, APointByItselfIsADiscOfItsRadius) {
+  PointCloud cloud = wall(1, 0.5, 0, {1, 1, 1});
+  cloud.radii = {0.05f};
+  const DefraySplatParams p = view_of(128, 4, 0);
+  const Plane alpha = draw(tree_of(cloud), p).colour[3];
+  double sum = 0;
+  for (const float value : alpha) sum += static_cast<double>(value);
+  const double radius_px = 0.05 * static_cast<double>(p.focal_px) / 4;
+  EXPECT_NEAR(sum / (M_PI * radius_px * radius_px), 1, 0.02);
 }
 
 TEST(SplatPicture, WhatIsOutsideIsLeftOutAndNothingElse) {
