@@ -30,10 +30,10 @@ typedef struct {
 typedef struct {
   float x, y;                                 ///< Centre, px.
   float conic_xx, conic_xy, conic_yy;         ///< 1/2 d^T W^-1 d; of discs d^T (D W)^-1 d.
-  float amplitude;                            ///< At the centre, or, of discs, where it would be 1.
+  float amplitude;                            ///< At the centre.
   float disc_top;                             ///< 0: Gaussian; else where a disc's conic ends.
   float disc_bulge;                           ///< How steeply a disc falls: 0 to 2.
-  float lean_x, lean_y;                       ///< Of a disc's amplitude, per px.
+  float lean_x, lean_y;                       ///< Of the amplitude, per px.
   float z;                                    ///< Depth, scene units.
   float z_near, z_far;                        ///< Of the basis function.
   DEFRAY_INT first_x, end_x, first_y, end_y;  ///< Pixels within the cut-off; none: culled.

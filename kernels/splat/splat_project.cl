@@ -154,35 +154,6 @@ INLINED floats shape_splats(const DefraySplatParams p, const SplatVariances vari
   return blur / root;
 }
 
-// 0 where it is not known.
-INLINED floats known(const floats value, const ints is_known) {
-  return select((floats)(0.0f), value, is_known);
-}
-
-// Of what is not seen nothing is kept but its depths, of what covers nothing no shape.
-INLINED void cull(SplatLanes* s, const ints is_seen, const ints covers) {
-  s->x = known(s->x, is_seen);
-  s->y = known(s->y, is_seen);
-  s->r = known(s->r, is_seen);
-  s->g = known(s->g, is_seen);
-  s->b = known(s->b, is_seen);
-  s->a = known(s->a, is_seen);
-  const ints has_shape = is_seen & covers;
-  s->conic_xx = known(s->conic_xx, has_shape);
-  s->conic_xy = known(s->conic_xy, has_shape);
-  s->conic_yy = known(s->conic_yy, has_shape);
-  s->amplitude = known(s->amplitude, has_shape);
-  s->disc_top = known(s->disc_top, has_shape);
-  s->disc_bulge = known(s->disc_bulge, has_shape);
-  s->lean_x = known(s->lean_x, has_shape);
-  s->lean_y = known(s->lean_y, has_shape);
-  const ints has_pixels = has_shape & IS(s->first_x < s->end_x) & IS(s->first_y < s->end_y);
-  s->first_x &= has_pixels;
-  s->end_x &= has_pixels;
-  s->first_y &= has_pixels;
-  s->end_y &= has_pixels;
-}
-
 // How far the basis function reaches towards the camera: no less than its own width, or neighbours
 // on a curved surface that faces the camera would lie apart.
 INLINED floats half_depth_of(const DefraySplatParams p, const SplatNodes* n,

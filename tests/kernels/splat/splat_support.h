@@ -59,4 +59,27 @@ inline SplatPlanes draw(const Hierarchy& tree, const DefraySplatParams& p, bool 
   return draw_splats(device(), tree, p, lod, 0, ignored);
 }
 
+/// A surfel of a cloud, area and variance given.
+inline DefraySplatNode surfel(double x, double y, double z, std::array<double, 3> area,
+                              double variance) {
+  DefraySplatNode n{};
+  n.x = static_cast<float>(x);
+  n.y = static_cast<float>(y);
+  n.z = static_cast<float>(z);
+  n.area_x = static_cast<float>(area[0]);
+  n.area_y = static_cast<float>(area[1]);
+  n.area_z = static_cast<float>(area[2]);
+  n.variance = static_cast<float>(variance);
+  n.r = n.g = n.b = n.a = 1;
+  return n;
+}
+
+inline DefraySplat project(const DefraySplatNode& node, const DefraySplatParams& p) {
+  const auto splats = device().splat_project({node}, p);
+  EXPECT_EQ(splats.size(), 1u);
+  return splats.front();
+}
+
+inline bool is_culled(const DefraySplat& s) { return s.first_x == s.end_x && s.first_y == s.end_y; }
+
 }  // namespace defray::test
