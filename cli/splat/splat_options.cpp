@@ -111,15 +111,13 @@ OptionGroup splat_rows(SplatCommand& job) {
        {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 1 to 8"},
        {"--psf", word(s.psf, psf_words),
         "Light over the circle of confusion: evenly, as the lens's points see it, or as the "
-        "paper's "
-        "Gaussian"},
+        "paper's Gaussian"},
        {"--merge", word(s.merge, merge_words),
         "Surfaces too close to be told apart: the nearest counts, or, as the paper has it, their "
         "average"},
        {"--layers", value(s.layers),
         "Surfaces that a pixel is made of at most, the nearest (the depth of its A-buffer); 0: "
-        "all. "
-        "A note says what it leaves out"},
+        "all. A note says what it leaves out"},
        {"--two-sided", flag(s.two_sided),
         "Surfaces are seen from behind, too (always where normals are estimated)"},
        {"--transparency", value(s.transparency), "What all points let through, 0 to below 1"}}};

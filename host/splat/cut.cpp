@@ -18,8 +18,8 @@ namespace {
 // widths apart, where Gaussians of 0.6 CoC radii then add up to 1 within 1 % (c = 2.5). Of discs
 // narrower_disc pixels less: `figure` at 120 to 1200 mm is then covered within 0.9 % (without, or
 // with 1 pixel, 4.6 and 1.5 %), and at 1200 mm its picture takes less time than the sharp one.
-// Widths of 0.7 radii are closer to every point by itself (plane, figure, crossing at 1200
-// mm: 43.4, 54.7, 48.1 dB, not 43.2, 51.1, 41.5), and take 1.2 times as long.
+// Widths of 0.7 radii are closer to every point by itself (plane, figure at 1200 mm: 43.4,
+// 54.7 dB, not 43.0, 51.7) and to 200 views (crossing: 48.0, not 41.5), and take 1.2 times as long.
 constexpr double widest_px = 1, narrower_disc_px = 2;
 /// Areas of a node's points that point apart by more than this hide each other.
 constexpr double least_coherence = 0.9;

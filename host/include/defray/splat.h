@@ -62,7 +62,8 @@ struct SplatReport {
   std::size_t points = 0;  ///< Of the cloud.
   std::size_t drawn = 0;   ///< Nodes of the hierarchy that stood for them.
   std::size_t seen = 0;    ///< Of those, splats with pixels.
-  double from_behind = 0;  ///< Share of those drawn that are left out as seen from behind.
+  /// Share of those drawn that the lens's centre sees from behind: left out where all of it does.
+  double from_behind = 0;
   /// On average those lie before the ones that are drawn: of closed surfaces normals point inwards.
   bool is_inside_out = false;
   double fragments = 0;     ///< Of all pixels, up to where nothing shines through.
