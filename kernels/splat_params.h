@@ -23,6 +23,7 @@ typedef struct {
   float variance;                ///< Of the basis function, along the surface: V_r.
   /// V_q: the covariance of the places that a node stands for; 0 of a point.
   float low_xx, low_xy, low_xz, low_yy, low_yz, low_zz;
+  float cover;       ///< Where it is sharp it covers so many times its area, so that no holes show.
   float r, g, b, a;  ///< Premultiplied.
 } DefraySplatNode;
 
@@ -84,7 +85,7 @@ typedef struct {
 } DefraySplatTileParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefraySplatNode) == 68);
+static_assert(sizeof(DefraySplatNode) == 72);
 static_assert(sizeof(DefraySplat) == 84);
 static_assert(sizeof(DefraySplatParams) == 136);
 static_assert(sizeof(DefraySplatTileParams) == 40);

@@ -156,8 +156,10 @@ float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen
                      basis * (dot(to_y, to_y) - over_y * over_y)};
   const Variance w{own.xx + kept + added.all.xx, own.xy + added.all.xy,
                    own.yy + kept + added.all.yy};
-  return set_shape(p, w, determinant_of(own, basis * seen.spread, kept, added), seen.size, blur,
-                   is_disc, s);
+  const float determinant = determinant_of(own, basis * seen.spread, kept, added);
+  const float share = set_shape(p, w, determinant, seen.size, blur, is_disc, s);
+  s.amplitude *= 1 + (n.cover - 1) * (1 - share * share);
+  return share;
 }
 
 /// How much is seen, from an amplitude of 1: from the lens's centre, or, with discs, from the point

@@ -10,10 +10,6 @@ namespace {
 /// The nearest of a square grid's point, and their mean distance in sides of its squares.
 constexpr std::size_t close_count = 8;
 constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
-/// A point's neighbours lie around it; where their mean is further from it than this, in units of
-/// the farthest's distance, the surface ends, and half of what a basis function reaches is beyond
-/// where it is as far as at a straight edge.
-constexpr double inner_offset = 0.22, edge_offset = 0.42;
 
 }  // namespace
 
@@ -38,23 +34,6 @@ Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point) {
   const Vec3 line = values[0] > 0 ? Vec3{vectors(0, 0), vectors(0, 1), vectors(0, 2)} : Vec3{};
   const Vec3 towards = std::abs(line.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
   return normalized(towards - line * dot(line, towards));
-}
-
-double covered_share(const CloudPoints& cloud, std::size_t point) {
-  const auto around = cloud.around.of(point);
-  Vec3 mean{};
-  double farthest = 0;
-  for (const std::uint32_t i : around) {
-    const Vec3 d = cloud.place(i) - cloud.place(point);
-    mean = mean + d;
-    farthest = std::max(farthest, length(d));
-  }
-  if (!(farthest > 0)) return 1;
-  // Along the surface: over a tip all neighbours lie on one side of it.
-  const Vec3& normal = cloud.points[point].normal;
-  mean = mean - normal * dot(mean, normal);
-  const double offset = length(mean) / static_cast<double>(around.size()) / farthest;
-  return 1 - 0.5 * std::clamp((offset - inner_offset) / (edge_offset - inner_offset), 0.0, 1.0);
 }
 
 double spacing_of(const CloudPoints& cloud, std::size_t point) {

@@ -17,11 +17,16 @@ inline constexpr std::size_t neighbour_count = 20;
 /// 0.6.
 inline constexpr double basis_deviation = 0.8;
 
+/// Places beside a point where sums of basis functions are looked at.
+inline constexpr std::size_t site_count = 7;
+
 /// What is known of a point.
 struct CloudPoint {
   Vec3 normal;         ///< Unit.
   double spacing = 0;  ///< Radius of the disc that it stands for.
   double covered = 1;  ///< Share of the basis function's reach where there is a surface.
+  /// How far from it sums of basis functions are looked at, in spacings; in cells.h's directions.
+  std::array<float, site_count> sites{};
 };
 
 /// All points, with those around them.
@@ -38,14 +43,17 @@ struct CloudPoints {
 /// one across it, along z if it can be.
 Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point);
 
-/// Share of a basis function's reach where there is a surface, from where the neighbours lie.
-double covered_share(const CloudPoints& cloud, std::size_t point);
-
 /// Mean distance of the closest points that are not in the same place, in sides of a square grid's
 /// squares; 0 if all are in one place.
 double spacing_of(const CloudPoints& cloud, std::size_t point);
 
-/// The areas with which basis functions add up to 1, or a little more, all over the surface.
-std::vector<double> weighed_areas(const CloudPoints& cloud, const Progress& progress);
+/// What a point stands for.
+struct PointWeight {
+  double area;   ///< With which basis functions add up to 1 on average, and DEFRAY_SPLAT_AIM.
+  double cover;  ///< Times this they add up to no less anywhere.
+};
+
+/// Of all points.
+std::vector<PointWeight> weigh(const CloudPoints& cloud, const Progress& progress);
 
 }  // namespace defray

@@ -35,7 +35,7 @@ struct Moments {
   double area = 0;
   Vec3 spanned{}, place{};
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  double variance = 0, r = 0, g = 0, b = 0, a = 0;
+  double variance = 0, cover = 0, r = 0, g = 0, b = 0, a = 0;
 
   /// Places from `origin`; `whole` is the area, of which `spanned` is what shows.
   void add(const DefraySplatNode& n, double whole, const Vec3& origin, bool one_sided) {
@@ -51,6 +51,7 @@ struct Moments {
     yz += whole * (p.y * p.z + n.low_yz);
     zz += whole * (p.z * p.z + n.low_zz);
     variance += whole * n.variance;
+    cover += whole * n.cover;
     r += whole * n.r;
     g += whole * n.g;
     b += whole * n.b;
@@ -75,6 +76,7 @@ struct Moments {
             covariance(yy, mean.y, mean.y),
             covariance(yz, mean.y, mean.z),
             covariance(zz, mean.z, mean.z),
+            static_cast<float>(cover / area),
             static_cast<float>(r / area),
             static_cast<float>(g / area),
             static_cast<float>(b / area),

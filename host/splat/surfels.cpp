@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "splat/cells.h"
 #include "splat/cloud_points.h"
 #include "splat/placed_points.h"
 
@@ -28,15 +29,19 @@ void check_counts(const PointCloud& cloud) {
   check("alpha", cloud.alpha.size());
 }
 
-/// Spacings, given or from the points around; of a single point there are none around.
-void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t>& kept,
-                  CloudPoints& cloud, Surfels& out) {
+/// Spacings, given or from the points around; of a single point there are none around. Returns
+/// which are given.
+std::vector<std::uint8_t> set_spacings(const PointCloud& given_cloud,
+                                       const std::vector<std::uint32_t>& kept, CloudPoints& cloud,
+                                       Surfels& out) {
   std::vector<CloudPoint>& points = cloud.points;
+  std::vector<std::uint8_t> has_radius(points.size());
   std::size_t without = 0;
   std::vector<double> known;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float given = given_cloud.radii.empty() ? 0 : given_cloud.radii[kept[i]];
     const bool is_given = std::isfinite(given) && given > 0;
+    has_radius[i] = is_given;
     if (is_given && given > most_units) {
       fail(ErrorKind::input, "point {} has the radius {:g}: allowed are up to {:g}", kept[i], given,
            most_units);
@@ -65,6 +70,7 @@ void set_spacings(const PointCloud& given_cloud, const std::vector<std::uint32_t
   for (CloudPoint& p : points) {
     if (!(p.spacing > 0)) p.spacing = known[known.size() / 2];
   }
+  return has_radius;
 }
 
 /// What is estimated has no outside: that of the given ones around it.
@@ -124,17 +130,18 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
 }
 
 DefraySplatNode surfel_of(const PointCloud& cloud, std::uint32_t index, const CloudPoint& point,
-                          double area) {
+                          const PointWeight& weight) {
   DefraySplatNode n{};
   const auto& place = cloud.positions[index];
   n.x = place[0];
   n.y = place[1];
   n.z = place[2];
-  const Vec3 spanned = point.normal * area;
+  const Vec3 spanned = point.normal * weight.area;
   n.area_x = static_cast<float>(spanned.x);
   n.area_y = static_cast<float>(spanned.y);
   n.area_z = static_cast<float>(spanned.z);
   n.variance = static_cast<float>(std::pow(basis_deviation * point.spacing, 2));
+  n.cover = static_cast<float>(weight.cover);
   constexpr float grey = 0.5f;
   n.a = cloud.alpha.empty() ? 1 : cloud.alpha[index];
   n.r = n.a * (cloud.colours.empty() ? grey : cloud.colours[index][0]);
@@ -184,13 +191,12 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   for (const std::uint32_t i : kept) places.push_back(cloud.positions[i]);
   Neighbours around(places, neighbour_count);
   CloudPoints known{std::move(places), std::vector<CloudPoint>(kept.size()), std::move(around)};
-  set_spacings(cloud, kept, known, out);
+  const std::vector<std::uint8_t> has_radius = set_spacings(cloud, kept, known, out);
   set_normals(cloud, kept, known, out);
-  parallel_for_each(kept.size(),
-                    [&](std::size_t i) { known.points[i].covered = covered_share(known, i); });
-  const std::vector<double> areas = weighed_areas(known, progress);
+  find_cells(known, has_radius);
+  const std::vector<PointWeight> weights = weigh(known, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    out.points.push_back(surfel_of(cloud, kept[i], known.points[i], areas[i]));
+    out.points.push_back(surfel_of(cloud, kept[i], known.points[i], weights[i]));
   }
   return out;
 }

@@ -6,30 +6,35 @@
 #include "base/falloff.h"
 #include "base/parallel.h"
 #include "kernels/splat_params.h"
-#include "splat/cloud_points.h"
+#include "splat/cells.h"
 
 namespace defray {
 namespace {
 
-/// Steps in which weights are found, and where around a point sums are looked at: as far as this
-/// along two axes, in distances of points.
-constexpr int weighing_steps = 4;
-constexpr float look_at = 0.5f;
-/// Sums should be no less than 1, where what is behind would shine through; what is more does not
-/// count (SplatMerge), and weighs a tenth as much, but not along edges, which would grow. Of points
-/// on a jittered grid the least sum is then 0.99; with all alike, and 1.03, it is 0.91.
+/// What sums should be.
 constexpr double aim = DEFRAY_SPLAT_AIM;
+/// How weights are found: from sums at each point and around it, in so many steps. Those above the
+/// aim weigh too_much of what lower ones do, but as much along edges, which would grow.
+struct Search {
+  float around;  ///< How far around, in spacings; 0: at the point's sites.
+  float too_much;
+};
+constexpr int search_steps = 4;
+/// Of areas: as large as the surface is, they are what counts where it is blurred.
+constexpr Search of_areas{0.5f, 0.3f};
+/// Where it is sharp what is behind shines through wherever sums are less than 1; what is more does
+/// not count (SplatMerge). Of points on a jittered grid the least sum is 0.99; with all areas
+/// alike, and 1.03, it is 0.91.
+constexpr Search of_cover{0, 0.1f};
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
-constexpr float too_much = 0.1f;
 /// A basis function is nothing where it is e to the minus this.
 constexpr float nothing_from = 79;
 /// Planes that lie flatter than this to a line of sight (a cosine) are seen as if by it.
 constexpr float least_facing = 1e-3f;
 
-/// At the point, and as far as look_at to either side along two axes; the rest are zeros, so that
-/// they make whole vectors.
-constexpr std::size_t site_count = 5, lanes = 8;
+/// At the point and at its sites, so that they make whole vectors.
+constexpr std::size_t lanes = site_count + 1;
 using Sites = std::array<float, lanes>;
 
 using Axis = std::array<float, 3>;
@@ -47,10 +52,9 @@ struct Tangent {
 
   explicit Tangent(const CloudPoint& point)
       : normal(axis(point.normal)), spacing(static_cast<float>(point.spacing)) {
-    const Vec3& n = point.normal;
-    const Vec3 beside = normalized(cross(n, std::abs(n.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-    u = axis(beside);
-    v = axis(cross(n, beside));
+    const TangentAxes axes = axes_across(point.normal);
+    u = axis(axes.u);
+    v = axis(axes.v);
   }
 };
 
@@ -63,9 +67,15 @@ class Weighing {
       : cloud_(cloud),
         tangents_(cloud.points.begin(), cloud.points.end()),
         heights_(cloud.points.size(), static_cast<float>(1 / whole_of_unit_height)),
-        lacks_(cloud.points.size()) {}
+        lacks_(cloud.points.size()) {
+    for (std::size_t k = 0; k < site_count; ++k) {
+      towards_u_[k + 1] = static_cast<float>(site_directions()[k].x);
+      towards_v_[k + 1] = static_cast<float>(site_directions()[k].y);
+    }
+  }
 
-  void step() {
+  void step(const Search& search) {
+    search_ = search;
     parallel_for_each(heights_.size(), [&](std::size_t i) { look(i); });
     parallel_for_each(heights_.size(), [&](std::size_t i) {
       const float f = factor(i);
@@ -106,20 +116,22 @@ class Weighing {
     for (std::size_t k = 0; k < 3; ++k) {
       d[k] = (cloud_.places[at][k] - cloud_.places[of][k]) * inverse;
     }
-    const float du = 2 * look_at * dot(d, there.u), dv = 2 * look_at * dot(d, there.v);
-    const float own = dot(d, d), far = own + look_at * look_at;
-    const Sites squares = {own, far + du, far - du, far + dv, far - dv};
+    Sites far{};
+    for (std::size_t k = 0; k < site_count; ++k) {
+      far[k + 1] = search_.around > 0 ? search_.around : cloud_.points[at].sites[k];
+    }
+    const float du = 2 * dot(d, there.u), dv = 2 * dot(d, there.v), own = dot(d, d);
+    const float nu = dot(point.normal, there.u), nv = dot(point.normal, there.v);
     const float above = dot(d, point.normal);
-    const float nu = look_at * dot(point.normal, there.u),
-                nv = look_at * dot(point.normal, there.v);
-    const Sites above_plane = {above, above + nu, above - nu, above + nv, above - nv};
     const float on = 1 / std::copysign(std::max(std::fabs(same), least_facing), same);
     const float twice = 2 * dot(d, there.normal);
     const float size = there.spacing / (static_cast<float>(basis_deviation) * point.spacing);
     Sites covered;
     for (std::size_t k = 0; k < lanes; ++k) {
-      const float down = above_plane[k] * on;  // along the line, to the plane
-      const float power = 0.5f * size * size * (squares[k] + down * (down - twice));
+      const float u = far[k] * towards_u_[k], v = far[k] * towards_v_[k];
+      const float square = own + far[k] * far[k] + u * du + v * dv;
+      const float down = (above + u * nu + v * nv) * on;  // along the line, to the plane
+      const float power = 0.5f * size * size * (square + down * (down - twice));
       covered[k] = falloff(power < nothing_from ? power : nothing_from);
     }
     return covered;
@@ -135,8 +147,8 @@ class Weighing {
     for (const std::uint32_t i : cloud_.around.of(point)) add(i);
     const double covered = cloud_.points[point].covered;
     const auto wanted = static_cast<float>(aim * covered);
-    const float weight = covered < 1 ? 1 : too_much;
-    for (std::size_t k = 0; k < site_count; ++k) {
+    const float weight = covered < 1 ? 1 : search_.too_much;
+    for (std::size_t k = 0; k < lanes; ++k) {
       const float lack = wanted / sums[k];
       lacks_[point][k] = lack < 1 ? 1 + weight * (lack - 1) : lack;
     }
@@ -146,7 +158,7 @@ class Weighing {
     float weights = 0, sum = 0;
     const auto add = [&](std::size_t at) {
       const Sites covered = basis(point, at);
-      for (std::size_t k = 0; k < site_count; ++k) {
+      for (std::size_t k = 0; k < lanes; ++k) {
         weights += covered[k];
         sum += covered[k] * lacks_[at][k];
       }
@@ -157,21 +169,32 @@ class Weighing {
   }
 
   const CloudPoints& cloud_;
+  Search search_{};
+  Sites towards_u_{}, towards_v_{};  ///< The sites' directions; of the point itself none.
   std::vector<Tangent> tangents_;
   std::vector<float> heights_;  ///< Of the points' basis functions.
   /// What sums at a point's sites are to be multiplied by.
-  std::vector<std::array<float, site_count>> lacks_;
+  std::vector<Sites> lacks_;
 };
 
 }  // namespace
 
-std::vector<double> weighed_areas(const CloudPoints& cloud, const Progress& progress) {
+std::vector<PointWeight> weigh(const CloudPoints& cloud, const Progress& progress) {
   Weighing weighing(cloud);
-  for (int i = 0; i < weighing_steps; ++i) {
-    weighing.step();
-    if (progress) progress(static_cast<double>(i + 1) / weighing_steps);
+  int done = 0;
+  const auto areas_of = [&](const Search& search) {
+    for (int i = 0; i < search_steps; ++i) {
+      weighing.step(search);
+      if (progress) progress(static_cast<double>(++done) / (2 * search_steps));
+    }
+    return weighing.areas();
+  };
+  const std::vector<double> blurred = areas_of(of_areas), sharp = areas_of(of_cover);
+  std::vector<PointWeight> weights;
+  for (std::size_t i = 0; i < blurred.size(); ++i) {
+    weights.push_back({blurred[i], sharp[i] / blurred[i]});
   }
-  return weighing.areas();
+  return weights;
 }
 
 }  // namespace defray

@@ -62,6 +62,7 @@ DefraySplatNode node_of(const Case& c, std::uint32_t index) {
   n.area_y = static_cast<float>(spanned * normal.y);
   n.area_z = static_cast<float>(spanned * normal.z);
   n.variance = static_cast<float>(0.36 * area);
+  n.cover = static_cast<float>(0.5 + 2 * random.next());
   if (c.pattern != Pattern::checker && random.next() < 0.7) {
     set_low_pass(n, 0.1 * z * random.next(), random);
   }

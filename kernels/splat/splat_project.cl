@@ -188,7 +188,9 @@ INLINED floats blur_nodes(const DefraySplatParams p, const SplatNodes* n, const 
   const SplatVariances variance = {own.xx + kept + added.xx, own.xy + added.xy,
                                    own.yy + kept + added.yy, 0.0f};
   const floats determinant = determinant_of(own, along * seen->spread, kept, added);
-  return shape_splats(p, variance, determinant, seen->size, blur, is_disc, s);
+  const floats share = shape_splats(p, variance, determinant, seen->size, blur, is_disc, s);
+  s->amplitude *= 1.0f + (n->cover - 1.0f) * (1.0f - share * share);
+  return share;
 }
 
 // How much of a node is seen, from an amplitude of 1: from the lens's centre, or, with discs, from

@@ -26,6 +26,7 @@ std::vector<DefraySplatNode> random_points(int count) {
     n.z = static_cast<float>(0.5 * random.next());
     n.area_z = static_cast<float>(0.1 + random.next());
     n.variance = static_cast<float>(random.next());
+    n.cover = static_cast<float>(1 + random.next());
     n.r = static_cast<float>(random.next());
     n.a = 1;
     points.push_back(n);
@@ -41,13 +42,15 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
     ASSERT_EQ(tree.points.size(), size(count));
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
       const HierarchyNode& node = tree.nodes[i];
-      double area = 0, red = 0, variance = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+      double area = 0, red = 0, variance = 0, cover = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0,
+             zz = 0;
       Vec3 mean{};
       for (std::uint32_t k = node.first_point; k < node.end_point; ++k) {
         const DefraySplatNode& p = tree.points[k];
         area += p.area_z;
         red += double{p.area_z} * p.r;
         variance += double{p.area_z} * p.variance;
+        cover += double{p.area_z} * p.cover;
         mean = mean + place(p) * p.area_z;
       }
       mean = mean / area;
@@ -66,6 +69,7 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
       EXPECT_NEAR(node.whole_area, area, 1e-4 * area);
       EXPECT_NEAR(node.splat.r, red / area, 1e-5);
       EXPECT_NEAR(node.splat.variance, variance / area, 1e-5);
+      EXPECT_NEAR(node.splat.cover, cover / area, 1e-5);
       EXPECT_LT(length(place(node.splat) - mean), 1e-5);
       EXPECT_NEAR(node.splat.low_xx, xx / area, 1e-5);
       EXPECT_NEAR(node.splat.low_xy, xy / area, 1e-5);
@@ -112,6 +116,7 @@ Hierarchy grid() {
     n.y = static_cast<float>((i / 100 + 0.5) / 50 - 1);
     n.area_z = 0.0004f;
     n.variance = 0.0002f;
+    n.cover = 1;
     n.a = 1;
     points.push_back(n);
   }

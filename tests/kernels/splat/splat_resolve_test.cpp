@@ -187,6 +187,7 @@ Values<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
     n.z = static_cast<float>(4 - z);
     n.area_z = static_cast<float>(0.002 * random.next());
     n.variance = n.area_z;
+    n.cover = 1;
     n.r = static_cast<float>(random.next());
     n.a = 1;
     nodes.push_back(n);

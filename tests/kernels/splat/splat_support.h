@@ -70,6 +70,7 @@ inline DefraySplatNode surfel(double x, double y, double z, std::array<double, 3
   n.area_y = static_cast<float>(area[1]);
   n.area_z = static_cast<float>(area[2]);
   n.variance = static_cast<float>(variance);
+  n.cover = 1;
   n.r = n.g = n.b = n.a = 1;
   return n;
 }
