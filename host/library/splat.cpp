@@ -39,10 +39,10 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
     : state_(std::make_unique<State>()) {
   Surfels surfels = make_surfels(cloud, progress);
   state_->origin = cloud.origin;
-  state_->has_normals = surfels.has_normals;
+  state_->outside = surfels.outside;
   state_->has_colours = surfels.has_colours;
   state_->notes = std::move(surfels.notes);
-  state_->tree = build_hierarchy(std::move(surfels.points), surfels.has_normals);
+  state_->tree = build_hierarchy(std::move(surfels.points), surfels.outside != Outside::unknown);
   state_->radius = radius_of(state_->tree);
 }
 
@@ -94,12 +94,24 @@ std::array<double, 3> SplatModel::centre() const {
 
 double SplatModel::radius() const { return state_->radius; }
 
+namespace {
+
+/// Whether surfaces are seen from outside alone. What is found to be closed is a room to those in
+/// it.
+bool shows_outside(const CachedCloud& model, const DefraySplatParams& view) {
+  return model.outside == Outside::given ||
+         (model.outside == Outside::found &&
+          !is_within(model.tree, {view.eye_x, view.eye_y, view.eye_z}));
+}
+
+}  // namespace
+
 SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pose, const Lens& lens,
                   const SplatSettings& settings, const Progress& progress) {
   validate(settings);
   const SplatModel::State& m = *model.state_;
   DefraySplatParams params = splat_params(pose, m.origin, lens, settings);
-  params.one_sided = m.has_normals && !settings.two_sided;
+  params.one_sided = !settings.two_sided && shows_outside(m, params);
   params.has_headlight = !m.has_colours;
   SplatResult out;
   const std::size_t pixels =

@@ -54,7 +54,7 @@ Cell cell_of(const CloudPoints& cloud, std::size_t point) {
   border.fill(widest_cell);
   std::array<bool, direction_count> has_neighbour{};
   for (const std::uint32_t other : cloud.around.of(point)) {
-    if (cloud.is_oriented && !(dot(own.normal, cloud.points[other].normal) > 0)) continue;
+    if (cloud.are_apart(point, other, dot(own.normal, cloud.points[other].normal))) continue;
     const Vec3 d = (cloud.place(other) - cloud.place(point)) / own.spacing;
     const double x = dot(d, axes.u), y = dot(d, axes.v), square = x * x + y * y;
     const double within = alone_within * std::sqrt(square);

@@ -24,7 +24,7 @@ struct Head {
   std::int64_t cloud_time;
   std::uint64_t points, nodes, notes_bytes;
   double origin[3];
-  std::uint32_t has_normals, has_colours;
+  std::uint32_t outside, has_colours;
   std::uint64_t hash;  ///< Of all that follows, and of this with a hash of 0.
 };
 
@@ -102,7 +102,7 @@ std::optional<CachedCloud> read_cache(const std::string& cloud, std::string& why
   }
   CachedCloud made{{},
                    {head.origin[0], head.origin[1], head.origin[2]},
-                   head.has_normals != 0,
+                   static_cast<Outside>(head.outside),
                    head.has_colours != 0,
                    {}};
   std::vector<char> letters;
@@ -130,7 +130,7 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
   head.nodes = cached.tree.nodes.size();
   head.notes_bytes = notes.size();
   std::copy(cached.origin.begin(), cached.origin.end(), head.origin);
-  head.has_normals = cached.has_normals;
+  head.outside = static_cast<std::uint32_t>(cached.outside);
   head.has_colours = cached.has_colours;
   head.hash = hash_of(head, cached.tree, notes);
   write_safely(cache_path(cloud), [&](const std::string& name) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "splat/hierarchy.h"
+#include "splat/sides.h"
 
 namespace defray {
 
@@ -12,7 +13,8 @@ namespace defray {
 struct CachedCloud {
   Hierarchy tree;
   std::array<double, 3> origin{};
-  bool has_normals = false, has_colours = false;
+  Outside outside = Outside::unknown;
+  bool has_colours = false;
   std::vector<std::string> notes;
 };
 

@@ -23,6 +23,7 @@ inline constexpr std::size_t site_count = 7;
 /// What is known of a point.
 struct CloudPoint {
   Vec3 normal;         ///< Unit.
+  bool is_two_sided = false;  ///< Of an oriented cloud: which side is outside is not known.
   double spacing = 0;  ///< Radius of the disc that it stands for.
   double covered = 1;  ///< Share of the basis function's reach where there is a surface.
   /// How far from it sums of basis functions are looked at, in spacings; in cells.h's directions.
@@ -34,9 +35,14 @@ struct CloudPoints {
   std::vector<std::array<float, 3>> places;
   std::vector<CloudPoint> points;
   Neighbours around;
-  bool is_oriented = false;  ///< Normals point outside: given ones.
+  bool is_oriented = false;  ///< Normals point outside.
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
+
+  /// Whether what is seen of one is not seen of the other, for this cosine between their normals.
+  bool are_apart(std::size_t i, std::size_t j, double cosine) const {
+    return is_oriented && !(cosine > 0) && !points[i].is_two_sided && !points[j].is_two_sided;
+  }
 };
 
 /// The direction in which the places around a point vary least; of points along a line, or alone,

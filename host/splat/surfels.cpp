@@ -8,6 +8,7 @@
 #include "splat/cells.h"
 #include "splat/cloud_points.h"
 #include "splat/placed_points.h"
+#include "splat/sides.h"
 
 namespace defray {
 namespace {
@@ -115,12 +116,15 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
   });
   take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
-  out.has_normals = cloud.is_oriented = given > 0;
+  cloud.is_oriented = given > 0;
+  out.outside = given > 0           ? Outside::given
+                : find_sides(cloud) ? Outside::found
+                                    : Outside::unknown;
   if (!given_cloud.normals.empty() && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));
   }
-  const std::size_t flipped = out.has_normals ? count_flipped(cloud) : 0;
+  const std::size_t flipped = given > 0 ? count_flipped(cloud) : 0;
   if (flipped > 0) {
     out.notes.push_back(
         fmt::format("{} points have normals against those around, and are seen from the other "
@@ -196,7 +200,11 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   find_cells(known, has_radius);
   const std::vector<PointWeight> weights = weigh(known, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    out.points.push_back(surfel_of(cloud, kept[i], known.points[i], weights[i]));
+    CloudPoint& p = known.points[i];
+    out.points.push_back(surfel_of(cloud, kept[i], p, weights[i]));
+    if (!p.is_two_sided) continue;
+    p.normal = -p.normal;
+    out.points.push_back(surfel_of(cloud, kept[i], p, weights[i]));
   }
   return out;
 }

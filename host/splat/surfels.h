@@ -6,12 +6,13 @@
 
 #include "defray/splat.h"
 #include "kernels/splat_params.h"
+#include "splat/sides.h"
 
 namespace defray {
 
 struct Surfels {
   std::vector<DefraySplatNode> points;
-  bool has_normals = false;  ///< Given, so that surfaces have an outside.
+  Outside outside = Outside::unknown;
   bool has_colours = false;
   std::vector<std::string> notes;
 };

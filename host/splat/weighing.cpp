@@ -110,7 +110,7 @@ class Weighing {
   Sites basis(std::size_t of, std::size_t at) const {
     const Tangent &point = tangents_[of], &there = tangents_[at];
     const float same = dot(point.normal, there.normal);
-    if (cloud_.is_oriented && !(same > 0)) return {};
+    if (cloud_.are_apart(of, at, static_cast<double>(same))) return {};
     const float inverse = 1 / std::max(there.spacing, 1e-30f);
     Axis d;
     for (std::size_t k = 0; k < 3; ++k) {

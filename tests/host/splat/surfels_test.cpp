@@ -35,7 +35,7 @@ TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
   EXPECT_NEAR(std::abs(n.area_z) / area_of(n), 1 / std::sqrt(1.25), 1e-4);
   EXPECT_NEAR(n.area_x / n.area_z, -0.5, 1e-4);
   EXPECT_NEAR(n.variance, std::pow(0.8, 2) * area, 0.15 * area);
-  EXPECT_FALSE(surfels.has_normals);
+  EXPECT_EQ(surfels.outside, Outside::unknown);
   EXPECT_FALSE(surfels.has_colours);
   EXPECT_EQ(n.r, 0.5f);
   EXPECT_EQ(n.a, 1);
@@ -88,7 +88,7 @@ TEST(Surfels, WhatIsGivenIsTaken) {
   EXPECT_FLOAT_EQ(n.r, 0.1f);
   EXPECT_FLOAT_EQ(n.b, 0.4f);
   EXPECT_EQ(n.a, 0.5f);
-  EXPECT_TRUE(surfels.has_normals);
+  EXPECT_EQ(surfels.outside, Outside::given);
   EXPECT_TRUE(surfels.has_colours);
 }
 
