@@ -39,6 +39,7 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
     : state_(std::make_unique<State>()) {
   Surfels surfels = make_surfels(cloud, progress);
   state_->origin = cloud.origin;
+  state_->points = surfels.count;
   state_->outside = surfels.outside;
   state_->has_colours = surfels.has_colours;
   state_->notes = std::move(surfels.notes);
@@ -82,7 +83,7 @@ SplatModel::SplatModel(SplatModel&&) noexcept = default;
 SplatModel& SplatModel::operator=(SplatModel&&) noexcept = default;
 SplatModel::~SplatModel() = default;
 
-std::size_t SplatModel::points() const { return state_->tree.points.size(); }
+std::size_t SplatModel::points() const { return state_->points; }
 const std::vector<std::string>& SplatModel::notes() const { return state_->notes; }
 
 std::array<double, 3> SplatModel::centre() const {
@@ -119,6 +120,7 @@ SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pos
   const std::vector<std::string> tuned = use_tuning(device, tuning::cloud_class(pixels));
   SplatPlanes planes = draw_splats(backend_of(device), m.tree, params, settings.lod,
                                    settings.transparency, out.report, progress);
+  out.report.points = m.points;
   out.report.tuned = tuned;
   out.colour = std::move(planes.colour);
   out.depth = std::move(planes.depth);

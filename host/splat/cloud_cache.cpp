@@ -22,7 +22,7 @@ struct Head {
   char mark[16];
   std::uint64_t cloud_bytes;
   std::int64_t cloud_time;
-  std::uint64_t points, nodes, notes_bytes;
+  std::uint64_t cloud_points, points, nodes, notes_bytes;
   double origin[3];
   std::uint32_t outside, has_colours;
   std::uint64_t hash;  ///< Of all that follows, and of this with a hash of 0.
@@ -101,6 +101,7 @@ std::optional<CachedCloud> read_cache(const std::string& cloud, std::string& why
     return std::nullopt;
   }
   CachedCloud made{{},
+                   head.cloud_points,
                    {head.origin[0], head.origin[1], head.origin[2]},
                    static_cast<Outside>(head.outside),
                    head.has_colours != 0,
@@ -126,6 +127,7 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
   Head head = head_of(cloud);
   std::string notes;
   for (const std::string& note : cached.notes) notes += note + "\n";
+  head.cloud_points = cached.points;
   head.points = cached.tree.points.size();
   head.nodes = cached.tree.nodes.size();
   head.notes_bytes = notes.size();

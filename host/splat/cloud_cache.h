@@ -12,6 +12,7 @@ namespace defray {
 /// All that is made of a point cloud.
 struct CachedCloud {
   Hierarchy tree;
+  std::uint64_t points = 0;  ///< Of the cloud; those shown from both sides are two in the tree.
   std::array<double, 3> origin{};
   Outside outside = Outside::unknown;
   bool has_colours = false;

@@ -22,10 +22,10 @@ inline constexpr std::size_t site_count = 7;
 
 /// What is known of a point.
 struct CloudPoint {
-  Vec3 normal;         ///< Unit.
+  Vec3 normal;                ///< Unit.
   bool is_two_sided = false;  ///< Of an oriented cloud: which side is outside is not known.
-  double spacing = 0;  ///< Radius of the disc that it stands for.
-  double covered = 1;  ///< Share of the basis function's reach where there is a surface.
+  double spacing = 0;         ///< Radius of the disc that it stands for.
+  double covered = 1;         ///< Share of the basis function's reach where there is a surface.
   /// How far from it sums of basis functions are looked at, in spacings; in cells.h's directions.
   std::array<float, site_count> sites{};
 };

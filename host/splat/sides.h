@@ -1,6 +1,7 @@
 #pragma once
 // Which side of estimated normals is outside.
 #include <cstdint>
+
 #include "base/vec3.h"
 #include "splat/hierarchy.h"
 

@@ -117,9 +117,7 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
   take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
   cloud.is_oriented = given > 0;
-  out.outside = given > 0           ? Outside::given
-                : find_sides(cloud) ? Outside::found
-                                    : Outside::unknown;
+  out.outside = given > 0 ? Outside::given : find_sides(cloud) ? Outside::found : Outside::unknown;
   if (!given_cloud.normals.empty() && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));
@@ -191,6 +189,7 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   note_bright_colours(cloud, out);
   out.has_colours = !cloud.colours.empty();
   const std::vector<std::uint32_t> kept = placed_points(cloud, out.notes);
+  out.count = kept.size();
   std::vector<std::array<float, 3>> places;
   for (const std::uint32_t i : kept) places.push_back(cloud.positions[i]);
   Neighbours around(places, neighbour_count);

@@ -11,7 +11,8 @@
 namespace defray {
 
 struct Surfels {
-  std::vector<DefraySplatNode> points;
+  std::vector<DefraySplatNode> points;  ///< Those of unknown outside among others twice.
+  std::size_t count = 0;                ///< Of points with a place.
   Outside outside = Outside::unknown;
   bool has_colours = false;
   std::vector<std::string> notes;

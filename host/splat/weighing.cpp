@@ -16,16 +16,16 @@ constexpr double aim = DEFRAY_SPLAT_AIM;
 /// How weights are found: from sums at each point and around it, in so many steps. Those above the
 /// aim weigh too_much of what lower ones do, but as much along edges, which would grow.
 struct Search {
+  int steps;
   float around;  ///< How far around, in spacings; 0: at the point's sites.
   float too_much;
 };
-constexpr int search_steps = 4;
 /// Of areas: as large as the surface is, they are what counts where it is blurred.
-constexpr Search of_areas{0.5f, 0.3f};
+constexpr Search of_areas{4, 0.5f, 0.3f};
 /// Where it is sharp what is behind shines through wherever sums are less than 1; what is more does
 /// not count (SplatMerge). Of points on a jittered grid the least sum is 0.99; with all areas
 /// alike, and 1.03, it is 0.91.
-constexpr Search of_cover{0, 0.1f};
+constexpr Search of_cover{4, 0, 0.1f};
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
 /// A basis function is nothing where it is e to the minus this.
@@ -183,9 +183,9 @@ std::vector<PointWeight> weigh(const CloudPoints& cloud, const Progress& progres
   Weighing weighing(cloud);
   int done = 0;
   const auto areas_of = [&](const Search& search) {
-    for (int i = 0; i < search_steps; ++i) {
+    for (int i = 0; i < search.steps; ++i) {
       weighing.step(search);
-      if (progress) progress(static_cast<double>(++done) / (2 * search_steps));
+      if (progress) progress(static_cast<double>(++done) / (of_areas.steps + of_cover.steps));
     }
     return weighing.areas();
   };

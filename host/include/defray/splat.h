@@ -52,8 +52,8 @@ struct SplatSettings {
   SplatPsf psf = SplatPsf::disc;
   SplatMerge merge = SplatMerge::nearest;
   int layers = 0;  ///< Surfaces that a pixel is made of at most, the nearest. 0: all.
-  /// Surfaces are seen from both sides; otherwise from where normals point. Where normals are
-  /// estimated, they have no outside: both.
+  /// Surfaces are seen from both sides; otherwise from where normals point. Without normals those
+  /// that are closed are seen from outside, by cameras that are, and others from both sides.
   bool two_sided = false;
   double transparency = 0;  ///< 0 to 1: all that points let through, beside their alpha.
 };

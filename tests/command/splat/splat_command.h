@@ -1,5 +1,7 @@
 #pragma once
 // What tests of defray splat share.
+#include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -26,6 +28,18 @@ class SplatCommand : public testing::Test {
   void refused(const std::string& arguments, int code,
                const std::vector<std::string>& words) const {
     expect_refusal(defray(folder_, arguments), code, words, arguments);
+  }
+  /// ball.xyz, 600 points and their normals, if any, turned outwards (1) or inwards (-1).
+  void write_ball(double outwards) const {
+    std::ofstream points(folder_ / "ball.xyz");
+    for (int i = 0; i < 600; ++i) {
+      const double y = (i + 0.5) / 300 - 1, turn = 2.399963 * i, across = std::sqrt(1 - y * y);
+      const double x = across * std::cos(turn), z = across * std::sin(turn);
+      points << x << ' ' << y << ' ' << z;
+      if (outwards != 0)
+        points << ' ' << outwards * x << ' ' << outwards * y << ' ' << outwards * z;
+      points << '\n';
+    }
   }
   Folder folder_;
 };

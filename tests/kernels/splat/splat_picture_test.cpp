@@ -1,8 +1,7 @@
-// Point clouds through the lens, whole: coverage, occlusion, the mean of views, levels of detail.
+// Point clouds through the lens, whole: occlusion, the mean of views, levels of detail.
 #include <algorithm>
 #include <cmath>
 
-#include "base/random.h"
 #include "measure/metrics.h"
 #include "splat/splats.h"
 #include "splat_support.h"
@@ -16,100 +15,6 @@ double mean_over(const Plane& plane, int side, int x0, int x1, int y0, int y1) {
     for (int x = x0; x < x1; ++x) sum += plane[size(y * side + x)];
   }
   return sum / ((x1 - x0) * (y1 - y0));
-}
-
-/// The least and the largest value of a square about the middle.
-std::pair<float, float> range_inside(const Plane& plane, int side, int half) {
-  float least = 1e9f, most = -1e9f;
-  for (int y = side / 2 - half; y < side / 2 + half; ++y) {
-    for (int x = side / 2 - half; x < side / 2 + half; ++x) {
-      least = std::min(least, plane[size(y * side + x)]);
-      most = std::max(most, plane[size(y * side + x)]);
-    }
-  }
-  return {least, most};
-}
-
-/// The built-in figure in white.
-PointCloud white_figure() {
-  PointCloud cloud = make_point_cloud("figure", 20000);
-  for (auto& colour : cloud.colours) colour = {1, 1, 1};
-  return cloud;
-}
-
-TEST(SplatPicture, AClosedSurfaceCoversItsInsideAtEveryApertureAndCutOff) {
-  const Hierarchy tree = tree_of(white_figure());
-  for (const double aperture :
-       {0.0, 30.0, 60.0, 100.0, 140.0, 180.0, 220.0, 300.0, 400.0, 800.0, 1200.0, 2000.0}) {
-    for (const double cutoff : {2.0, 2.5, 3.0}) {
-      for (const SplatPsf psf : {SplatPsf::gaussian, SplatPsf::disc}) {
-        SplatSettings settings;
-        settings.cutoff = cutoff;
-        settings.psf = psf;
-        const DefraySplatParams p = view_of(160, 4, aperture, settings);
-        const auto [least, most] = range_inside(draw(tree, p).colour[3], 160, 12);
-        EXPECT_GE(least, 0.99f) << aperture << " mm, c " << cutoff << ", psf " << int(psf);
-        EXPECT_LE(most, 1.01f) << aperture << " mm, c " << cutoff << ", psf " << int(psf);
-      }
-    }
-  }
-}
-
-/// A rod with a round end, of so many points, which points at the camera.
-PointCloud rod(std::size_t end_points, bool has_normals) {
-  constexpr double radius = 0.5, length = 2;
-  PointCloud cloud;
-  const auto add = [&](double x, double y, double z, double back) {
-    cloud.positions.push_back({static_cast<float>(radius * x), static_cast<float>(radius * y),
-                               static_cast<float>(radius * z - back)});
-    if (has_normals) {
-      cloud.normals.push_back(
-          {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
-    }
-    cloud.colours.push_back({1, 1, 1});
-  };
-  const double golden = M_PI * (3 - std::sqrt(5.0)), count = static_cast<double>(end_points);
-  const double spacing = radius * std::sqrt(2 * M_PI / count);
-  for (std::size_t i = 0; i < end_points; ++i) {
-    const double z = 1 - (static_cast<double>(i) + 0.5) / count, ring = std::sqrt(1 - z * z);
-    const double turn = golden * static_cast<double>(i);
-    add(ring * std::cos(turn), ring * std::sin(turn), z, 0);
-  }
-  const int around = static_cast<int>(2 * M_PI * radius / spacing);
-  for (double back = spacing / 2; back < length; back += spacing) {
-    for (int k = 0; k < around; ++k) {
-      const double turn = 2 * M_PI * k / around;
-      add(std::cos(turn), std::sin(turn), 0, back);
-    }
-  }
-  return cloud;
-}
-
-TEST(SplatPicture, ATipOfFewPointsCoversWhatIsBehind) {
-  for (const bool has_normals : {true, false}) {
-    for (const std::size_t points : {60, 200}) {
-      const Hierarchy tree = tree_of(rod(points, has_normals), has_normals);
-      DefraySplatParams p = view_of(160, 4, 0);
-      p.one_sided = has_normals;
-      const auto [least, most] = range_inside(draw(tree, p).colour[3], 160, 10);
-      EXPECT_GE(least, 0.985f) << points << " points, normals " << has_normals;
-      EXPECT_LE(most, 1.0001f) << points << " points, normals " << has_normals;
-    }
-  }
-}
-
-TEST(SplatPicture, IrregularPointsCoverTheirSurface) {
-  // A jittered grid: what weighing is for.
-  PointCloud cloud = wall(100, 1, 0, {1, 1, 1});
-  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
-    Random random(static_cast<int>(i), 0, 3);
-    cloud.positions[i][0] += static_cast<float>(0.02 * (random.next() - 0.5));
-    cloud.positions[i][1] += static_cast<float>(0.02 * (random.next() - 0.5));
-  }
-  const DefraySplatParams p = view_of(128, 4, 0);
-  const auto [least, most] = range_inside(draw(tree_of(cloud), p).colour[3], 128, 30);
-  EXPECT_GE(least, 0.99f);
-  EXPECT_LE(most, 1.0001f);
 }
 
 /// PSNR to the mean of 200 views, in dB.

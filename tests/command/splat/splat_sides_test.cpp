@@ -1,0 +1,89 @@
+// Surfaces seen from outside, from behind and from within, by defray splat.
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "command/splat/splat_command.h"
+#include "image/image_file.h"
+
+namespace defray::test::splat_sides_test {
+namespace {
+using nlohmann::json;
+using splat_command_test::SplatCommand;
+using splat_command_test::wide_lens;
+
+TEST_F(SplatCommand, WhatIsSeenFromBehindIsNoted) {
+  const std::string inside = "splat plane.xyz -o o.exr --size 32x32 " + wide_lens;
+  std::ofstream points(folder_ / "plane.xyz");
+  points << "x y z nx ny nz\n";
+  for (int i = 0; i < 400; ++i) points << i % 20 << ' ' << i / 20 << " 0 0 0 -1\n";
+  points.close();
+  const Result result = defray(folder_, inside);
+  expect_ok(result);
+  EXPECT_NE(result.out.find("  note: 100 % of what is before the camera is seen from behind"),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(defray(folder_, inside + "--two-sided").out.find("behind"), std::string::npos);
+  EXPECT_EQ(defray(folder_, inside + "-q").out, "");
+  const json report = render(wide_lens);
+  EXPECT_GT(report["from_behind"], 0.2);
+  EXPECT_LT(report["from_behind"], 0.8);
+}
+
+/// A closed body whose normals all point inwards shows its inside, about as many points as its
+/// outside would.
+TEST_F(SplatCommand, ABodyTurnedInsideOutIsNoted) {
+  const auto shown = [&](double outwards) {
+    write_ball(outwards);
+    const Result result = defray(
+        folder_,
+        "splat ball.xyz -o o.exr --json --size 200x200 --aperture-diameter 300 --focal-length 50");
+    expect_ok(result);
+    return json::parse(result.out);
+  };
+  EXPECT_TRUE(shown(1)["notes"].empty());
+  EXPECT_FALSE(shown(1)["is_inside_out"].get<bool>());
+  const json turned = shown(-1);
+  ASSERT_EQ(turned["notes"].size(), 1u);
+  EXPECT_NE(turned["notes"][0].get<std::string>().find("normals may point inwards"),
+            std::string::npos);
+  EXPECT_TRUE(turned["is_inside_out"].get<bool>());
+}
+
+/// Without normals, from outside it looks as with them, also from a cache; and from inside it is a
+/// room.
+TEST_F(SplatCommand, AClosedBodyWithoutNormalsHasAnOutside) {
+  const auto shown = [&](const std::string& options) {
+    const Result result = defray(folder_,
+                                 "splat ball.xyz -o o.exr --json --size 100x100 --focus 2 "
+                                 "--aperture-diameter 300 --focal-length 50 " +
+                                     options);
+    expect_ok(result);
+    return json::parse(result.out);
+  };
+  const auto alpha = [&] { return ImageFile::read(folder_ / "o.exr").plane(0, 3); };
+  const std::string outside = "--from 0,0,4 ", inside = "--from 0,0,0.1 --look-at 1,0,0 ";
+  write_ball(1);
+  const double behind = shown(outside)["from_behind"];
+  const Plane given = alpha();
+  shown(inside);
+  EXPECT_LT(alpha()[50 * 100 + 50], 0.01f);
+  write_ball(0);
+  for (const char* cache : {"", "--cache ", "--cache "}) {
+    const json report = shown(outside + cache);
+    EXPECT_EQ(report["points"], 600);
+    EXPECT_NEAR(report["from_behind"], behind, 0.01);
+    const Plane found = alpha();
+    for (std::size_t i = 0; i < given.size(); ++i) ASSERT_NEAR(found[i], given[i], 0.05) << i;
+    EXPECT_EQ(shown(inside + cache)["from_behind"], 0);
+    EXPECT_GT(alpha()[50 * 100 + 50], 0.95f);
+  }
+  // Both sides of what is before the focus count, where asked for: too much at its rims.
+  shown(outside + "--two-sided");
+  const Plane both = alpha();
+  EXPECT_GT(std::accumulate(both.begin(), both.end(), 0.0),
+            1.01 * std::accumulate(given.begin(), given.end(), 0.0));
+}
+
+}  // namespace
+}  // namespace defray::test::splat_sides_test

@@ -1,0 +1,113 @@
+// Clouds without normals: which side is outside.
+#include "splat/sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "splat/surfels.h"
+#include "support.h"
+
+namespace defray::test::sides_test {
+namespace {
+
+/// Random points on a unit ball's surface below a height.
+PointCloud ball(int points, double below = 1) {
+  PointCloud cloud;
+  for (int i = 0; static_cast<int>(cloud.positions.size()) < points; ++i) {
+    Random random(i, 0, 21);
+    const double y = 2 * random.next() - 1, turn = 2 * M_PI * random.next();
+    const double ring = std::sqrt(1 - y * y);
+    if (y > below) continue;
+    cloud.positions.push_back({static_cast<float>(ring * std::cos(turn)), static_cast<float>(y),
+                               static_cast<float>(ring * std::sin(turn))});
+  }
+  return cloud;
+}
+
+/// A square of points beside the ball, n a side.
+void add_patch(PointCloud& cloud, int n) {
+  for (int i = 0; i < n * n; ++i) {
+    cloud.positions.push_back(
+        {static_cast<float>(2 + 0.05 * (i % n)), static_cast<float>(0.05 * (i / n)), 0});
+  }
+}
+
+double outwards(const DefraySplatNode& n) {
+  return static_cast<double>(n.area_x * n.x + n.area_y * n.y + n.area_z * n.z);
+}
+
+TEST(Sides, ClosedSurfacesAreSeenFromOutside) {
+  const Surfels surfels = make_surfels(ball(4000));
+  EXPECT_EQ(surfels.outside, Outside::found);
+  EXPECT_EQ(surfels.count, 4000u);
+  ASSERT_EQ(surfels.points.size(), 4000u);
+  for (const DefraySplatNode& n : surfels.points) EXPECT_GT(outwards(n), 0);
+}
+
+/// Thin legs and ears among them: nearly all as the model's own normals say, or from both sides.
+TEST(Sides, NormalsAreThoseOfTheShape) {
+  PointCloud cloud = make_point_cloud("figure", 20000);
+  const Surfels given = make_surfels(cloud);
+  cloud.normals.clear();
+  const Surfels found = make_surfels(cloud);
+  ASSERT_EQ(found.outside, Outside::found);
+  EXPECT_LT(found.points.size(), 1.03 * static_cast<double>(given.points.size()));
+  std::size_t wrong = 0, k = 0;
+  for (const DefraySplatNode& n : given.points) {  // in the same order
+    const auto is_as_given = [&](const DefraySplatNode& f) {
+      return f.area_x * n.area_x + f.area_y * n.area_y + f.area_z * n.area_z > 0;
+    };
+    bool is_right = false;
+    for (; k < found.points.size() && found.points[k].x == n.x && found.points[k].y == n.y &&
+           found.points[k].z == n.z;
+         ++k) {
+      is_right = is_right || is_as_given(found.points[k]);
+    }
+    wrong += !is_right;
+  }
+  EXPECT_EQ(k, found.points.size());
+  EXPECT_LT(wrong, given.points.size() / 1000);
+}
+
+TEST(Sides, OpenSurfacesAreSeenFromBoth) {
+  PointCloud wall, tube;
+  add_patch(wall, 40);
+  for (int i = 0; i < 6000; ++i) {
+    const double turn = 2 * M_PI * (i % 60) / 60;
+    tube.positions.push_back({static_cast<float>(std::cos(turn)),
+                              static_cast<float>(0.1 * (i / 60)),
+                              static_cast<float>(std::sin(turn))});
+  }
+  for (const PointCloud& cloud : {wall, tube, ball(4000, 0.85)}) {
+    const Surfels surfels = make_surfels(cloud);
+    EXPECT_EQ(surfels.outside, Outside::unknown);
+    EXPECT_EQ(surfels.points.size(), cloud.positions.size());
+  }
+}
+
+TEST(Sides, WhatIsOpenBesideSomethingClosedIsSeenFromBoth) {
+  PointCloud cloud = ball(4000);
+  add_patch(cloud, 15);
+  const Surfels surfels = make_surfels(cloud);
+  EXPECT_EQ(surfels.outside, Outside::found);
+  EXPECT_EQ(surfels.count, 4225u);
+  EXPECT_EQ(surfels.points.size(), 4000u + 2 * 225);
+  const auto towards = std::count_if(surfels.points.begin(), surfels.points.end(),
+                                     [](const auto& n) { return n.x > 1.5f && n.area_z > 0; });
+  EXPECT_EQ(towards, 225);
+  // More of it, and nothing has an outside.
+  add_patch(cloud, 30);
+  EXPECT_EQ(make_surfels(cloud).outside, Outside::unknown);
+}
+
+TEST(Sides, ARoomIsAllAroundWhoIsInIt) {
+  const Hierarchy tree = build_hierarchy(make_surfels(ball(4000)).points, true);
+  for (const Vec3& in : {Vec3{0, 0, 0}, Vec3{0.6, 0.3, -0.4}}) EXPECT_TRUE(is_within(tree, in));
+  for (const Vec3& out : {Vec3{0, 0, 1.2}, Vec3{-3, 2, 0}, Vec3{0, 1e6, 0}}) {
+    EXPECT_FALSE(is_within(tree, out));
+  }
+}
+
+}  // namespace
+}  // namespace defray::test::sides_test
