@@ -137,10 +137,13 @@ void find_cells(CloudPoints& cloud, const std::vector<std::uint8_t>& has_radius)
   std::vector<double> spacings(count);
   parallel_for_each(count, [&](std::size_t i) {
     CloudPoint& p = cloud.points[i];
-    const bool is_beside = is_beside_edge(cloud, is_edge, i);
+    // Where a closed surface ends there is a hole in the scan: gaps like others.
+    const bool is_closed = cloud.is_closed && !p.is_two_sided;
+    const bool is_beside = !is_closed && is_beside_edge(cloud, is_edge, i);
     p.covered = is_beside ? covered_share(cloud, i) : 1;
-    const double grown =
-        is_beside || has_radius[i] ? 1 : std::max(1.0, static_cast<double>(cells[i].farthest));
+    const double farthest =
+        is_closed && cells[i].ends ? widest_cell : static_cast<double>(cells[i].farthest);
+    const double grown = is_beside || has_radius[i] ? 1 : std::max(1.0, farthest);
     const double most = p.covered < 1 || has_radius[i] ? near_reach : most_reach;
     for (std::size_t k = 0; k < site_count; ++k) {
       const double border = beyond_border * static_cast<double>(cells[i].border[k]);

@@ -36,6 +36,7 @@ struct CloudPoints {
   std::vector<CloudPoint> points;
   Neighbours around;
   bool is_oriented = false;  ///< Normals point outside.
+  bool is_closed = false;    ///< Oriented surfaces, but two-sided points, have no edges.
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 

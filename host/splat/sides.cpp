@@ -207,6 +207,7 @@ bool find_sides(CloudPoints& cloud) {
   }
   cloud.is_oriented =
       static_cast<double>(both) < most_doubtful * static_cast<double>(family.size());
+  cloud.is_closed = cloud.is_oriented;
   if (!cloud.is_oriented) {
     for (CloudPoint& p : cloud.points) p.is_two_sided = false;
   }

@@ -132,5 +132,22 @@ TEST(SplatCoverage, PointsInRandomPlacesLeaveNoHoles) {
   }
 }
 
+/// Where a closed surface ends a scan has a hole: filled, if it is as small. Given normals say
+/// nothing of that.
+TEST(SplatCoverage, AClosedBodysSmallHolesAreFilled) {
+  PointCloud ball;
+  for (int i = 0; i < 20000; ++i) {
+    const double z = 1 - (i + 0.5) / 10000, ring = std::sqrt(1 - z * z), turn = 2.399963 * i;
+    if (ring < 0.06 && z > 0) continue;  // 2.4 distances of points around the middle
+    ball.positions.push_back({static_cast<float>(ring * std::cos(turn)),
+                              static_cast<float>(ring * std::sin(turn)), static_cast<float>(z)});
+  }
+  const DefraySplatParams p = view_of(160, 4, 0);
+  const auto least = [&] { return range_inside(draw(tree_of(ball), p).colour[3], 160, 8).first; };
+  EXPECT_GE(least(), 0.95f);
+  ball.normals = ball.positions;
+  EXPECT_LE(least(), 0.2f);
+}
+
 }  // namespace
 }  // namespace defray::test::splat_coverage_test
