@@ -13,7 +13,7 @@ struct CloudPoints;
 enum class Outside : std::uint32_t { unknown, given, found };
 
 /// Turns estimated normals so that neighbours' agree, and outwards where a surface is closed (Hoppe
-/// et al. 1992, section 3.3). Returns whether nearly all points are of closed ones: the others then
+/// et al. 1992). Returns whether nearly all points are of closed ones: the others then
 /// are two-sided, and if not, none has an outside.
 bool find_sides(CloudPoints& cloud);
 
