@@ -9,8 +9,8 @@
 // leaves 1 - e^-c of it. (Printed, the exponent lacks its 1/2: within d^T W^-1 d < c lies
 // 1 - e^(-c/2).) Here it is lowered by e^-c, so that it ends at 0, which leaves 1 - e^-c (1 + c):
 // kernels side by side then add up to 1 two to five times more evenly. Where it is sharp it holds
-// `cover` times as much, so that neighbours leave no holes; of what that is more or less 1 - share^2
-// is left where the CoC has that share of W.
+// `cover` times as much, so that neighbours leave no holes; of what that is more or less 1 -
+// share^2 is left where the CoC has that share of W.
 //
 // A disc of variance C^2 / 4, blurred by the lowered Gaussian of the rest (variances add up), is
 // s^2 (1 + bulge (1 - s)) with s = (T - t) / D within [0, 1] and t = d^T W^-1 d, which needs
