@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "lens/lens.h"
+#include "splat/placed_points.h"
 
 namespace defray {
 namespace {
@@ -19,7 +20,7 @@ struct Axes {
   Vec3 right, down, forward;
 };
 
-Axes axes_of(const CameraPose& pose) {
+void check_finite(const CameraPose& pose) {
   for (const auto* v : {&pose.from, &pose.look_at, &pose.up}) {
     for (const double value : *v) {
       if (!std::isfinite(value)) {
@@ -28,14 +29,31 @@ Axes axes_of(const CameraPose& pose) {
       }
     }
   }
+}
+
+/// Farther ones' squares are not numbers.
+void check_place(const char* name, const std::array<double, 3>& place) {
+  for (const double along : place) {
+    if (std::fabs(along) <= static_cast<double>(most_units)) continue;
+    fail(ErrorKind::usage,
+         "{} {:g},{:g},{:g} is too far away: allowed are {:g} units along each axis", field(name),
+         place[0], place[1], place[2], most_units);
+  }
+}
+
+Axes axes_of(const CameraPose& pose) {
+  check_finite(pose);
+  check_place("from", pose.from);
+  check_place("look_at", pose.look_at);
   const Vec3 towards = vec(pose.look_at) - vec(pose.from);
   if (!(length(towards) > 0)) {
     fail(ErrorKind::usage, "{} and {} are the same place: the camera looks nowhere", field("from"),
          field("look_at"));
   }
-  const Vec3 forward = normalized(towards), right = cross(forward, vec(pose.up));
-  if (!(length(right) > 1e-9 * length(vec(pose.up)))) {
-    const auto& up = pose.up;
+  const auto& up = pose.up;
+  const double longest = std::max({std::fabs(up[0]), std::fabs(up[1]), std::fabs(up[2])});
+  const Vec3 forward = normalized(towards), right = cross(forward, vec(up) / longest);
+  if (!(length(right) > 1e-9)) {  // nor where up is 0
     fail(ErrorKind::usage,
          "{} {:g},{:g},{:g} is 0, or where the camera looks: it must lie beside that, as {} does",
          field("up"), up[0], up[1], up[2], std::fabs(forward.z) < 0.9 ? "0,0,1" : "0,1,0");

@@ -235,11 +235,31 @@ TEST(View, WhatItRefuses) {
   refused([](auto& pose, auto&, auto&) { pose.look_at = pose.from; }, "looks nowhere");
   refused([](auto& pose, auto&, auto&) { pose.up = {0, 0, 3}; }, "up 0,0,3 is 0, or where");
   refused([](auto& pose, auto&, auto&) { pose.from[1] = NAN; }, "must be finite");
+  refused([](auto& pose, auto&, auto&) { pose.from[0] = 1e200; },
+          "from 1e+200,0,1 is too far away: allowed are 1e+15 units along each axis");
+  refused([](auto& pose, auto&, auto&) { pose.look_at[2] = -2e15; }, "look_at 0,0,-2e+15 is too");
+  refused(
+      [](auto& pose, auto&, auto&) {
+        pose.up = {0, 0, 1e200};
+      },
+      "up 0,0,1e+200 is 0, or where");
   refused([](auto&, auto& lens, auto&) { lens.focus_end_units = 4; }, "one plane of focus");
   refused([](auto&, auto&, auto& s) { s.width = 0; }, "allowed are 1 to 16384");
   refused([](auto&, auto&, auto& s) { s.height = 20000; }, "allowed are 1 to 16384");
   refused([](auto&, auto&, auto& s) { s.cutoff = 0.5; }, "cutoff is 0.5: allowed are 1 to 8");
   refused([](auto&, auto&, auto& s) { s.transparency = 1; }, "transparency is 1");
+}
+
+/// Its length says nothing.
+TEST(View, AnyUpWillDo) {
+  Lens lens;
+  lens.focus_distance_units = 3;
+  const auto down = [&](double length) {
+    CameraPose pose;
+    pose.up = {0, length, 0};
+    return splat_params(pose, {}, lens, {}).down_y;
+  };
+  for (const double length : {1e-200, 1e200}) EXPECT_EQ(down(length), down(1)) << length;
 }
 
 }  // namespace

@@ -138,15 +138,15 @@ TEST(SplatCoverage, AClosedBodysSmallHolesAreFilled) {
   PointCloud ball;
   for (int i = 0; i < 20000; ++i) {
     const double z = 1 - (i + 0.5) / 10000, ring = std::sqrt(1 - z * z), turn = 2.399963 * i;
-    if (ring < 0.06 && z > 0) continue;  // 2.4 distances of points around the middle
+    if (ring < 0.09 && z > 0) continue;  // 3.6 distances of points around the middle
     ball.positions.push_back({static_cast<float>(ring * std::cos(turn)),
                               static_cast<float>(ring * std::sin(turn)), static_cast<float>(z)});
   }
   const DefraySplatParams p = view_of(160, 4, 0);
   const auto least = [&] { return range_inside(draw(tree_of(ball), p).colour[3], 160, 8).first; };
-  EXPECT_GE(least(), 0.95f);
+  EXPECT_GE(least(), 0.45f);
   ball.normals = ball.positions;
-  EXPECT_LE(least(), 0.2f);
+  EXPECT_LE(least(), 0.05f);
 }
 
 }  // namespace
