@@ -1,6 +1,7 @@
 // Point clouds through the lens: what is solid is covered.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/random.h"
 #include "splat_support.h"
@@ -128,6 +129,31 @@ TEST(SplatCoverage, PointsInRandomPlacesLeaveNoHoles) {
       const auto [least, most] = range_inside(alpha, 160, 20);
       EXPECT_GE(least, 0.75f) << aperture;
       EXPECT_LE(most, 1.0001f) << aperture;
+    }
+  }
+}
+
+/// Sheets are as large as their points say, whether these lie on a grid or anywhere: what reaches
+/// over an edge is as much as what the last row leaves open, sharp and blurred.
+TEST(SplatCoverage, SurfacesEndWhereTheirPointsDo) {
+  for (const double jitter : {0.0, 0.5, 1.0}) {  // in distances; 1: anywhere
+    PointCloud sheet;
+    for (int i = 0; i < 2500; ++i) {
+      Random random(i, 0, 6);
+      const auto place = [&](int k) {
+        const double moved = k + 0.5 + jitter * (random.next() - 0.5);
+        return static_cast<float>((jitter < 1 ? moved : 50 * random.next()) / 25 - 1);
+      };
+      sheet.positions.push_back({place(i % 50), place(i / 50), -1});
+      sheet.normals.push_back({0, 0, 1});
+    }
+    const Hierarchy tree = tree_of(sheet);
+    for (const double aperture : {0.0, 200.0}) {
+      const DefraySplatParams p = view_of(160, 4, aperture);
+      const Plane alpha = draw(tree, p).colour[3];
+      const double side_px = 2 * static_cast<double>(p.focal_px) / 5;
+      const double covered = std::accumulate(alpha.begin(), alpha.end(), 0.0);
+      EXPECT_NEAR(covered / (side_px * side_px), 1, 0.012) << jitter << ", " << aperture << " mm";
     }
   }
 }
