@@ -30,6 +30,24 @@ void check_counts(const PointCloud& cloud) {
   check("alpha", cloud.alpha.size());
 }
 
+/// Estimated spacings are no larger than this times the median of those around. What lies by itself
+/// before a surface, as strays of scans do, would else be a disc that reaches the surface.
+constexpr double most_over_others = 3;
+
+void limit_to_others(const std::vector<std::uint8_t>& has_radius, CloudPoints& cloud) {
+  std::vector<double> spacings;
+  for (const CloudPoint& p : cloud.points) spacings.push_back(p.spacing);
+  parallel_for_each(spacings.size(), [&](std::size_t i) {
+    if (has_radius[i]) return;
+    std::vector<double> others;
+    for (const std::uint32_t other : cloud.around.of(i)) others.push_back(spacings[other]);
+    if (others.empty()) return;
+    const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
+    std::nth_element(others.begin(), middle, others.end());
+    cloud.points[i].spacing = std::min(spacings[i], most_over_others * *middle);
+  });
+}
+
 /// Spacings, given or from the points around; of a single point there are none around. Returns
 /// which are given.
 std::vector<std::uint8_t> set_spacings(const PointCloud& given_cloud,
@@ -71,6 +89,7 @@ std::vector<std::uint8_t> set_spacings(const PointCloud& given_cloud,
   for (CloudPoint& p : points) {
     if (!(p.spacing > 0)) p.spacing = known[known.size() / 2];
   }
+  limit_to_others(has_radius, cloud);
   return has_radius;
 }
 

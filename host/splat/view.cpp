@@ -6,12 +6,14 @@
 
 #include "base/error.h"
 #include "lens/lens.h"
-#include "splat/placed_points.h"
 
 namespace defray {
 namespace {
 
 constexpr int largest_side = 16384;
+/// Of cameras and what they look at, from the scene's origin: floats hold squares of more than
+/// this.
+constexpr double farthest_camera = 1e18;
 
 Vec3 vec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -34,10 +36,10 @@ void check_finite(const CameraPose& pose) {
 /// Farther ones' squares are not numbers.
 void check_place(const char* name, const std::array<double, 3>& place) {
   for (const double along : place) {
-    if (std::fabs(along) <= static_cast<double>(most_units)) continue;
+    if (std::fabs(along) <= farthest_camera) continue;
     fail(ErrorKind::usage,
          "{} {:g},{:g},{:g} is too far away: allowed are {:g} units along each axis", field(name),
-         place[0], place[1], place[2], most_units);
+         place[0], place[1], place[2], farthest_camera);
   }
 }
 

@@ -236,8 +236,8 @@ TEST(View, WhatItRefuses) {
   refused([](auto& pose, auto&, auto&) { pose.up = {0, 0, 3}; }, "up 0,0,3 is 0, or where");
   refused([](auto& pose, auto&, auto&) { pose.from[1] = NAN; }, "must be finite");
   refused([](auto& pose, auto&, auto&) { pose.from[0] = 1e200; },
-          "from 1e+200,0,1 is too far away: allowed are 1e+15 units along each axis");
-  refused([](auto& pose, auto&, auto&) { pose.look_at[2] = -2e15; }, "look_at 0,0,-2e+15 is too");
+          "from 1e+200,0,1 is too far away: allowed are 1e+18 units along each axis");
+  refused([](auto& pose, auto&, auto&) { pose.look_at[2] = -2e18; }, "look_at 0,0,-2e+18 is too");
   refused(
       [](auto& pose, auto&, auto&) {
         pose.up = {0, 0, 1e200};

@@ -155,6 +155,21 @@ TEST(Surfels, AnOriginIsFinite) {
   }
 }
 
+/// What scans have before a surface is as small as the surface's points, not as far as it is away.
+TEST(Surfels, StraysAreSmall) {
+  PointCloud cloud = slope(21);
+  cloud.positions.push_back({1, 1, 4});
+  cloud.positions.push_back({0.5f, 1.5f, 6});
+  std::size_t strays = 0;
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    if (n.z < 3) continue;
+    ++strays;
+    EXPECT_LE(std::sqrt(n.variance), 3 * 0.8 * 0.13);  // along edges spacings are 0.13
+    EXPECT_LE(area_of(n), M_PI * std::pow(3 * 0.13, 2));
+  }
+  EXPECT_EQ(strays, 2u);
+}
+
 TEST(Surfels, NotesFlippedNormals) {
   PointCloud cloud = slope(9);
   cloud.normals.assign(cloud.positions.size(), {0, 0, 1});
