@@ -21,7 +21,7 @@ struct Search {
   float too_much;
 };
 /// Of areas: as large as the surface is, they are what counts where it is blurred.
-constexpr Search of_areas{3, 0.5f, 0.3f};
+constexpr Search of_areas{4, 0.5f, 0.3f};
 /// Where it is sharp what is behind shines through wherever sums are less than 1; what is more does
 /// not count (SplatMerge). Of points on a jittered grid the least sum is 0.99; with all areas
 /// alike, and 1.03, it is 0.91.
