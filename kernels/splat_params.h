@@ -24,6 +24,7 @@ typedef struct {
   /// V_q: the covariance of the places that a node stands for; 0 of a point.
   float low_xx, low_xy, low_xz, low_yy, low_yz, low_zz;
   float cover;       ///< Where it is sharp it covers so many times its area, so that no holes show.
+  float both_sides;  ///< Share of its area that is seen from both sides; above 1/2 all of it is.
   float r, g, b, a;  ///< Premultiplied.
 } DefraySplatNode;
 
@@ -35,6 +36,7 @@ typedef struct {
   float disc_top;                             ///< 0: Gaussian; else where a disc's conic ends.
   float disc_bulge;                           ///< How steeply a disc falls: 0 to 2.
   float lean_x, lean_y;                       ///< Of the amplitude, per px.
+  float back;                                 ///< Of what is below 0: 0 nothing is seen, -1 all.
   float z;                                    ///< Depth, scene units.
   float z_near, z_far;                        ///< Of the basis function.
   DEFRAY_INT first_x, end_x, first_y, end_y;  ///< Pixels within the cut-off; none: culled.
@@ -63,7 +65,7 @@ typedef struct {
   float edge;                 ///< e^-c, which Gaussians are lowered by: they end at 0.
   float gaussian_share;       ///< 1 - e^-c (1 + c): what is then left of one.
   float gaussian_variance;    ///< And of its variance: 1 - c^2 e^-c / 2 over that share.
-  DEFRAY_UINT one_sided;      ///< 1: surfaces are seen from where their normals point.
+  DEFRAY_UINT one_sided;      ///< 1: surfaces with one side are seen from where normals point.
   DEFRAY_UINT has_discs;      ///< 1: what is mostly blur becomes a disc.
   DEFRAY_UINT has_headlight;  ///< 1: colours are shaded by a light at the eye.
   DEFRAY_UINT averages;       ///< 1: a surface's fragments are averaged; 0: the nearest count.
@@ -80,15 +82,14 @@ typedef struct {
   float cutoff;
   float edge;
   DEFRAY_UINT averages;
-  DEFRAY_UINT one_sided;
   DEFRAY_INT layers;
 } DefraySplatTileParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefraySplatNode) == 72);
-static_assert(sizeof(DefraySplat) == 84);
+static_assert(sizeof(DefraySplatNode) == 76);
+static_assert(sizeof(DefraySplat) == 88);
 static_assert(sizeof(DefraySplatParams) == 136);
-static_assert(sizeof(DefraySplatTileParams) == 40);
+static_assert(sizeof(DefraySplatTileParams) == 36);
 #endif
 
 #endif

@@ -127,7 +127,7 @@ OptionGroup output_rows(SplatCommand& job) {
   return {
       "Output",
       {{"--depth", flag(job.has_depth),
-        "Also channel Z: the depth of the nearest splat, inf where there is none"},
+        "Also channel Z: the depth of the nearest surface, inf where there is none"},
        {"--fragments", flag(job.has_fragments),
         "Also channel fragments: how many splats a pixel was made of"},
        {"--mkdir", flag(job.makes_folders), "Make the pictures' folder where there is none"},

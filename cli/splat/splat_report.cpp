@@ -43,6 +43,7 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
                {"points", r.points},
                {"drawn", r.drawn},
                {"seen", r.seen},
+               {"both_sides", r.both_sides},
                {"from_behind", r.from_behind},
                {"is_inside_out", r.is_inside_out},
                {"fragments", std::llround(r.fragments)},

@@ -47,9 +47,9 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
   for (std::uint32_t tile = 0; tile < counts.size();) {
     SplatTiles tiles = next_tiles(splats, counts, static_cast<int>(tiles_x), tile, most);
     if (tiles.list.empty()) tiles.list.push_back(0);
-    const DefraySplatTileParams p{params.width,     params.height, tiles_x,     tile,
-                                  tiles.tile_count, params.cutoff, params.edge, params.averages,
-                                  params.one_sided, params.layers};
+    const DefraySplatTileParams p{params.width, params.height,    tiles_x,
+                                  tile,         tiles.tile_count, params.cutoff,
+                                  params.edge,  params.averages,  params.layers};
     session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_SQUARES}, p, in,
                     session_.view(tiles.first), session_.view(tiles.list), colour, depth, count);
     session_.finish();  // before the lists go

@@ -9,6 +9,7 @@
 #include "library/backend_of.h"
 #include "splat/cloud_cache.h"
 #include "splat/models.h"
+#include "splat/sides.h"
 #include "splat/splat_picture.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
@@ -39,11 +40,10 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
     : state_(std::make_unique<State>()) {
   Surfels surfels = make_surfels(cloud, progress);
   state_->origin = cloud.origin;
-  state_->points = surfels.count;
-  state_->outside = surfels.outside;
+  state_->has_normals = surfels.has_normals;
   state_->has_colours = surfels.has_colours;
   state_->notes = std::move(surfels.notes);
-  state_->tree = build_hierarchy(std::move(surfels.points), surfels.outside != Outside::unknown);
+  state_->tree = build_hierarchy(std::move(surfels.points));
   state_->radius = radius_of(state_->tree);
 }
 
@@ -83,7 +83,7 @@ SplatModel::SplatModel(SplatModel&&) noexcept = default;
 SplatModel& SplatModel::operator=(SplatModel&&) noexcept = default;
 SplatModel::~SplatModel() = default;
 
-std::size_t SplatModel::points() const { return state_->points; }
+std::size_t SplatModel::points() const { return state_->tree.points.size(); }
 const std::vector<std::string>& SplatModel::notes() const { return state_->notes; }
 
 std::array<double, 3> SplatModel::centre() const {
@@ -97,12 +97,10 @@ double SplatModel::radius() const { return state_->radius; }
 
 namespace {
 
-/// Whether surfaces are seen from outside alone. What is found to be closed is a room to those in
-/// it.
+/// Whether surfaces with one side are seen from there alone. What is found to be closed is a room
+/// to those in it.
 bool shows_outside(const CachedCloud& model, const DefraySplatParams& view) {
-  return model.outside == Outside::given ||
-         (model.outside == Outside::found &&
-          !is_within(model.tree, {view.eye_x, view.eye_y, view.eye_z}));
+  return model.has_normals || !is_within(model.tree, {view.eye_x, view.eye_y, view.eye_z});
 }
 
 }  // namespace
@@ -120,7 +118,7 @@ SplatResult splat(Device& device, const SplatModel& model, const CameraPose& pos
   const std::vector<std::string> tuned = use_tuning(device, tuning::cloud_class(pixels));
   SplatPlanes planes = draw_splats(backend_of(device), m.tree, params, settings.lod,
                                    settings.transparency, out.report, progress);
-  out.report.points = m.points;
+  out.report.is_inside_out &= m.has_normals;
   out.report.tuned = tuned;
   out.colour = std::move(planes.colour);
   out.depth = std::move(planes.depth);

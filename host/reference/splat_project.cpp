@@ -164,11 +164,12 @@ float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen
 
 /// How much is seen, from an amplitude of 1: from the lens's centre, or, with discs, from the point
 /// of the lens that each pixel stands for. Returns whether any is.
-bool face_lens(const DefraySplatParams& p, const Seen& seen, float coc, float sharp_coc,
-               float share, DefraySplat& s) {
+bool face_lens(const DefraySplatParams& p, const Seen& seen, bool has_back, float coc,
+               float sharp_coc, float share, DefraySplat& s) {
+  s.back = has_back ? -1 : 0;
   if (!p.has_discs) {
     s.amplitude *= std::fabs(seen.towards);
-    return !p.one_sided || seen.towards < 0;
+    return has_back || seen.towards < 0;
   }
   const float x = dot({p.right_x, p.right_y, p.right_z}, seen.normal);
   const float y = dot({p.down_x, p.down_y, p.down_z}, seen.normal);
@@ -177,7 +178,7 @@ bool face_lens(const DefraySplatParams& p, const Seen& seen, float coc, float sh
   s.lean_y = s.amplitude * (units_a_px * y);
   s.amplitude *= -seen.towards;
   const float most = std::fabs(coc * units_a_px) * std::sqrt(x * x + y * y);
-  return !p.one_sided || most - seen.towards > 0;
+  return has_back || most - seen.towards > 0;
 }
 
 DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
@@ -220,7 +221,8 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const bool is_disc = p.has_discs && coc * coc > DEFRAY_SPLAT_DISC * own;
   const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
   const float share = blur_node(p, n, seen, blur, is_disc, s);
-  if (!face_lens(p, seen, coc, sharp_coc, share, s)) return depths;
+  const bool has_back = n.both_sides > 0.5f || !p.one_sided;
+  if (!face_lens(p, seen, has_back, coc, sharp_coc, share, s)) return depths;
   const float covered = std::fabs(s.amplitude) + std::fabs(s.lean_x) + std::fabs(s.lean_y);
   if (!(covered > 0)) return without_shape;
   if (!(s.first_x < s.end_x && s.first_y < s.end_y)) s.first_x = s.end_x = s.first_y = s.end_y = 0;

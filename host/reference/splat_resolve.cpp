@@ -15,6 +15,7 @@ namespace {
 struct Pixel {
   float weight = 0;
   float layer[4] = {}, sum[4] = {};
+  float layer_z = 0;  ///< Alpha times depth.
   float far = -std::numeric_limits<float>::infinity();
   float depth = std::numeric_limits<float>::infinity();
   float count = 0;
@@ -24,11 +25,12 @@ struct Pixel {
   void end_layer(bool averages) {
     float share = 1 - sum[3];
     if (averages) share /= std::fmax(weight, 1.0f);
+    if (std::isinf(depth) && layer[3] > 0) depth = layer_z / layer[3];
     for (int c = 0; c < 4; ++c) {
       sum[c] += share * layer[c];
       layer[c] = 0;
     }
-    weight = 0;
+    weight = layer_z = 0;
     is_opaque = 1 - sum[3] < DEFRAY_SPLAT_OPAQUE;
   }
 
@@ -45,7 +47,7 @@ struct Pixel {
     const float colour[] = {s.r, s.g, s.b, s.a};
     for (int c = 0; c < 4; ++c) layer[c] += taken * colour[c];
     far = std::fmax(far, s.z_far);
-    if (s.a > 0) depth = std::fmin(depth, s.z);
+    layer_z += taken * (s.a * s.z);
     ++count;
   }
 };
@@ -54,7 +56,7 @@ float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) 
   const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;
   const float form = (s.conic_xx * dx + 2 * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
   const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
-  const float facing = p.one_sided ? std::fmax(leant, 0.0f) : std::fabs(leant);
+  const float facing = std::fmax(s.back * leant, leant);
   if (s.disc_top > 0) {
     const float left = std::fmin(std::fmax(s.disc_top - form, 0.0f), 1.0f);
     return facing * (left * left * (1 + s.disc_bulge * (1 - left)));

@@ -15,16 +15,16 @@ namespace defray {
 namespace {
 
 /// Changes with whatever changes the bytes of what follows, or how they are made.
-constexpr char mark[16] = "defray surfels6";
+constexpr char mark[16] = "defray surfels7";
 
 /// The file that the cache was made of, and what the cache holds.
 struct Head {
   char mark[16];
   std::uint64_t cloud_bytes;
   std::int64_t cloud_time;
-  std::uint64_t cloud_points, points, nodes, notes_bytes;
+  std::uint64_t points, nodes, notes_bytes;
   double origin[3];
-  std::uint32_t outside, has_colours;
+  std::uint32_t has_normals, has_colours;
   std::uint64_t hash;  ///< Of all that follows, and of this with a hash of 0.
 };
 
@@ -101,9 +101,8 @@ std::optional<CachedCloud> read_cache(const std::string& cloud, std::string& why
     return std::nullopt;
   }
   CachedCloud made{{},
-                   head.cloud_points,
                    {head.origin[0], head.origin[1], head.origin[2]},
-                   static_cast<Outside>(head.outside),
+                   head.has_normals != 0,
                    head.has_colours != 0,
                    {}};
   std::vector<char> letters;
@@ -127,12 +126,11 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
   Head head = head_of(cloud);
   std::string notes;
   for (const std::string& note : cached.notes) notes += note + "\n";
-  head.cloud_points = cached.points;
   head.points = cached.tree.points.size();
   head.nodes = cached.tree.nodes.size();
   head.notes_bytes = notes.size();
   std::copy(cached.origin.begin(), cached.origin.end(), head.origin);
-  head.outside = static_cast<std::uint32_t>(cached.outside);
+  head.has_normals = cached.has_normals;
   head.has_colours = cached.has_colours;
   head.hash = hash_of(head, cached.tree, notes);
   write_safely(cache_path(cloud), [&](const std::string& name) {

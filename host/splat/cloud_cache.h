@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "splat/hierarchy.h"
-#include "splat/sides.h"
 
 namespace defray {
 
 /// All that is made of a point cloud.
 struct CachedCloud {
   Hierarchy tree;
-  std::uint64_t points = 0;  ///< Of the cloud; those shown from both sides are two in the tree.
   std::array<double, 3> origin{};
-  Outside outside = Outside::unknown;
-  bool has_colours = false;
+  bool has_normals = false, has_colours = false;  ///< Given.
   std::vector<std::string> notes;
 };
 

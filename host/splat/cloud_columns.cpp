@@ -22,6 +22,19 @@ std::optional<std::size_t> find(const std::vector<std::string>& names, const std
   return static_cast<std::size_t>(found - names.begin());
 }
 
+/// In the middle of what is finite along an axis: a few that lie far away, or at 0 among places of
+/// a geographer's, do not move it. Of an even number the lower one.
+double middle_of(const std::vector<std::array<double, 3>>& places, std::size_t axis) {
+  std::vector<double> along;
+  for (const auto& place : places) {
+    if (std::isfinite(place[axis])) along.push_back(place[axis]);
+  }
+  if (along.empty()) return 0;
+  const auto middle = along.begin() + static_cast<std::ptrdiff_t>((along.size() - 1) / 2);
+  std::nth_element(along.begin(), middle, along.end());
+  return *middle;
+}
+
 }  // namespace
 
 void check_memory_for(std::uint64_t points, const std::string& path, const std::string& how_known) {
@@ -86,7 +99,7 @@ CloudColumns::Group CloudColumns::group(const std::vector<std::string>& names,
 }
 
 void CloudColumns::reserve(std::size_t points) {
-  cloud_.positions.reserve(points);
+  places_.reserve(points);
   if (normal_) cloud_.normals.reserve(points);
   if (colour_) cloud_.colours.reserve(points);
 }
@@ -96,7 +109,7 @@ double CloudColumns::share(std::span<const double> row, std::size_t column) cons
   if (most == 0) return row[column];
   if (!(row[column] >= 0 && row[column] <= most)) {
     fail(ErrorKind::input, "{}: point {} has the colour {}: of its type allowed are 0 to {}", path_,
-         cloud_.positions.size() - 1, row[column], most);
+         places_.size() - 1, row[column], most);
   }
   return row[column] / most;
 }
@@ -107,14 +120,7 @@ float CloudColumns::colour(std::span<const double> row, std::size_t column) cons
 }
 
 void CloudColumns::add(std::span<const double> row) {
-  const std::array<double, 3> place{row[place_[0]], row[place_[1]], row[place_[2]]};
-  if (!has_origin_ && std::isfinite(place[0] + place[1] + place[2])) {
-    cloud_.origin = place;
-    has_origin_ = true;
-  }
-  cloud_.positions.push_back({static_cast<float>(place[0] - cloud_.origin[0]),
-                              static_cast<float>(place[1] - cloud_.origin[1]),
-                              static_cast<float>(place[2] - cloud_.origin[2])});
+  places_.push_back({row[place_[0]], row[place_[1]], row[place_[2]]});
   const auto floats = [&](const std::array<std::size_t, 3>& columns) {
     return std::array<float, 3>{static_cast<float>(row[columns[0]]),
                                 static_cast<float>(row[columns[1]]),
@@ -129,6 +135,15 @@ void CloudColumns::add(std::span<const double> row) {
   if (alpha_) cloud_.alpha.push_back(static_cast<float>(share(row, *alpha_)));
 }
 
-PointCloud CloudColumns::take() && { return std::move(cloud_); }
+PointCloud CloudColumns::take() && {
+  for (std::size_t k = 0; k < 3; ++k) cloud_.origin[k] = middle_of(places_, k);
+  cloud_.positions.reserve(places_.size());
+  for (const auto& place : places_) {
+    cloud_.positions.push_back({static_cast<float>(place[0] - cloud_.origin[0]),
+                                static_cast<float>(place[1] - cloud_.origin[1]),
+                                static_cast<float>(place[2] - cloud_.origin[2])});
+  }
+  return std::move(cloud_);
+}
 
 }  // namespace defray

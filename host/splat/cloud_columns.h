@@ -28,7 +28,7 @@ class CloudColumns {
   void reserve(std::size_t points);
   void add(std::span<const double> row);
 
-  /// Places from the first point that has one.
+  /// Places from the middle of all.
   PointCloud take() &&;
 
  private:
@@ -44,7 +44,7 @@ class CloudColumns {
   std::optional<std::size_t> alpha_, radius_;
   std::vector<double> whole_numbers_;
   std::string path_;
-  bool has_origin_ = false;
+  std::vector<std::array<double, 3>> places_;
   PointCloud cloud_;
 };
 

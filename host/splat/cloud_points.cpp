@@ -4,6 +4,8 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
+#include "base/plane.h"
+
 namespace defray {
 namespace {
 
@@ -11,29 +13,70 @@ namespace {
 constexpr std::size_t close_count = 8;
 constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
 
-}  // namespace
+/// Of the variance of the places around a point: strays all over a volume have more across (median
+/// 0.2, with a surface nearby down to 0.08), edges and corners of boxes less (up to 0.17, median
+/// 0.04 within two distances). At 0.1 a box five times coarser than what is beside it loses alpha
+/// in 0.5 % of its pixels, at 0.07 in 3 %, and of a ball with 1 % strays 99 % are seen, at 0.12
+/// none.
+constexpr double thickest_surface = 0.1;
 
-Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point) {
+/// Where more than this share of the points around have it so many of their spacings above the
+/// surface that they lie in, a point is not of that surface.
+constexpr double farthest_above = 3, least_away = 0.25;
+
+/// How places lie: along unit axes, the largest variance first.
+struct Spread {
+  Vec3 mean;
+  std::array<double, 3> variances;
+  std::array<Vec3, 3> axes;
+};
+
+/// Of those around a point, and its own.
+Spread spread_around(const CloudPoints& cloud, std::size_t point, bool has_own) {
   const auto around = cloud.around.of(point);
-  Vec3 mean = cloud.place(point);
+  Vec3 mean = has_own ? cloud.place(point) : Vec3{};
   for (const std::uint32_t i : around) mean = mean + cloud.place(i);
-  mean = mean / static_cast<double>(around.size() + 1);
+  mean = mean / static_cast<double>(around.size() + has_own);
   cv::Matx33d covariance = cv::Matx33d::zeros();
   const auto add = [&](std::size_t i) {
     const Vec3 d = cloud.place(i) - mean;
     const cv::Vec3d v(d.x, d.y, d.z);
     covariance += v * v.t();
   };
-  add(point);
+  if (has_own) add(point);
   for (const std::uint32_t i : around) add(i);
   cv::Vec3d values;
   cv::Matx33d vectors;
-  cv::eigen(covariance, values, vectors);  // the largest first
-  if (values[1] > 1e-12 * values[0]) return {vectors(2, 0), vectors(2, 1), vectors(2, 2)};
+  cv::eigen(covariance, values, vectors);
+  Spread spread{.mean = mean, .variances = {}, .axes = {}};
+  for (int k = 0; k < 3; ++k) {
+    spread.variances[size(k)] = values[k];
+    spread.axes[size(k)] = {vectors(k, 0), vectors(k, 1), vectors(k, 2)};
+  }
+  return spread;
+}
+
+}  // namespace
+
+Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point) {
+  const Spread spread = spread_around(cloud, point, true);
+  if (spread.variances[1] > 1e-12 * spread.variances[0]) return spread.axes[2];
   // Along a line, or alone: any direction across will do.
-  const Vec3 line = values[0] > 0 ? Vec3{vectors(0, 0), vectors(0, 1), vectors(0, 2)} : Vec3{};
+  const Vec3 line = spread.variances[0] > 0 ? spread.axes[0] : Vec3{};
   const Vec3 towards = std::abs(line.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
   return normalized(towards - line * dot(line, towards));
+}
+
+bool is_stray(const CloudPoints& cloud, std::size_t point) {
+  const auto [most, middle, least] = spread_around(cloud, point, false).variances;
+  if (least > thickest_surface * (most + middle + least)) return true;
+  const auto around = cloud.around.of(point);
+  const auto away = std::count_if(around.begin(), around.end(), [&](std::uint32_t other) {
+    const Spread there = spread_around(cloud, other, true);
+    const double above = dot(cloud.place(point) - there.mean, there.axes[2]);
+    return std::abs(above) > farthest_above * cloud.points[other].spacing;
+  });
+  return static_cast<double>(away) > least_away * static_cast<double>(around.size());
 }
 
 double spacing_of(const CloudPoints& cloud, std::size_t point) {

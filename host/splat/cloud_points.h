@@ -23,7 +23,7 @@ inline constexpr std::size_t site_count = 7;
 /// What is known of a point.
 struct CloudPoint {
   Vec3 normal;                ///< Unit.
-  bool is_two_sided = false;  ///< Of an oriented cloud: which side is outside is not known.
+  bool is_two_sided = false;  ///< Which side is outside is not known.
   double spacing = 0;         ///< Radius of the disc that it stands for.
   double covered = 1;         ///< Share of the basis function's reach where there is a surface.
   /// How far from it sums of basis functions are looked at, in spacings; in cells.h's directions.
@@ -35,20 +35,22 @@ struct CloudPoints {
   std::vector<std::array<float, 3>> places;
   std::vector<CloudPoint> points;
   Neighbours around;
-  bool is_oriented = false;  ///< Normals point outside.
-  bool is_closed = false;    ///< Oriented surfaces, but two-sided points, have no edges.
+  bool is_closed = false;  ///< What has one side has no edges.
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 
   /// Whether what is seen of one is not seen of the other, for this cosine between their normals.
   bool are_apart(std::size_t i, std::size_t j, double cosine) const {
-    return is_oriented && !(cosine > 0) && !points[i].is_two_sided && !points[j].is_two_sided;
+    return !(cosine > 0) && !points[i].is_two_sided && !points[j].is_two_sided;
   }
 };
 
 /// The direction in which the places around a point vary least; of points along a line, or alone,
 /// one across it, along z if it can be.
 Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point);
+
+/// Whether the places around a point lie in no surface, or in one that it lies far above.
+bool is_stray(const CloudPoints& cloud, std::size_t point);
 
 /// Mean distance of the closest points that are not in the same place, in sides of a square grid's
 /// squares; 0 if all are in one place.

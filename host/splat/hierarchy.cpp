@@ -35,12 +35,12 @@ struct Moments {
   double area = 0;
   Vec3 spanned{}, place{};
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  double variance = 0, cover = 0, r = 0, g = 0, b = 0, a = 0;
+  double variance = 0, cover = 0, both_sides = 0, r = 0, g = 0, b = 0, a = 0;
 
   /// Places from `origin`; `whole` is the area, of which `spanned` is what shows.
-  void add(const DefraySplatNode& n, double whole, const Vec3& origin, bool one_sided) {
+  void add(const DefraySplatNode& n, double whole, const Vec3& origin) {
     const Vec3 p = place_of(n) - origin;
-    const double side = !one_sided && dot(spanned, area_of(n)) < 0 ? -1 : 1;
+    const double side = n.both_sides > 0.5f && dot(spanned, area_of(n)) < 0 ? -1 : 1;
     area += whole;
     spanned = spanned + area_of(n) * side;
     place = place + p * whole;
@@ -52,6 +52,7 @@ struct Moments {
     zz += whole * (p.z * p.z + n.low_zz);
     variance += whole * n.variance;
     cover += whole * n.cover;
+    both_sides += whole * n.both_sides;
     r += whole * n.r;
     g += whole * n.g;
     b += whole * n.b;
@@ -77,6 +78,7 @@ struct Moments {
             covariance(yz, mean.y, mean.z),
             covariance(zz, mean.z, mean.z),
             static_cast<float>(cover / area),
+            static_cast<float>(both_sides / area),
             static_cast<float>(r / area),
             static_cast<float>(g / area),
             static_cast<float>(b / area),
@@ -88,10 +90,13 @@ struct Moments {
 /// narrow, or one has few of the points, are thick beside that. A cap of a sphere as wide as
 /// cut.cpp lets one node stand for has 0.02.
 constexpr double most_sheets = 1.5, most_thickness = 0.03;
+/// Of a node whose points have one side this share may have two, or the other way round.
+constexpr float most_other_sides = 0.1f;
 
-/// Whether a node's points, of so much area in all, lie on one sheet, by the covariance of their
-/// places. Each stands for a square of its own.
+/// Whether a node's points, of so much area in all, lie on one sheet that shows as many sides, by
+/// the covariance of their places. Each stands for a square of its own.
 bool is_one_sheet(const DefraySplatNode& n, double area) {
+  if (std::min(n.both_sides, 1 - n.both_sides) > most_other_sides) return false;
   const double own = n.variance / (12 * basis_deviation * basis_deviation);
   const double xx = n.low_xx + own, yy = n.low_yy + own, zz = n.low_zz + own;
   const double xy = n.low_xy, xz = n.low_xz, yz = n.low_yz;
@@ -128,7 +133,7 @@ std::uint32_t nodes_above(std::uint32_t points) {
 
 class Builder {
  public:
-  Builder(Hierarchy& tree, bool one_sided) : tree_(tree), one_sided_(one_sided) {}
+  explicit Builder(Hierarchy& tree) : tree_(tree) {}
 
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t end, int level) {
     HierarchyNode& made = tree_.nodes[node];
@@ -180,7 +185,7 @@ class Builder {
               [](const auto& a, const auto& b) { return is_before(a, b, 0); });
     const Vec3 origin = place_of(points.front());
     Moments sum;
-    for (const DefraySplatNode& p : points) sum.add(p, length(area_of(p)), origin, one_sided_);
+    for (const DefraySplatNode& p : points) sum.add(p, length(area_of(p)), origin);
     set_node(sum, origin, made);
     double radius = 0;
     for (const DefraySplatNode& p : points) {
@@ -193,7 +198,7 @@ class Builder {
     const Vec3 origin = place_of(left.splat);
     Moments sum;
     for (const HierarchyNode* child : {&left, &right}) {
-      sum.add(child->splat, static_cast<double>(child->whole_area), origin, one_sided_);
+      sum.add(child->splat, static_cast<double>(child->whole_area), origin);
     }
     set_node(sum, origin, made);
     double radius = 0;
@@ -205,17 +210,16 @@ class Builder {
   }
 
   Hierarchy& tree_;
-  bool one_sided_;
 };
 
 }  // namespace
 
-Hierarchy build_hierarchy(std::vector<DefraySplatNode> points, bool one_sided) {
+Hierarchy build_hierarchy(std::vector<DefraySplatNode> points) {
   Hierarchy tree;
   tree.points = std::move(points);
   const auto count = static_cast<std::uint32_t>(tree.points.size());
   tree.nodes.resize(nodes_above(count));
-  Builder(tree, one_sided).build(0, 0, count, 0);
+  Builder(tree).build(0, 0, count, 0);
   return tree;
 }
 

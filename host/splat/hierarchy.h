@@ -13,7 +13,7 @@ struct HierarchyNode {
   DefraySplatNode splat;       ///< What it is drawn as.
   float radius;                ///< Of a sphere around its place that holds all its points.
   float whole_area;            ///< Of its points; the splat's is as long where they are flat.
-  std::uint32_t is_one_sheet;  ///< Its points do not lie behind each other.
+  std::uint32_t is_one_sheet;  ///< Its points do not lie behind each other, nor differ in sides.
   std::uint32_t first_point, end_point;
   std::uint32_t next;  ///< The node after all that is below this one.
 };
@@ -27,8 +27,8 @@ struct Hierarchy {
   bool is_leaf(std::uint32_t node) const { return nodes[node].next == node + 1; }
 };
 
-/// Halves the points along the longest side of the box around them, until few are left. One-sided
-/// areas are added up as they are, others by the side that they show to each other's.
-Hierarchy build_hierarchy(std::vector<DefraySplatNode> points, bool one_sided);
+/// Halves the points along the longest side of the box around them, until few are left. Areas of
+/// surfaces with one side are added up as they are, others by the side that they show.
+Hierarchy build_hierarchy(std::vector<DefraySplatNode> points);
 
 }  // namespace defray

@@ -103,8 +103,8 @@ std::vector<std::uint32_t> placed_points(const PointCloud& cloud, std::vector<st
     if (!is_finite(p)) continue;
     if (std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}) > most_units) {
       fail(ErrorKind::input,
-           "point {} lies {:g} {:g} {:g} units from the first one: allowed are {:g}", i, p[0], p[1],
-           p[2], most_units);
+           "point {} lies {:g} {:g} {:g} units from the cloud's origin: allowed are {:g}", i, p[0],
+           p[1], p[2], most_units);
     }
     kept.push_back(i);
   }

@@ -9,7 +9,7 @@
 
 namespace defray {
 
-/// Farther from the first point, or larger, floats' squares and areas of pixels overflow.
+/// Farther from the cloud's origin, or larger, floats' squares and areas of pixels overflow.
 inline constexpr float most_units = 1e15f;
 
 bool is_finite(const std::array<float, 3>& v);

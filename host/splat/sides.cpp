@@ -16,15 +16,15 @@ constexpr std::size_t link_count = 8;
 /// What links say, -1 to 1, in whole numbers; less than the least says nothing, and from `certain`
 /// on one that normals go against is a mistake nearby.
 constexpr int whole_likeness = 1000, least_likeness = 500, certain_likeness = 800;
-/// Points so many neighbours' neighbours away from a mistake are shown from both sides. Of the
-/// Stanford dragon 0.34 % of all points lie wrong, and 0.03 % beside the 1.9 % that are shown so.
+/// Points so many neighbours' neighbours away from a mistake have two sides. Of the Stanford dragon
+/// 0.34 % of all points lie wrong, and 0.03 % beside the 1.9 % that have two.
 constexpr int doubt_steps = 2;
 /// Areas A of closed surfaces add up to nothing, and A_i p_j to the volume where i is j, else to
 /// nothing: so far they may be off, of what areas come to each by itself, and of the volume. Two
 /// scans of the Stanford dragon, with holes, are 0.0034 and 0.02 off, without the upper twentieth
 /// 0.017 and 0.25, a ball without that 0.05 and 0.12, and open tubes 0 and 1.2.
 constexpr double most_open = 0.01, most_off_volume = 0.06;
-/// Fewer points than this may be shown from both sides, in a cloud with outsides.
+/// Where more of a surface's points are near mistakes, others lie wrong, too.
 constexpr double most_doubtful = 0.1;
 
 /// How a neighbour's normal lies: 1 the same way, -1 the other, 0 cannot be said. As if the surface
@@ -155,6 +155,7 @@ struct Shape {
   Vec3 spanned{}, place{};
   double area = 0;
   std::array<Vec3, 3> moments{};  ///< Of areas along x, y, z.
+  double points = 0, doubtful = 0;
 
   double volume() const { return (moments[0].x + moments[1].y + moments[2].z) / 3; }
 
@@ -163,12 +164,14 @@ struct Shape {
     const Vec3 x = moments[0] - Vec3{inside, 0, 0}, y = moments[1] - Vec3{0, inside, 0},
                z = moments[2] - Vec3{0, 0, inside};
     const double off = std::sqrt(dot(x, x) + dot(y, y) + dot(z, z));
-    return length(spanned) < most_open * area && off < most_off_volume * std::abs(inside);
+    return length(spanned) < most_open * area && off < most_off_volume * std::abs(inside) &&
+           doubtful < most_doubtful * points;
   }
 };
 
 /// By their families' roots.
-std::vector<Shape> shapes_of(const CloudPoints& cloud, const std::vector<std::uint32_t>& family) {
+std::vector<Shape> shapes_of(const CloudPoints& cloud, const std::vector<std::uint32_t>& family,
+                             const std::vector<std::uint8_t>& doubtful) {
   std::vector<Shape> shapes(cloud.points.size());
   const auto area_of = [&](std::size_t i) {
     return cloud.points[i].normal * std::pow(cloud.points[i].spacing, 2);
@@ -179,6 +182,8 @@ std::vector<Shape> shapes_of(const CloudPoints& cloud, const std::vector<std::ui
     shape.spanned = shape.spanned + area_of(i);
     shape.place = shape.place + cloud.place(i) * area;
     shape.area += area;
+    shape.points += 1;
+    shape.doubtful += doubtful[i];
   }
   for (std::size_t i = 0; i < family.size(); ++i) {
     Shape& shape = shapes[family[i]];
@@ -192,31 +197,26 @@ std::vector<Shape> shapes_of(const CloudPoints& cloud, const std::vector<std::ui
 
 }  // namespace
 
-bool find_sides(CloudPoints& cloud) {
+void find_sides(CloudPoints& cloud) {
   const std::vector<std::uint32_t> family = agree(Links(cloud), cloud);
   const std::vector<std::uint8_t> doubtful = near_mistakes(cloud);
-  const std::vector<Shape> shapes = shapes_of(cloud, family);
-  std::size_t both = 0;
+  const std::vector<Shape> shapes = shapes_of(cloud, family, doubtful);
   for (std::size_t i = 0; i < family.size(); ++i) {
     const Shape& shape = shapes[family[i]];
-    if (shape.volume() < 0) cloud.points[i].normal = -cloud.points[i].normal;
-    cloud.points[i].is_two_sided = doubtful[i] || !shape.is_closed();
-    both += cloud.points[i].is_two_sided;
+    CloudPoint& p = cloud.points[i];
+    if (shape.volume() < 0) p.normal = -p.normal;
+    p.is_two_sided = doubtful[i] || !shape.is_closed();
   }
-  cloud.is_oriented =
-      static_cast<double>(both) < most_doubtful * static_cast<double>(family.size());
-  cloud.is_closed = cloud.is_oriented;
-  if (!cloud.is_oriented) {
-    for (CloudPoint& p : cloud.points) p.is_two_sided = false;
-  }
-  return cloud.is_oriented;
+  cloud.is_closed = true;
 }
 
 bool is_within(const Hierarchy& tree, const Vec3& place) {
+  if (tree.nodes.front().splat.both_sides == 1) return false;
   const double sum = parallel_sum(tree.points.size(), [&](std::size_t first, std::size_t end) {
     double part = 0;
     for (std::size_t i = first; i < end; ++i) {
       const DefraySplatNode& n = tree.points[i];
+      if (n.both_sides > 0.5f) continue;
       const Vec3 d = Vec3{n.x, n.y, n.z} - place;
       const double square = dot(d, d) + static_cast<double>(n.variance);
       part += dot({n.area_x, n.area_y, n.area_z}, d) / (square * std::sqrt(square));

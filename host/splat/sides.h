@@ -1,7 +1,5 @@
 #pragma once
 // Which side of estimated normals is outside.
-#include <cstdint>
-
 #include "base/vec3.h"
 #include "splat/hierarchy.h"
 
@@ -9,15 +7,12 @@ namespace defray {
 
 struct CloudPoints;
 
-/// Where a surface's outside is known from: its points' normals, or that it is closed.
-enum class Outside : std::uint32_t { unknown, given, found };
-
 /// Turns estimated normals so that neighbours' agree, and outwards where a surface is closed (Hoppe
-/// et al. 1992). Returns whether nearly all points are of closed ones: the others then
-/// are two-sided, and if not, none has an outside.
-bool find_sides(CloudPoints& cloud);
+/// et al. 1992). Points of all others are two-sided.
+void find_sides(CloudPoints& cloud);
 
-/// Whether a closed surface lies all around a place: its winding number there is above 1/2.
+/// Whether a closed surface lies all around a place: the winding number there of what has one side
+/// is above 1/2.
 bool is_within(const Hierarchy& tree, const Vec3& place);
 
 }  // namespace defray

@@ -30,22 +30,31 @@ void check_counts(const PointCloud& cloud) {
   check("alpha", cloud.alpha.size());
 }
 
-/// Estimated spacings are no larger than this times the median of those around. What lies by itself
-/// before a surface, as strays of scans do, would else be a disc that reaches the surface.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Estimated spacings are no larger than this times the median of those around. What is farther
+/// apart than that, or than so many times the median of all, may be a stray of a scan.
 constexpr double most_over_others = 3;
 
-void limit_to_others(const std::vector<std::uint8_t>& has_radius, CloudPoints& cloud) {
-  std::vector<double> spacings;
-  for (const CloudPoint& p : cloud.points) spacings.push_back(p.spacing);
-  parallel_for_each(spacings.size(), [&](std::size_t i) {
-    if (has_radius[i]) return;
+/// Strays become dots as wide as what they lie among; discs as wide as they lie apart would hide
+/// what is behind. Takes their sizes as given.
+void limit_to_others(double of_all, std::vector<std::uint8_t>& has_size, CloudPoints& cloud) {
+  std::vector<double> limited(cloud.points.size());
+  parallel_for_each(limited.size(), [&](std::size_t i) {
+    limited[i] = cloud.points[i].spacing;
     std::vector<double> others;
-    for (const std::uint32_t other : cloud.around.of(i)) others.push_back(spacings[other]);
-    if (others.empty()) return;
-    const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
-    std::nth_element(others.begin(), middle, others.end());
-    cloud.points[i].spacing = std::min(spacings[i], most_over_others * *middle);
+    for (const std::uint32_t k : cloud.around.of(i)) others.push_back(cloud.points[k].spacing);
+    if (has_size[i] || others.empty()) return;
+    const double of_others = median(others), small = std::min(of_all, of_others);
+    if (!(limited[i] > most_over_others * small)) return;
+    has_size[i] = is_stray(cloud, i);
+    limited[i] = has_size[i] ? small : std::min(limited[i], most_over_others * of_others);
   });
+  for (std::size_t i = 0; i < limited.size(); ++i) cloud.points[i].spacing = limited[i];
 }
 
 /// Spacings, given or from the points around; of a single point there are none around. Returns
@@ -84,12 +93,11 @@ std::vector<std::uint8_t> set_spacings(const PointCloud& given_cloud,
     out.notes.push_back(
         fmt::format("{} points have no radius above 0: estimated from those around", without));
   }
-  std::nth_element(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2),
-                   known.end());
+  const double of_all = median(known);
   for (CloudPoint& p : points) {
-    if (!(p.spacing > 0)) p.spacing = known[known.size() / 2];
+    if (!(p.spacing > 0)) p.spacing = of_all;
   }
-  limit_to_others(has_radius, cloud);
+  limit_to_others(of_all, has_radius, cloud);
   return has_radius;
 }
 
@@ -135,8 +143,8 @@ void set_normals(const PointCloud& given_cloud, const std::vector<std::uint32_t>
   });
   take_sides(is_given, cloud);
   const auto given = std::count(is_given.begin(), is_given.end(), 1);
-  cloud.is_oriented = given > 0;
-  out.outside = given > 0 ? Outside::given : find_sides(cloud) ? Outside::found : Outside::unknown;
+  out.has_normals = given > 0;
+  if (!out.has_normals) find_sides(cloud);
   if (!given_cloud.normals.empty() && given < static_cast<std::ptrdiff_t>(points.size())) {
     out.notes.push_back(fmt::format("{} points have no normal: estimated from those around",
                                     points.size() - static_cast<std::size_t>(given)));
@@ -163,6 +171,7 @@ DefraySplatNode surfel_of(const PointCloud& cloud, std::uint32_t index, const Cl
   n.area_z = static_cast<float>(spanned.z);
   n.variance = static_cast<float>(std::pow(basis_deviation * point.spacing, 2));
   n.cover = static_cast<float>(weight.cover);
+  n.both_sides = point.is_two_sided;
   constexpr float grey = 0.5f;
   n.a = cloud.alpha.empty() ? 1 : cloud.alpha[index];
   n.r = n.a * (cloud.colours.empty() ? grey : cloud.colours[index][0]);
@@ -208,7 +217,6 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   note_bright_colours(cloud, out);
   out.has_colours = !cloud.colours.empty();
   const std::vector<std::uint32_t> kept = placed_points(cloud, out.notes);
-  out.count = kept.size();
   std::vector<std::array<float, 3>> places;
   for (const std::uint32_t i : kept) places.push_back(cloud.positions[i]);
   Neighbours around(places, neighbour_count);
@@ -218,11 +226,7 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   find_cells(known, has_radius);
   const std::vector<PointWeight> weights = weigh(known, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    CloudPoint& p = known.points[i];
-    out.points.push_back(surfel_of(cloud, kept[i], p, weights[i]));
-    if (!p.is_two_sided) continue;
-    p.normal = -p.normal;
-    out.points.push_back(surfel_of(cloud, kept[i], p, weights[i]));
+    out.points.push_back(surfel_of(cloud, kept[i], known.points[i], weights[i]));
   }
   return out;
 }

@@ -6,14 +6,12 @@
 
 #include "defray/splat.h"
 #include "kernels/splat_params.h"
-#include "splat/sides.h"
 
 namespace defray {
 
 struct Surfels {
-  std::vector<DefraySplatNode> points;  ///< Those of unknown outside among others twice.
-  std::size_t count = 0;                ///< Of points with a place.
-  Outside outside = Outside::unknown;
+  std::vector<DefraySplatNode> points;
+  bool has_normals = false;  ///< Given; else what is closed has an outside.
   bool has_colours = false;
   std::vector<std::string> notes;
 };

@@ -14,9 +14,10 @@ Outcome run_project(Backend& backend, const Case& c, const Input&) {
       &DefraySplat::x,        &DefraySplat::y,          &DefraySplat::conic_xx,
       &DefraySplat::conic_xy, &DefraySplat::conic_yy,   &DefraySplat::amplitude,
       &DefraySplat::disc_top, &DefraySplat::disc_bulge, &DefraySplat::lean_x,
-      &DefraySplat::lean_y,   &DefraySplat::z,          &DefraySplat::z_near,
-      &DefraySplat::z_far,    &DefraySplat::r,          &DefraySplat::g,
-      &DefraySplat::b,        &DefraySplat::a};
+      &DefraySplat::lean_y,   &DefraySplat::back,       &DefraySplat::z,
+      &DefraySplat::z_near,   &DefraySplat::z_far,      &DefraySplat::r,
+      &DefraySplat::g,        &DefraySplat::b,          &DefraySplat::a};
+  static_assert(sizeof(DefraySplat) == (std::size(fields) + 4) * sizeof(float), "all of them");
   Outcome v;
   v.planes.resize(std::size(fields));
   for (const DefraySplat& s : backend.splat_project(splat_nodes(c), splat_params(c))) {

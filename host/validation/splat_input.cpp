@@ -63,6 +63,7 @@ DefraySplatNode node_of(const Case& c, std::uint32_t index) {
   n.area_z = static_cast<float>(spanned * normal.z);
   n.variance = static_cast<float>(0.36 * area);
   n.cover = static_cast<float>(0.5 + 2 * random.next());
+  n.both_sides = static_cast<float>(random.next());
   if (c.pattern != Pattern::checker && random.next() < 0.7) {
     set_low_pass(n, 0.1 * z * random.next(), random);
   }

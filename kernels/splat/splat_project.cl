@@ -198,12 +198,14 @@ INLINED floats blur_nodes(const DefraySplatParams p, const SplatNodes* n, const 
 // How much of a node is seen, from an amplitude of 1: from the lens's centre, or, with discs, from
 // that point of the lens whose light each pixel has, on average: the CoC's share of the way there.
 // Returns whether any is.
-INLINED ints face_lens(const DefraySplatParams p, const SeenNodes* seen, const floats coc,
-                       const floats sharp_coc, const floats share, SplatLanes* s) {
+INLINED ints face_lens(const DefraySplatParams p, const SeenNodes* seen, const ints has_back,
+                       const floats coc, const floats sharp_coc, const floats share,
+                       SplatLanes* s) {
+  s->back = select((floats)(0.0f), (floats)(-1.0f), has_back);
   s->lean_x = s->lean_y = 0.0f;
   if (!p.has_discs) {
     s->amplitude *= fabs(seen->towards);
-    return IS(seen->towards < 0.0f) | (ints)(p.one_sided ? 0 : -1);
+    return IS(seen->towards < 0.0f) | has_back;
   }
   const SplatVectors right = FRAME_VECTOR(p, right), down = FRAME_VECTOR(p, down);
   const floats lean_x = product(right, seen->normal), lean_y = product(down, seen->normal);
@@ -214,7 +216,7 @@ INLINED ints face_lens(const DefraySplatParams p, const SeenNodes* seen, const f
   s->lean_y = s->amplitude * (units_a_px * lean_y);
   s->amplitude *= -seen->towards;
   const floats most = fabs(coc * units_a_px) * sqrt(lean_x * lean_x + lean_y * lean_y);
-  return IS(most - seen->towards > 0.0f) | (ints)(p.one_sided ? 0 : -1);
+  return IS(most - seen->towards > 0.0f) | has_back;
 }
 
 INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, SplatLanes* s) {
@@ -249,7 +251,8 @@ INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, Splat
   // 1/4, or 1 / (2 ln 4)
   const floats blur = select((floats)(0.36067376f), (floats)(0.25f), is_disc) * (coc * coc);
   const floats share = blur_nodes(p, n, &seen, blur, is_disc, s);
-  const ints faces = face_lens(p, &seen, coc, sharp_coc, share, s);
+  const ints has_back = IS(n->both_sides > 0.5f) | (ints)(p.one_sided ? 0 : -1);
+  const ints faces = face_lens(p, &seen, has_back, coc, sharp_coc, share, s);
 
   // A light at the eye: a third of it from all around.
   floats light = 1.0f;

@@ -13,7 +13,8 @@
 // first    [tile_count + 1]  where a tile's part of `list` begins
 // list     splats that meet the tile, in order
 // out0..3  [height][width]   premultiplied colour and alpha
-// depth    [height][width]   of the nearest fragment's splat with any alpha, +inf without one
+// depth    [height][width]   of the first surface with any alpha, the mean of its fragments' by
+//                            their alpha, +inf without one
 // count    [height][width]   fragments, up to where nothing shines through any more; below 0 where
 //                            a surface is left out
 // A work-item: a square of a tile, of which splats of a few pixels fill more than of a row.
@@ -34,7 +35,7 @@ typedef struct {
 typedef struct {
   float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
   float16 sum0, sum1, sum2, sum3;                  // those before it
-  float16 far, depth;
+  float16 far, layer_z, depth;                     // layer_z: alpha times depth
   int16 count, ended, opaque;  // of surfaces; opaque: of any more nothing is seen
   int16 spilled;               // -1: that is because of `layers`
 } SplatSquare;
@@ -69,7 +70,10 @@ INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
   r->sum1 = select(r->sum1, r->sum1 + share * r->layer1, where);
   r->sum2 = select(r->sum2, r->sum2 + share * r->layer2, where);
   r->sum3 = select(r->sum3, r->sum3 + share * r->layer3, where);
+  const int16 is_first = where & (r->depth == INFINITY) & (r->layer3 > 0.0f);
+  r->depth = select(r->depth, r->layer_z / r->layer3, is_first);
   const float16 none = 0.0f;
+  r->layer_z = select(r->layer_z, none, where);
   r->weight = select(r->weight, none, where);
   r->layer0 = select(r->layer0, none, where);
   r->layer1 = select(r->layer1, none, where);
@@ -83,7 +87,7 @@ INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, co
                              const DefraySplatTileParams p) {
   const float16 form = (s->conic_xx * dx + 2.0f * s->conic_xy * dy) * dx + s->conic_yy * dy * dy;
   const float16 leant = s->amplitude + s->lean_x * dx + s->lean_y * dy;
-  const float16 facing = p.one_sided ? larger(leant, 0.0f) : fabs(leant);
+  const float16 facing = larger(s->back * leant, leant);
   if (s->disc_top > 0.0f) {
     const float16 left = smaller(larger(s->disc_top - form, 0.0f), 1.0f);
     return facing * (left * left * (1.0f + s->disc_bulge * (1.0f - left)));
@@ -114,7 +118,7 @@ INLINED void add_splat(SplatSquare* r, __global const DefraySplat* s, const floa
   r->layer2 = select(r->layer2, r->layer2 + taken * s->b, joins);
   r->layer3 = select(r->layer3, r->layer3 + taken * s->a, joins);
   r->far = select(r->far, larger(r->far, s->z_far), joins);
-  if (s->a > 0.0f) r->depth = select(r->depth, smaller(r->depth, s->z), joins);
+  r->layer_z = select(r->layer_z, r->layer_z + taken * (s->a * s->z), joins);
   r->count -= joins;
 }
 
@@ -178,6 +182,7 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   SplatSquare r;
   r.weight = r.layer0 = r.layer1 = r.layer2 = r.layer3 = 0.0f;
   r.sum0 = r.sum1 = r.sum2 = r.sum3 = 0.0f;
+  r.layer_z = 0.0f;
   r.far = -INFINITY;
   r.depth = INFINITY;
   r.count = r.ended = r.opaque = r.spilled = 0;

@@ -25,7 +25,7 @@ __kernel void rasterise(const DefraySplatParams p, __global const DefraySplat* s
       const float form = (s.conic_xx * dx + 2.0f * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
       const float left = clamp(s.disc_top - form, 0.0f, 1.0f);
       const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
-      const float weight = (p.one_sided ? leant : fabs(leant)) *
+      const float weight = fmax(s.back * leant, leant) *
                            (s.disc_top > 0.0f ? left * left * (1.0f + s.disc_bulge * (1.0f - left))
                                               : form < p.cutoff ? exp(-form) - p.edge : 0.0f);
       if (!(weight > 0.0f)) continue;

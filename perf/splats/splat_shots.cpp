@@ -12,8 +12,7 @@
 namespace defray::perf {
 
 SplatShot make_splat_shot(const std::string& name, double distance, std::size_t points) {
-  return {name, distance,
-          build_hierarchy(make_surfels(make_point_cloud(name, points)).points, true)};
+  return {name, distance, build_hierarchy(make_surfels(make_point_cloud(name, points)).points)};
 }
 
 DefraySplatParams splat_view(const SplatShot& shot, int width, int height, double aperture_mm,

@@ -62,9 +62,12 @@ struct SplatReport {
   std::size_t points = 0;  ///< Of the cloud.
   std::size_t drawn = 0;   ///< Nodes of the hierarchy that stood for them.
   std::size_t seen = 0;    ///< Of those, splats with pixels.
-  /// Share of those drawn that the lens's centre sees from behind: left out where all of it does.
+  /// Share of those drawn that are shown from both sides.
+  double both_sides = 0;
+  /// Share of those drawn that have one side, and that the lens's centre sees from behind: left out
+  /// where all of it does.
   double from_behind = 0;
-  /// On average those lie before the ones that are drawn: of closed surfaces normals point inwards.
+  /// Those lie, on average, before the others: given normals of closed surfaces point inwards.
   bool is_inside_out = false;
   double fragments = 0;     ///< Of all pixels, up to where nothing shines through.
   std::size_t spilled = 0;  ///< Pixels in which `layers` left something out that would be seen.
@@ -77,7 +80,7 @@ struct SplatReport {
 /// Planes are row by row from the top, [height][width].
 struct SplatResult {
   std::vector<std::vector<float>> colour;  ///< R G B A: linear, premultiplied.
-  std::vector<float> depth;      ///< Of the nearest splat in a pixel, scene units; +inf: none.
+  std::vector<float> depth;      ///< Of the nearest surface in a pixel, scene units; +inf: none.
   std::vector<float> fragments;  ///< How many a pixel had.
   SplatReport report;
 };

@@ -199,7 +199,7 @@ TEST_F(SplatCommand, MistakesAreNamed) {
   }
   std::ofstream(folder_ / "far.xyz") << "0 0 0\n1e20 0 0\n0 1 0\n";
   refused("splat far.xyz -o o.exr " + wide_lens, 3,
-          {"far.xyz: point 1 lies 1e+20 0 0 units from the first one: allowed are 1e+15"});
+          {"far.xyz: point 1 lies 1e+20 0 0 units from the cloud's origin: allowed are 1e+15"});
   refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "no such file"});
   refused("splat --model figur -o o.exr " + wide_lens, 2,

@@ -73,9 +73,13 @@ TEST_F(SplatCommand, AClosedBodyWithoutNormalsHasAnOutside) {
     const json report = shown(outside + cache);
     EXPECT_EQ(report["points"], 600);
     EXPECT_NEAR(report["from_behind"], behind, 0.01);
+    EXPECT_LT(report["both_sides"], 0.01);
     const Plane found = alpha();
     for (std::size_t i = 0; i < given.size(); ++i) ASSERT_NEAR(found[i], given[i], 0.05) << i;
-    EXPECT_EQ(shown(inside + cache)["from_behind"], 0);
+    const json room = shown(inside + cache);
+    EXPECT_EQ(room["from_behind"], 0);
+    EXPECT_EQ(room["both_sides"], 1);
+    EXPECT_FALSE(room["is_inside_out"].get<bool>());
     EXPECT_GT(alpha()[50 * 100 + 50], 0.95f);
   }
   // Both sides of what is before the focus count, where asked for: too much at its rims.

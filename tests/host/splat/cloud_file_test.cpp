@@ -97,6 +97,18 @@ TEST_F(CloudFile, BinaryPlyOfEitherOrder) {
   }
 }
 
+/// Floats hold what lies around the origin: a few points far away do not move it.
+TEST_F(CloudFile, PlacesAreFromTheMiddle) {
+  std::string rows = "0 0 0\nnan 0 0\n0 0 0\n";
+  for (int i = 0; i < 7; ++i) rows += fmt::format("500000.0625 {}.001 -7\n", 4000000 + i);
+  const PointCloud cloud = read_point_cloud(write("far.xyz", rows + "1e12 1e12 1e12\n"));
+  EXPECT_EQ(cloud.origin, (std::array<double, 3>{500000.0625, 4000002.001, -7}));
+  EXPECT_EQ(cloud.positions[5], (std::array<float, 3>{0, 0, 0}));
+  EXPECT_EQ(cloud.positions[9], (std::array<float, 3>{0, 4, 0}));
+  EXPECT_EQ(cloud.positions[0][0], -500000.0625f);
+  EXPECT_TRUE(std::isnan(cloud.positions[1][0]));
+}
+
 TEST_F(CloudFile, Text) {
   const PointCloud plain = read_point_cloud(write("a.xyz", "# a scan\n1 2 3\n\n4;5\t6\n"));
   EXPECT_EQ(plain.positions[1], (std::array<float, 3>{3, 3, 3}));

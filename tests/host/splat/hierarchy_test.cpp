@@ -38,7 +38,7 @@ Vec3 place(const DefraySplatNode& n) { return {n.x, n.y, n.z}; }
 
 TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
   for (const int count : {1, 2, 4, 5, 6, 9, 100, 1237}) {
-    const Hierarchy tree = build_hierarchy(random_points(count), true);
+    const Hierarchy tree = build_hierarchy(random_points(count));
     ASSERT_EQ(tree.points.size(), size(count));
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
       const HierarchyNode& node = tree.nodes[i];
@@ -89,8 +89,8 @@ TEST(Hierarchy, NodesStandForAllPointsBelowThem) {
 
 TEST(Hierarchy, DoesNotDependOnTheOrderOfItsPoints) {
   const auto points = random_points(500);
-  const Hierarchy a = build_hierarchy(points, true);
-  const Hierarchy b = build_hierarchy({points.rbegin(), points.rend()}, true);
+  const Hierarchy a = build_hierarchy(points);
+  const Hierarchy b = build_hierarchy({points.rbegin(), points.rend()});
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     EXPECT_EQ(a.nodes[i].splat.x, b.nodes[i].splat.x);
@@ -102,9 +102,11 @@ TEST(Hierarchy, SidesCancelOnlyWhereTheyAreSeen) {
   auto points = random_points(2);
   points[1].area_z = -points[1].area_z;
   const float both = points[0].area_z - points[1].area_z;
-  EXPECT_FLOAT_EQ(std::abs(build_hierarchy(points, false).nodes[0].splat.area_z), both);
-  EXPECT_FLOAT_EQ(build_hierarchy(points, true).nodes[0].splat.area_z,
+  EXPECT_FLOAT_EQ(build_hierarchy(points).nodes[0].splat.area_z,
                   points[0].area_z + points[1].area_z);
+  for (DefraySplatNode& n : points) n.both_sides = 1;
+  EXPECT_FLOAT_EQ(std::abs(build_hierarchy(points).nodes[0].splat.area_z), both);
+  EXPECT_EQ(build_hierarchy(points).nodes[0].splat.both_sides, 1);
 }
 
 /// A grid of points that face the camera, 100 x 100 on 2 x 2 units.
@@ -120,7 +122,7 @@ Hierarchy grid() {
     n.a = 1;
     points.push_back(n);
   }
-  return build_hierarchy(points, true);
+  return build_hierarchy(points);
 }
 
 DefraySplatParams view(int side, double distance, double focus, double aperture_mm) {

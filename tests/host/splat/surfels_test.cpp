@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/vec3.h"
 #include "support.h"
 
 namespace defray::test::surfels_test {
@@ -35,7 +36,8 @@ TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
   EXPECT_NEAR(std::abs(n.area_z) / area_of(n), 1 / std::sqrt(1.25), 1e-4);
   EXPECT_NEAR(n.area_x / n.area_z, -0.5, 1e-4);
   EXPECT_NEAR(n.variance, std::pow(0.8, 2) * area, 0.15 * area);
-  EXPECT_EQ(surfels.outside, Outside::unknown);
+  EXPECT_FALSE(surfels.has_normals);
+  EXPECT_EQ(middle(surfels).both_sides, 1);
   EXPECT_FALSE(surfels.has_colours);
   EXPECT_EQ(n.r, 0.5f);
   EXPECT_EQ(n.a, 1);
@@ -88,7 +90,8 @@ TEST(Surfels, WhatIsGivenIsTaken) {
   EXPECT_FLOAT_EQ(n.r, 0.1f);
   EXPECT_FLOAT_EQ(n.b, 0.4f);
   EXPECT_EQ(n.a, 0.5f);
-  EXPECT_EQ(surfels.outside, Outside::given);
+  EXPECT_TRUE(surfels.has_normals);
+  EXPECT_EQ(middle(surfels).both_sides, 0);
   EXPECT_TRUE(surfels.has_colours);
 }
 
@@ -164,10 +167,43 @@ TEST(Surfels, StraysAreSmall) {
   for (const DefraySplatNode& n : make_surfels(cloud).points) {
     if (n.z < 3) continue;
     ++strays;
-    EXPECT_LE(std::sqrt(n.variance), 3 * 0.8 * 0.13);  // along edges spacings are 0.13
-    EXPECT_LE(area_of(n), M_PI * std::pow(3 * 0.13, 2));
+    EXPECT_LE(std::sqrt(n.variance), 0.8 * 0.13);  // along edges spacings are 0.13
+    EXPECT_LE(area_of(n), M_PI * std::pow(0.13, 2));
   }
   EXPECT_EQ(strays, 2u);
+}
+
+/// One of two hundred, so that many of those around them are others; the edges of a coarse box are
+/// not taken for some.
+TEST(Surfels, ManyStraysAreSmallAndCoarseBodiesWhole) {
+  PointCloud cloud;
+  const auto add = [&](const Vec3& p) {
+    cloud.positions.push_back(
+        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  };
+  constexpr int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    Random random(i, 0, 4);
+    const double y = 2 * random.next() - 1, turn = 2 * M_PI * random.next(),
+                 r = std::sqrt(1 - y * y);
+    add({r * std::cos(turn), y, r * std::sin(turn)});
+    if (i % 200 == 0) {
+      add({4 * random.next() - 2, 4 * random.next() - 2, 1.2 + 3 * random.next()});
+    }
+  }
+  for (int i = 0; i < 1200; ++i) {  // 0.14 apart, five times as far as on the ball
+    const double along = 0.14 * (i % 14) + 0.07, across = 0.14 * (i / 14 % 14) + 0.07;
+    const std::array<double, 3> p{along, across, i / 196 % 2 == 0 ? 0.0 : 1.96};
+    const int axis = i / 392;
+    if (axis < 3) add({p[size(axis)] - 10, p[size((axis + 1) % 3)], p[size((axis + 2) % 3)]});
+  }
+  double strays = 0, box = 0;
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    if (n.x > -5 && n.z > 1.1f) strays += area_of(n);
+    if (n.x < -5) box += area_of(n);
+  }
+  EXPECT_LT(strays, 10);  // as wide as they lie apart: 48
+  EXPECT_NEAR(box, 6 * 1.96 * 1.96, 0.1 * 6 * 1.96 * 1.96);
 }
 
 TEST(Surfels, NotesFlippedNormals) {

@@ -149,8 +149,14 @@ TEST(SplatProject, WhatIsCulled) {
   EXPECT_TRUE(is_culled(project(surfel(0, 0, 5, facing, 1e-4), p))) << "behind it";
   EXPECT_TRUE(is_culled(project(surfel(0, 0, 3.9, facing, 0.01), p))) << "reaches into it";
   EXPECT_TRUE(is_culled(project(surfel(9, 0, 0, facing, 1e-4), p))) << "beside the picture";
+  DefraySplatNode has_two = surfel(0, 0, 0, away, 1e-4);
+  has_two.both_sides = 0.6f;
+  EXPECT_FALSE(is_culled(project(has_two, p)));
+  EXPECT_EQ(project(has_two, p).back, -1);
+  EXPECT_EQ(project(surfel(0, 0, 0, facing, 1e-4), p).back, 0);
   p.one_sided = 0;
   EXPECT_FALSE(is_culled(project(surfel(0, 0, 0, away, 1e-4), p)));
+  EXPECT_EQ(project(surfel(0, 0, 0, away, 1e-4), p).back, -1);
 }
 
 /// By a power of two, so that nothing is rounded: places, areas and variances of up to 10^15 units.

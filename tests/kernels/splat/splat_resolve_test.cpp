@@ -87,12 +87,12 @@ TEST(SplatResolve, TransparentSurfacesLetThrough) {
   EXPECT_FLOAT_EQ(alpha, 1);
 }
 
-TEST(SplatResolve, DepthIsTheNearestFragmentsAndFragmentsAreCounted) {
+TEST(SplatResolve, DepthIsTheNearestSurfacesAndFragmentsAreCounted) {
   const std::vector<DefraySplat> splats{
       splat_at(1, 1, 0.5f, 4, 2, 1), splat_at(1, 1, 0.4f, 3, 0.1f, 1),
       splat_at(1, 1, 1, 9, 0.1f, 1), splat_at(1, 1, 1, 11, 0.1f, 1)};
   const SplatPlanes planes = device().splat_resolve(in_order(splats), picture(3, 3));
-  EXPECT_EQ(planes.depth[4], 3);
+  EXPECT_FLOAT_EQ(planes.depth[4], (0.5f * 4 + 0.4f * 3) / 0.9f);
   EXPECT_EQ(planes.fragments[4], 3) << "nothing shows through the third";
   EXPECT_EQ(planes.depth[0], INFINITY);
   EXPECT_EQ(planes.fragments[0], 0);
@@ -146,12 +146,11 @@ TEST(SplatResolve, DiscsAreEvenInsideAndFallTowardsTheirEnd) {
   EXPECT_EQ(even[38], 0);
   // It leans, and is seen from one side up to where that is 0; from both sides beyond.
   s.lean_x = 0.05f;
-  p.one_sided = 1;
   const std::vector<float> leaning = row();
   EXPECT_FLOAT_EQ(leaning[25], 0.75f);
   EXPECT_FLOAT_EQ(leaning[15], 0.25f);
   EXPECT_EQ(leaning[9], 0);
-  p.one_sided = 0;
+  s.back = -1;
   EXPECT_NEAR(row()[8], 0.1, 1e-6);
 }
 
@@ -222,7 +221,7 @@ TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
 }
 
 const FaultRows faults{
-    {"splat_resolve", "nothing has a depth", {"if (s->a > 0.0f) r->depth =", "r->depth ="}},
+    {"splat_resolve", "nothing has a depth", {" & (r->layer3 > 0.0f);", ";"}},
     {"splat_resolve",
      "surfaces never end",
      {"hits & (s->z_near > r->far)", "hits & (s->z_near > INFINITY)"}},
@@ -248,7 +247,7 @@ const FaultRows faults{
     {"splat_resolve", "discs that lean the other way", {"+ s->lean_y * dy", "- s->lean_y * dy"}},
     {"splat_resolve",
      "surfaces with one side seen from behind",
-     {"p.one_sided ? larger(leant, 0.0f) : ", ""}},
+     {"larger(s->back * leant, leant)", "fabs(leant)"}},
     {"splat_resolve", "no cut-off", {"form < p.cutoff);", "form < 80.0f);"}},
     {"splat_resolve",
      "pixels beside the splat's",
@@ -260,7 +259,8 @@ const FaultRows faults{
     {"splat_resolve",
      "splats that end in a square's first row passed over",
      {"(q->y < s->end_y)", "(q->y + 1 < s->end_y)"}},
-    {"splat_resolve", "the farthest depth", {"smaller(r->depth, s->z)", "larger(r->depth, s->z)"}},
+    {"splat_resolve", "the farthest depth", {"(r->depth == INFINITY) & ", ""}},
+    {"splat_resolve", "depths that count what cannot be seen", {"(s->a * s->z)", "s->z"}},
     {"splat_resolve",
      "pixels' corners",
      {"convert_float16(q.column) + 0.5f", "convert_float16(q.column)"}},

@@ -25,8 +25,8 @@ inline DefraySplatParams view_of(int side, double distance, double aperture_mm,
   return p;
 }
 
-inline Hierarchy tree_of(const PointCloud& cloud, bool one_sided = true) {
-  return build_hierarchy(make_surfels(cloud).points, one_sided);
+inline Hierarchy tree_of(const PointCloud& cloud) {
+  return build_hierarchy(make_surfels(cloud).points);
 }
 
 /// A square grid that faces the camera, of one colour; `half` is half its side.
