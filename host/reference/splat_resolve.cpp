@@ -15,7 +15,7 @@ namespace {
 struct Pixel {
   float weight = 0;
   float layer[4] = {}, sum[4] = {};
-  float layer_z = 0;  ///< Alpha times depth.
+  float layer_seen = 0, layer_z = 0;  ///< Its weights times alpha, and times depth.
   float far = -std::numeric_limits<float>::infinity();
   float depth = std::numeric_limits<float>::infinity();
   float count = 0;
@@ -25,12 +25,12 @@ struct Pixel {
   void end_layer(bool averages) {
     float share = 1 - sum[3];
     if (averages) share /= std::fmax(weight, 1.0f);
-    if (std::isinf(depth) && layer[3] > 0) depth = layer_z / layer[3];
+    if (std::isinf(depth) && layer_seen > 0) depth = layer_z / layer_seen;
     for (int c = 0; c < 4; ++c) {
       sum[c] += share * layer[c];
       layer[c] = 0;
     }
-    weight = layer_z = 0;
+    weight = layer_seen = layer_z = 0;
     is_opaque = 1 - sum[3] < DEFRAY_SPLAT_OPAQUE;
   }
 
@@ -47,7 +47,9 @@ struct Pixel {
     const float colour[] = {s.r, s.g, s.b, s.a};
     for (int c = 0; c < 4; ++c) layer[c] += taken * colour[c];
     far = std::fmax(far, s.z_far);
-    layer_z += taken * (s.a * s.z);
+    const float seen = of_splat * s.a;
+    layer_seen += seen;
+    layer_z += seen * s.z;
     ++count;
   }
 };

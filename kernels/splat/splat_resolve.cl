@@ -35,7 +35,8 @@ typedef struct {
 typedef struct {
   float16 weight, layer0, layer1, layer2, layer3;  // the surface that is being made
   float16 sum0, sum1, sum2, sum3;                  // those before it
-  float16 far, layer_z, depth;                     // layer_z: alpha times depth
+  float16 layer_seen, layer_z;                     // its weights times alpha, and times depth
+  float16 far, depth;
   int16 count, ended, opaque;  // of surfaces; opaque: of any more nothing is seen
   int16 spilled;               // -1: that is because of `layers`
 } SplatSquare;
@@ -70,9 +71,10 @@ INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
   r->sum1 = select(r->sum1, r->sum1 + share * r->layer1, where);
   r->sum2 = select(r->sum2, r->sum2 + share * r->layer2, where);
   r->sum3 = select(r->sum3, r->sum3 + share * r->layer3, where);
-  const int16 is_first = where & (r->depth == INFINITY) & (r->layer3 > 0.0f);
-  r->depth = select(r->depth, r->layer_z / r->layer3, is_first);
+  const int16 is_first = where & (r->depth == INFINITY) & (r->layer_seen > 0.0f);
+  r->depth = select(r->depth, r->layer_z / r->layer_seen, is_first);
   const float16 none = 0.0f;
+  r->layer_seen = select(r->layer_seen, none, where);
   r->layer_z = select(r->layer_z, none, where);
   r->weight = select(r->weight, none, where);
   r->layer0 = select(r->layer0, none, where);
@@ -118,7 +120,10 @@ INLINED void add_splat(SplatSquare* r, __global const DefraySplat* s, const floa
   r->layer2 = select(r->layer2, r->layer2 + taken * s->b, joins);
   r->layer3 = select(r->layer3, r->layer3 + taken * s->a, joins);
   r->far = select(r->far, larger(r->far, s->z_far), joins);
-  r->layer_z = select(r->layer_z, r->layer_z + taken * (s->a * s->z), joins);
+  // All of it, or what the nearest leave of slanted surfaces would lie nearer than they.
+  const float16 seen = weight * s->a;
+  r->layer_seen = select(r->layer_seen, r->layer_seen + seen, joins);
+  r->layer_z = select(r->layer_z, r->layer_z + seen * s->z, joins);
   r->count -= joins;
 }
 
@@ -182,7 +187,7 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
   SplatSquare r;
   r.weight = r.layer0 = r.layer1 = r.layer2 = r.layer3 = 0.0f;
   r.sum0 = r.sum1 = r.sum2 = r.sum3 = 0.0f;
-  r.layer_z = 0.0f;
+  r.layer_seen = r.layer_z = 0.0f;
   r.far = -INFINITY;
   r.depth = INFINITY;
   r.count = r.ended = r.opaque = r.spilled = 0;

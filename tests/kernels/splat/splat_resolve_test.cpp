@@ -221,7 +221,7 @@ TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
 }
 
 const FaultRows faults{
-    {"splat_resolve", "nothing has a depth", {" & (r->layer3 > 0.0f);", ";"}},
+    {"splat_resolve", "nothing has a depth", {" & (r->layer_seen > 0.0f);", ";"}},
     {"splat_resolve",
      "surfaces never end",
      {"hits & (s->z_near > r->far)", "hits & (s->z_near > INFINITY)"}},
@@ -260,7 +260,9 @@ const FaultRows faults{
      "splats that end in a square's first row passed over",
      {"(q->y < s->end_y)", "(q->y + 1 < s->end_y)"}},
     {"splat_resolve", "the farthest depth", {"(r->depth == INFINITY) & ", ""}},
-    {"splat_resolve", "depths that count what cannot be seen", {"(s->a * s->z)", "s->z"}},
+    {"splat_resolve",
+     "depths that count what cannot be seen",
+     {"seen = weight * s->a", "seen = weight"}},
     {"splat_resolve",
      "pixels' corners",
      {"convert_float16(q.column) + 0.5f", "convert_float16(q.column)"}},
