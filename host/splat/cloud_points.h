@@ -45,9 +45,14 @@ struct CloudPoints {
   }
 };
 
-/// The direction in which the places around a point vary least; of points along a line, or alone,
-/// one across it, along z if it can be.
-Vec3 estimated_normal(const CloudPoints& cloud, std::size_t point);
+/// What the places around a point say of a surface there.
+struct EstimatedSurface {
+  /// The direction in which they vary least; of points along a line, or alone, one across it, along
+  /// z if it can be.
+  Vec3 normal;
+  bool is_line;  ///< All of them lie along one.
+};
+EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point);
 
 /// Whether the places around a point lie in no surface, or in one that it lies far above.
 bool is_stray(const CloudPoints& cloud, std::size_t point);

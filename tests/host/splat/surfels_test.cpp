@@ -219,6 +219,22 @@ TEST(Surfels, NotesFlippedNormals) {
   }
 }
 
+TEST(Surfels, NotesLinesTooFarApart) {
+  const auto notes = [](int apart) {
+    PointCloud cloud;
+    for (int i = 0; i < 6000; ++i) {
+      Random random(i, 0, 8);
+      cloud.positions.push_back({static_cast<float>(i % 200 + 0.1 * random.next()),
+                                 static_cast<float>(apart * (i / 200) + 0.1 * random.next()), 0});
+    }
+    return make_surfels(cloud).notes;
+  };
+  EXPECT_TRUE(notes(6).empty());
+  ASSERT_EQ(notes(12).size(), 1u);
+  EXPECT_NE(notes(12)[0].find("% of the points lie along lines farther apart than the 20 nearest"),
+            std::string::npos);
+}
+
 TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
   PointCloud cloud = slope(9);
   for (int i = 0; i < 40; ++i) cloud.positions.push_back({0.4f, 0.4f, 0.2f});
