@@ -36,13 +36,12 @@ void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, Spl
   report.farthest_coc_px = splat_coc_px(p, report.farthest_units);
 }
 
-/// Nodes with two sides, those whose normals point away from the camera, and the others: how many,
-/// and their depths.
+/// Nodes with one side whose normals point away from the camera, and the others: how many, and
+/// their depths.
 struct Sides {
-  double both = 0, away = 0, away_units = 0, towards = 0, towards_units = 0;
+  double away = 0, away_units = 0, towards = 0, towards_units = 0;
 
   Sides& operator+=(const Sides& other) {
-    both += other.both;
     away += other.away;
     away_units += other.away_units;
     towards += other.towards;
@@ -55,10 +54,7 @@ Sides sides_of(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p)
   return parallel_sum(nodes.size(), [&](std::size_t first, std::size_t end) {
     Sides sides;
     for (const DefraySplatNode* n = nodes.begin() + first; n != nodes.begin() + end; ++n) {
-      if (n->both_sides > 0.5f || !p.one_sided) {
-        sides.both += 1;
-        continue;
-      }
+      if (n->both_sides > 0.5f) continue;
       const Vec3 from_eye = Vec3{n->x, n->y, n->z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
       const double depth = dot(from_eye, {p.forward_x, p.forward_y, p.forward_z});
       const bool is_away = dot({n->area_x, n->area_y, n->area_z}, from_eye) >= 0;
@@ -73,9 +69,7 @@ void describe_sides(const Values<DefraySplatNode>& nodes, const DefraySplatParam
                     SplatReport& report) {
   if (nodes.empty()) return;
   const Sides sides = sides_of(nodes, p);
-  const auto all = static_cast<double>(nodes.size());
-  report.both_sides = sides.both / all;
-  report.from_behind = sides.away / all;
+  report.from_behind = sides.away / static_cast<double>(nodes.size());
   report.is_inside_out =
       sides.away_units / sides.away < sides.towards_units / sides.towards;  // false without one
 }
@@ -142,10 +136,12 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   Stopwatch watch;
   const auto done = [&](const char* stage) { report.stages.push_back({stage, watch.lap()}); };
   report.points = tree.points.size();
+  report.both_sides =
+      params.one_sided ? static_cast<double>(tree.nodes.front().splat.both_sides) : 1;
   Values<DefraySplatNode> nodes = cut_hierarchy(tree, params, lod);
   make_transparent(nodes, transparency);
   report.drawn = nodes.size();
-  describe_sides(nodes, params, report);
+  if (params.one_sided) describe_sides(nodes, params, report);
   done("cut");
   Values<DefraySplat> splats = backend.splat_project(nodes, params);
   splats.host();  // once the kernel has made them

@@ -62,7 +62,7 @@ struct SplatReport {
   std::size_t points = 0;  ///< Of the cloud.
   std::size_t drawn = 0;   ///< Nodes of the hierarchy that stood for them.
   std::size_t seen = 0;    ///< Of those, splats with pixels.
-  /// Share of those drawn that are shown from both sides.
+  /// Share of the cloud's surface that is shown from both sides.
   double both_sides = 0;
   /// Share of those drawn that have one side, and that the lens's centre sees from behind: left out
   /// where all of it does.
