@@ -13,17 +13,6 @@ namespace {
 constexpr std::size_t close_count = 8;
 constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
 
-/// Of the variance of the places around a point: strays all over a volume have more across (median
-/// 0.2, with a surface nearby down to 0.08), edges and corners of boxes less (up to 0.17, median
-/// 0.04 within two distances). At 0.1 a box five times coarser than what is beside it loses alpha
-/// in 0.5 % of its pixels, at 0.07 in 3 %, and of a ball with 1 % strays 99 % are seen, at 0.12
-/// none.
-constexpr double thickest_surface = 0.1;
-
-/// Where more than this share of the points around have it so many of their spacings above the
-/// surface that they lie in, a point is not of that surface.
-constexpr double farthest_above = 3, least_away = 0.25;
-
 /// A line's variance across, of that along it. Of a grid with rows so far apart that the twenty
 /// nearest of a point are its own row's, 8 and more distances, with noise of 0.1 distances, it is
 /// 0.0003; at 6, which leave no gaps, 0.1.
@@ -37,18 +26,18 @@ struct Spread {
 };
 
 /// Of those around a point, and its own.
-Spread spread_around(const CloudPoints& cloud, std::size_t point, bool has_own) {
+Spread spread_around(const CloudPoints& cloud, std::size_t point) {
   const auto around = cloud.around.of(point);
-  Vec3 mean = has_own ? cloud.place(point) : Vec3{};
+  Vec3 mean = cloud.place(point);
   for (const std::uint32_t i : around) mean = mean + cloud.place(i);
-  mean = mean / static_cast<double>(around.size() + has_own);
+  mean = mean / static_cast<double>(around.size() + 1);
   cv::Matx33d covariance = cv::Matx33d::zeros();
   const auto add = [&](std::size_t i) {
     const Vec3 d = cloud.place(i) - mean;
     const cv::Vec3d v(d.x, d.y, d.z);
     covariance += v * v.t();
   };
-  if (has_own) add(point);
+  add(point);
   for (const std::uint32_t i : around) add(i);
   cv::Vec3d values;
   cv::Matx33d vectors;
@@ -64,26 +53,17 @@ Spread spread_around(const CloudPoints& cloud, std::size_t point, bool has_own) 
 }  // namespace
 
 EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point) {
-  const Spread spread = spread_around(cloud, point, true);
-  const double most = spread.variances[0], next = spread.variances[1];
-  const bool is_line = next < widest_line * most;
-  if (next > 1e-12 * most) return {spread.axes[2], is_line};
+  const Spread spread = spread_around(cloud, point);
+  const auto [most, middle, least] = spread.variances;
+  const double all = most + middle + least;
+  EstimatedSurface found{spread.mean, spread.axes[2], all > 0 ? least / all : 0,
+                         middle < widest_line * most};
+  if (middle > 1e-12 * most) return found;
   // Along a line, or alone: any direction across will do.
-  const Vec3 line = spread.variances[0] > 0 ? spread.axes[0] : Vec3{};
+  const Vec3 line = most > 0 ? spread.axes[0] : Vec3{};
   const Vec3 towards = std::abs(line.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
-  return {normalized(towards - line * dot(line, towards)), is_line};
-}
-
-bool is_stray(const CloudPoints& cloud, std::size_t point) {
-  const auto [most, middle, least] = spread_around(cloud, point, false).variances;
-  if (least > thickest_surface * (most + middle + least)) return true;
-  const auto around = cloud.around.of(point);
-  const auto away = std::count_if(around.begin(), around.end(), [&](std::uint32_t other) {
-    const Spread there = spread_around(cloud, other, true);
-    const double above = dot(cloud.place(point) - there.mean, there.axes[2]);
-    return std::abs(above) > farthest_above * cloud.points[other].spacing;
-  });
-  return static_cast<double>(away) > least_away * static_cast<double>(around.size());
+  found.normal = normalized(towards - line * dot(line, towards));
+  return found;
 }
 
 double spacing_of(const CloudPoints& cloud, std::size_t point) {

@@ -47,15 +47,14 @@ struct CloudPoints {
 
 /// What the places around a point say of a surface there.
 struct EstimatedSurface {
+  Vec3 middle;
   /// The direction in which they vary least; of points along a line, or alone, one across it, along
   /// z if it can be.
   Vec3 normal;
-  bool is_line;  ///< All of them lie along one.
+  double thickness;  ///< Of their variance the share along the normal: 0 to 1/3.
+  bool is_line;      ///< All of them lie along one.
 };
 EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point);
-
-/// Whether the places around a point lie in no surface, or in one that it lies far above.
-bool is_stray(const CloudPoints& cloud, std::size_t point);
 
 /// Mean distance of the closest points that are not in the same place, in sides of a square grid's
 /// squares; 0 if all are in one place.

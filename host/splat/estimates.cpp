@@ -6,40 +6,47 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "splat/placed_points.h"
 #include "splat/sides.h"
+#include "splat/strays.h"
 
 namespace defray {
 namespace {
 
 Vec3 vec(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Estimated spacings are no larger than this times the median of those around. What is farther
-/// apart than that, or than so many times the median of all, may be a stray of a scan.
-constexpr double most_over_others = 3;
+/// apart than that, or than most_over_all times the median of all, may be a stray of a scan.
+constexpr double most_over_others = 3, most_over_all = 5;
 
 /// Strays become dots as wide as what they lie among; discs as wide as they lie apart would hide
 /// what is behind. Takes their sizes as given.
-void limit_to_others(double of_all, std::vector<std::uint8_t>& has_size, CloudPoints& cloud) {
-  std::vector<double> limited(cloud.points.size());
-  parallel_for_each(limited.size(), [&](std::size_t i) {
-    limited[i] = cloud.points[i].spacing;
+void limit_to_others(double of_all, std::vector<std::uint8_t>& has_size, CloudPoints& cloud,
+                     std::vector<std::string>& notes) {
+  const std::size_t count = cloud.points.size();
+  std::vector<double> of_others(count, of_all);
+  std::vector<std::uint8_t> may_be_stray(count);
+  parallel_for_each(count, [&](std::size_t i) {
     std::vector<double> others;
     for (const std::uint32_t k : cloud.around.of(i)) others.push_back(cloud.points[k].spacing);
-    if (has_size[i] || others.empty()) return;
-    const double of_others = median(others), small = std::min(of_all, of_others);
-    if (!(limited[i] > most_over_others * small)) return;
-    has_size[i] = is_stray(cloud, i);
-    limited[i] = has_size[i] ? small : std::min(limited[i], most_over_others * of_others);
+    if (!others.empty()) of_others[i] = median(others);
+    may_be_stray[i] =
+        !has_size[i] && !others.empty() &&
+        cloud.points[i].spacing > std::min(most_over_all * of_all, most_over_others * of_others[i]);
   });
-  for (std::size_t i = 0; i < limited.size(); ++i) cloud.points[i].spacing = limited[i];
+  const std::vector<std::uint8_t> is_stray = find_strays(cloud, may_be_stray);
+  for (std::size_t i = 0; i < count; ++i) {
+    double& spacing = cloud.points[i].spacing;
+    if (is_stray[i]) spacing = std::min(of_all, of_others[i]);
+    if (!has_size[i]) spacing = std::min(spacing, most_over_others * of_others[i]);
+    has_size[i] |= is_stray[i];
+  }
+  if (const auto strays = std::count(is_stray.begin(), is_stray.end(), 1); strays > 0) {
+    notes.push_back(
+        fmt::format("{} points lie apart from all surfaces: drawn as small as the others", strays));
+  }
 }
 
 /// What is estimated has no outside: that of the given ones around it.
@@ -123,7 +130,7 @@ std::vector<std::uint8_t> set_spacings(const PointCloud& given_cloud,
   for (CloudPoint& p : points) {
     if (!(p.spacing > 0)) p.spacing = of_all;
   }
-  limit_to_others(of_all, has_radius, cloud);
+  limit_to_others(of_all, has_radius, cloud, notes);
   return has_radius;
 }
 
