@@ -108,7 +108,7 @@ OptionGroup splat_rows(SplatCommand& job) {
       "Splats",
       {{"--lod", word(s.lod, on_off_words),
         "Nodes of a hierarchy stand for points that blur, or their size, hides"},
-       {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 1 to 8"},
+       {"--cutoff", value(s.cutoff), "Where Gaussians end: where they are down to e^-c, 2 to 3"},
        {"--psf", word(s.psf, psf_words),
         "Light over the circle of confusion: evenly, as the lens's points see it, or as the "
         "paper's Gaussian"},

@@ -45,9 +45,24 @@ std::vector<std::string> write_splats(const std::string& path, const SplatComman
   return notes;
 }
 
+/// Why a picture is empty.
+std::string note_of_nothing(const CameraPose& pose, const SplatModel& model) {
+  const std::array<double, 3> centre = model.centre();
+  double ahead = 0, square = 0;  // of the centre, times the length of what the camera looks along
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double along = pose.look_at[k] - pose.from[k];
+    ahead += (centre[k] - pose.from[k]) * along;
+    square += along * along;
+  }
+  const bool is_behind = ahead < -model.radius() * std::sqrt(square);
+  return fmt::format(
+      "nothing of the cloud is seen: it lies {}: see --from, --look-at",
+      is_behind ? "behind the camera" : "beside the picture, or is seen from its edge");
+}
+
 /// What to know about a picture; `written` about its file.
-std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatReport& report,
-                                     const SplatSettings& settings,
+std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatModel& model,
+                                     const SplatReport& report, const SplatSettings& settings,
                                      const std::vector<std::string>& written) {
   std::vector<std::string> notes = camera.notes;
   notes.insert(notes.end(), written.begin(), written.end());
@@ -69,9 +84,7 @@ std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatRepor
         "draws it; normals may point inwards",
         100 * report.from_behind));
   } else if (report.seen == 0) {
-    notes.push_back(
-        "nothing of the cloud is seen: it lies beside the picture, or is seen from its edge: see "
-        "--from, --look-at");
+    notes.push_back(note_of_nothing(camera.pose, model));
   } else if (report.is_inside_out && report.from_behind > partly_behind) {
     notes.push_back(fmt::format(
         "{:.0f} % of what is before the camera is seen from behind and not drawn, and lies before "
@@ -123,7 +136,7 @@ std::future<WrittenSplats> SplatRun::write_later(const SplatShot& shot, SplatCam
     const std::vector<std::string> notes = write_splats(shot.output, job_, result);
     SplatOutcome outcome{source_, device_.name(),
                          camera,  result.report,
-                         seconds, splat_notes(camera, result.report, job_.settings, notes)};
+                         seconds, splat_notes(camera, model_, result.report, job_.settings, notes)};
     return WrittenSplats{shot, std::move(outcome), std::move(result.colour)};
   });
 }

@@ -9,6 +9,7 @@
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 #include "splat/cut.h"
+#include "splat/seen_sides.h"
 #include "splat/view.h"
 
 namespace defray {
@@ -34,44 +35,6 @@ void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, Spl
   report.farthest_units = farthest;
   report.nearest_coc_px = splat_coc_px(p, report.nearest_units);
   report.farthest_coc_px = splat_coc_px(p, report.farthest_units);
-}
-
-/// Nodes with one side whose normals point away from the camera, and the others: how many, and
-/// their depths.
-struct Sides {
-  double away = 0, away_units = 0, towards = 0, towards_units = 0;
-
-  Sides& operator+=(const Sides& other) {
-    away += other.away;
-    away_units += other.away_units;
-    towards += other.towards;
-    towards_units += other.towards_units;
-    return *this;
-  }
-};
-
-Sides sides_of(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p) {
-  return parallel_sum(nodes.size(), [&](std::size_t first, std::size_t end) {
-    Sides sides;
-    for (const DefraySplatNode* n = nodes.begin() + first; n != nodes.begin() + end; ++n) {
-      if (n->both_sides > 0.5f) continue;
-      const Vec3 from_eye = Vec3{n->x, n->y, n->z} - Vec3{p.eye_x, p.eye_y, p.eye_z};
-      const double depth = dot(from_eye, {p.forward_x, p.forward_y, p.forward_z});
-      const bool is_away = dot({n->area_x, n->area_y, n->area_z}, from_eye) >= 0;
-      (is_away ? sides.away : sides.towards) += 1;
-      (is_away ? sides.away_units : sides.towards_units) += depth;
-    }
-    return sides;
-  });
-}
-
-void describe_sides(const Values<DefraySplatNode>& nodes, const DefraySplatParams& p,
-                    SplatReport& report) {
-  if (nodes.empty()) return;
-  const Sides sides = sides_of(nodes, p);
-  report.from_behind = sides.away / static_cast<double>(nodes.size());
-  report.is_inside_out =
-      sides.away_units / sides.away < sides.towards_units / sides.towards;  // false without one
 }
 
 /// How many fragments pixels have, and how many of those lack surfaces (then below 0).

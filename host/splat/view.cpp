@@ -97,8 +97,8 @@ void validate(const SplatSettings& s) {
   }
   require_named("psf", s.psf, SplatPsf::disc);
   require_named("merge", s.merge, SplatMerge::average);
-  if (!(s.cutoff >= 1 && s.cutoff <= 8)) {
-    fail(ErrorKind::usage, "{} is {}: allowed are 1 to 8", field("cutoff"), s.cutoff);
+  if (!(s.cutoff >= 2 && s.cutoff <= 3)) {
+    fail(ErrorKind::usage, "{} is {}: allowed are 2 to 3", field("cutoff"), s.cutoff);
   }
   if (s.layers < 0) {
     fail(ErrorKind::usage, "{} is {}: allowed are 1 on, and 0 for all", field("layers"), s.layers);

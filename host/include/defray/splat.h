@@ -48,7 +48,7 @@ enum class SplatMerge {
 struct SplatSettings {
   int width = 1024, height = 768;
   bool lod = true;      ///< Nodes of the hierarchy where blur hides single points.
-  double cutoff = 2.5;  ///< c, 1 to 8: Gaussians end where they are down to e^-c.
+  double cutoff = 2.5;  ///< c, 2 to 3: Gaussians end where they are down to e^-c.
   SplatPsf psf = SplatPsf::disc;
   SplatMerge merge = SplatMerge::nearest;
   int layers = 0;  ///< Surfaces that a pixel is made of at most, the nearest. 0: all.
@@ -67,7 +67,7 @@ struct SplatReport {
   /// Share of those drawn that have one side, and that the lens's centre sees from behind: left out
   /// where all of it does.
   double from_behind = 0;
-  /// Those lie, on average, before the others: given normals of closed surfaces point inwards.
+  /// Those mostly lie before the others: given normals of closed surfaces point inwards.
   bool is_inside_out = false;
   double fragments = 0;     ///< Of all pixels, up to where nothing shines through.
   std::size_t spilled = 0;  ///< Pixels in which `layers` left something out that would be seen.

@@ -50,6 +50,24 @@ TEST_F(SplatCommand, ABodyTurnedInsideOutIsNoted) {
   EXPECT_TRUE(turned["is_inside_out"].get<bool>());
 }
 
+/// A body's back lies before the floor behind it, and that is no mistake.
+TEST_F(SplatCommand, ABodyBeforeAFloorIsNotInsideOut) {
+  for (const bool is_turned : {false, true}) {
+    write_ball(is_turned ? -1 : 1);
+    std::ofstream points(folder_ / "ball.xyz", std::ios::app);
+    for (int i = 0; i < 3600; ++i) {
+      points << 0.1 * (i % 60) - 3 << " -1.1 " << 0.1 * (i / 60) - 5 << " 0 1 0\n";
+    }
+    points.close();
+    const Result result =
+        defray(folder_,
+               "splat ball.xyz -o o.exr --json --size 200x200 --from 0,2,4 --look-at 0,0,0 "
+               "--aperture-diameter 300 --focal-length 50");
+    expect_ok(result);
+    EXPECT_EQ(json::parse(result.out)["is_inside_out"].get<bool>(), is_turned);
+  }
+}
+
 /// Without normals, from outside it looks as with them, also from a cache; and from inside it is a
 /// room.
 TEST_F(SplatCommand, AClosedBodyWithoutNormalsHasAnOutside) {

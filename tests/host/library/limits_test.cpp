@@ -61,7 +61,7 @@ TEST(Limits, OfSettingsAreAllowedThemselves) {
   const auto splat = [](const SplatSettings& s) { validate(s); };
   expect_range(&SplatSettings::psf, 0, 1, 1, splat);
   expect_range(&SplatSettings::merge, 0, 1, 1, splat);
-  expect_range(&SplatSettings::cutoff, 1, 8, 0.001, splat);
+  expect_range(&SplatSettings::cutoff, 2, 3, 0.001, splat);
   expect_range(&DepthSettings::kind, 0, 5, 1, [](DepthSettings s) {
     const bool has_ends = s.kind == DepthKind::normalized || s.kind == DepthKind::zbuffer;
     if (has_ends) s.near_units = 1, s.far_units = 2;

@@ -248,7 +248,7 @@ TEST(View, WhatItRefuses) {
   refused([](auto&, auto& lens, auto&) { lens.focus_end_units = 4; }, "one plane of focus");
   refused([](auto&, auto&, auto& s) { s.width = 0; }, "allowed are 1 to 16384");
   refused([](auto&, auto&, auto& s) { s.height = 20000; }, "allowed are 1 to 16384");
-  refused([](auto&, auto&, auto& s) { s.cutoff = 0.5; }, "cutoff is 0.5: allowed are 1 to 8");
+  refused([](auto&, auto&, auto& s) { s.cutoff = 0.5; }, "cutoff is 0.5: allowed are 2 to 3");
   refused([](auto&, auto&, auto& s) { s.transparency = 1; }, "transparency is 1");
 }
 

@@ -157,6 +157,30 @@ TEST(SplatCoverage, SurfacesEndWhereTheirPointsDo) {
   }
 }
 
+/// Nodes that stand for many points lie less evenly than these.
+TEST(SplatCoverage, NodesOfEvenBallsLeaveNoHoles) {
+  for (const int points : {5000, 20000}) {
+    PointCloud ball;
+    for (int i = 0; i < points; ++i) {
+      const double z = 1 - (2 * i + 1.0) / points, ring = std::sqrt(1 - z * z), turn = 2.399963 * i;
+      ball.positions.push_back({static_cast<float>(ring * std::cos(turn)),
+                                static_cast<float>(ring * std::sin(turn)), static_cast<float>(z)});
+    }
+    ball.normals = ball.positions;
+    const Hierarchy tree = tree_of(ball);
+    for (const SplatPsf psf : {SplatPsf::disc, SplatPsf::gaussian}) {
+      SplatSettings settings;
+      settings.psf = psf;
+      for (const double aperture : {400.0, 800.0, 1500.0}) {
+        const auto [least, most] =
+            range_inside(draw(tree, view_of(300, 4, aperture, settings)).colour[3], 300, 45);
+        EXPECT_GE(least, 0.99f) << points << " points, " << aperture << " mm, psf " << int(psf);
+        EXPECT_LE(most, 1.0001f) << points << " points, " << aperture << " mm, psf " << int(psf);
+      }
+    }
+  }
+}
+
 /// Of points anywhere on a plane, steep or not: up to a third of their distance too near, as the
 /// nearest count where they make more than a whole. The nearest one's was up to 2.5 of it.
 TEST(SplatCoverage, DepthsAreTheSurfaces) {
