@@ -22,17 +22,28 @@ std::optional<std::size_t> find(const std::vector<std::string>& names, const std
   return static_cast<std::size_t>(found - names.begin());
 }
 
+/// Of an even number the lower one.
+double lower_median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What lies no farther from 0 than so many times as half of it from its middle stays as it is:
+/// that takes four of floats' 24 bits.
+constexpr double near_nothing = 16;
+
 /// In the middle of what is finite along an axis: a few that lie far away, or at 0 among places of
-/// a geographer's, do not move it. Of an even number the lower one.
+/// a geographer's, do not move it.
 double middle_of(const std::vector<std::array<double, 3>>& places, std::size_t axis) {
   std::vector<double> along;
   for (const auto& place : places) {
     if (std::isfinite(place[axis])) along.push_back(place[axis]);
   }
   if (along.empty()) return 0;
-  const auto middle = along.begin() + static_cast<std::ptrdiff_t>((along.size() - 1) / 2);
-  std::nth_element(along.begin(), middle, along.end());
-  return *middle;
+  const double middle = lower_median(along);
+  for (double& place : along) place = std::abs(place - middle);
+  return std::abs(middle) <= near_nothing * lower_median(along) ? 0 : middle;
 }
 
 }  // namespace

@@ -97,14 +97,30 @@ TEST_F(CloudFile, BinaryPlyOfEitherOrder) {
   }
 }
 
+TEST_F(CloudFile, FloatsNearNothingStayWhatTheyAre) {
+  std::string rows;
+  for (int i = 0; i < 50; ++i)
+    rows += fmt::format("{} {} {}\n", 0.1f * float(i), 0.3f - float(i), 1e-7f * float(i));
+  const PointCloud cloud = read_point_cloud(write("near.xyz", rows));
+  for (int i = 0; i < 50; ++i) {
+    const std::array<float, 3> place{0.1f * float(i), 0.3f - float(i), 1e-7f * float(i)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(
+          static_cast<float>(cloud.origin[k] + static_cast<double>(cloud.positions[size(i)][k])),
+          place[k]);
+    }
+  }
+}
+
 /// Floats hold what lies around the origin: a few points far away do not move it.
 TEST_F(CloudFile, PlacesAreFromTheMiddle) {
   std::string rows = "0 0 0\nnan 0 0\n0 0 0\n";
   for (int i = 0; i < 7; ++i) rows += fmt::format("500000.0625 {}.001 -7\n", 4000000 + i);
   const PointCloud cloud = read_point_cloud(write("far.xyz", rows + "1e12 1e12 1e12\n"));
   EXPECT_EQ(cloud.origin, (std::array<double, 3>{500000.0625, 4000002.001, -7}));
-  EXPECT_EQ(cloud.positions[5], (std::array<float, 3>{0, 0, 0}));
-  EXPECT_EQ(cloud.positions[9], (std::array<float, 3>{0, 4, 0}));
+  EXPECT_EQ(cloud.positions[5][0], 0);
+  EXPECT_EQ(cloud.positions[5][1], 0);
+  EXPECT_EQ(cloud.positions[9][1], 4);
   EXPECT_EQ(cloud.positions[0][0], -500000.0625f);
   EXPECT_TRUE(std::isnan(cloud.positions[1][0]));
 }
