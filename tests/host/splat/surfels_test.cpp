@@ -5,27 +5,15 @@
 
 #include "base/random.h"
 #include "base/vec3.h"
+#include "host/splat/splat_clouds.h"
 #include "support.h"
 
 namespace defray::test::surfels_test {
 namespace {
 
-/// Points of a plane z = x / 2, 0.1 apart along x and y.
-PointCloud slope(int side) {
-  PointCloud cloud;
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
-      cloud.positions.push_back({0.1f * float(i), 0.1f * float(j), 0.05f * float(i)});
-    }
-  }
-  return cloud;
-}
-
 const DefraySplatNode& middle(const Surfels& surfels) {
   return surfels.points[surfels.points.size() / 2];
 }
-
-double area_of(const DefraySplatNode& n) { return std::hypot(n.area_x, n.area_y, n.area_z); }
 
 TEST(Surfels, NormalsSpacingsAndAreasComeFromThePointsAround) {
   const Surfels surfels = make_surfels(slope(21));
@@ -158,58 +146,6 @@ TEST(Surfels, AnOriginIsFinite) {
   }
 }
 
-/// What scans have before a surface is as small as the surface's points, not as far as it is away.
-TEST(Surfels, StraysAreSmall) {
-  PointCloud cloud = slope(21);
-  cloud.positions.push_back({1, 1, 4});
-  cloud.positions.push_back({0.5f, 1.5f, 6});
-  std::size_t strays = 0;
-  for (const DefraySplatNode& n : make_surfels(cloud).points) {
-    if (n.z < 3) continue;
-    ++strays;
-    EXPECT_LE(std::sqrt(n.variance), 0.8 * 0.13);  // along edges spacings are 0.13
-    EXPECT_LE(area_of(n), M_PI * std::pow(0.13, 2));
-  }
-  EXPECT_EQ(strays, 2u);
-}
-
-/// One of two hundred, so that many of those around them are others; the edges of a coarse box are
-/// not taken for some.
-TEST(Surfels, ManyStraysAreSmallAndCoarseBodiesWhole) {
-  PointCloud cloud;
-  const auto add = [&](const Vec3& p) {
-    cloud.positions.push_back(
-        {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-  };
-  constexpr int count = 20000;
-  for (int i = 0; i < count; ++i) {
-    Random random(i, 0, 4);
-    const double y = 2 * random.next() - 1, turn = 2 * M_PI * random.next(),
-                 r = std::sqrt(1 - y * y);
-    add({r * std::cos(turn), y, r * std::sin(turn)});
-    if (i % 200 == 0) {
-      add({4 * random.next() - 2, 4 * random.next() - 2, 1.2 + 3 * random.next()});
-    }
-  }
-  for (int i = 0; i < 1200; ++i) {  // 0.14 apart, five times as far as on the ball
-    const double along = 0.14 * (i % 14) + 0.07, across = 0.14 * (i / 14 % 14) + 0.07;
-    const std::array<double, 3> p{along, across, i / 196 % 2 == 0 ? 0.0 : 1.96};
-    const int axis = i / 392;
-    if (axis < 3) add({p[size(axis)] - 10, p[size((axis + 1) % 3)], p[size((axis + 2) % 3)]});
-  }
-  double strays = 0, box = 0;
-  const Surfels surfels = make_surfels(cloud);
-  ASSERT_EQ(surfels.notes.size(), 1u);
-  EXPECT_NE(surfels.notes[0].find(" points lie apart from all surfaces: drawn as small as the"),
-            std::string::npos);
-  for (const DefraySplatNode& n : surfels.points) {
-    if (n.x > -5 && n.z > 1.1f) strays += area_of(n);
-    if (n.x < -5) box += area_of(n);
-  }
-  EXPECT_LT(strays, 0.5);  // as wide as they lie apart: 48
-  EXPECT_NEAR(box, 6 * 1.96 * 1.96, 0.1 * 6 * 1.96 * 1.96);
-}
-
 TEST(Surfels, NotesFlippedNormals) {
   PointCloud cloud = slope(9);
   cloud.normals.assign(cloud.positions.size(), {0, 0, 1});
@@ -221,22 +157,6 @@ TEST(Surfels, NotesFlippedNormals) {
   for (const char* model : {"plane", "figure", "crossing", "mask"}) {
     EXPECT_TRUE(make_surfels(make_point_cloud(model, 3000)).notes.empty()) << model;
   }
-}
-
-TEST(Surfels, NotesLinesTooFarApart) {
-  const auto notes = [](int apart) {
-    PointCloud cloud;
-    for (int i = 0; i < 6000; ++i) {
-      Random random(i, 0, 8);
-      cloud.positions.push_back({static_cast<float>(i % 200 + 0.1 * random.next()),
-                                 static_cast<float>(apart * (i / 200) + 0.1 * random.next()), 0});
-    }
-    return make_surfels(cloud).notes;
-  };
-  EXPECT_TRUE(notes(6).empty());
-  ASSERT_EQ(notes(12).size(), 1u);
-  EXPECT_NE(notes(12)[0].find("% of the points lie along lines farther apart than the 20 nearest"),
-            std::string::npos);
 }
 
 TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
