@@ -17,7 +17,8 @@ namespace {
 // How wide a node may be in the picture: so many pixels, or this share of its CoC's radius, of
 // discs of what narrower_disc_px less are. Even balls of 2000 to 80 000 points are then covered
 // within 1 % at 200 to 1500 mm; with the whole radius within 2.6 %, of Gaussians 3.4 (with
-// 0.85 3.1). With 0.7 of discs, too, within 0.7 %, and `figure` at 1200 mm takes longer than sharp.
+// 0.85 3.1); at 2000 and 3000 mm, as wide as the balls, 1.5, and 6. With 0.7 of discs, too, within
+// 0.7 %, and `figure` at 1200 mm takes longer than sharp.
 constexpr double widest_px = 1, widest_disc = 0.85, narrower_disc_px = 2, widest_gaussian = 0.7;
 /// Areas of a node's points that point apart by more than this hide each other.
 constexpr double least_coherence = 0.9;
