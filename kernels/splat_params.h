@@ -9,9 +9,11 @@
 #define DEFRAY_SPLAT_SQUARES (DEFRAY_SPLAT_TILE * DEFRAY_SPLAT_TILE / 16)
 /// What neighbours' weights add up to at least where they are sharp: more does not count there.
 #define DEFRAY_SPLAT_AIM 1.02f
-/// A disc's square radius over a splat's own square size: from here on its blur is a disc, where
-/// discs are asked for, and below a Gaussian is as near to what it should be.
-#define DEFRAY_SPLAT_DISC 7.4f
+/// Discs, which add up more evenly and show what is more where a surface ends, weigh so much less.
+#define DEFRAY_SPLAT_DISC_LESS 1.01f
+/// A disc's square radius over a splat's own variance: from here on its blur is a disc, where discs
+/// are asked for, and below a Gaussian is as near to what it should be.
+#define DEFRAY_SPLAT_DISC 4.74f
 /// A pixel that lets less through is opaque.
 #define DEFRAY_SPLAT_OPAQUE 0.000244140625f
 
@@ -65,6 +67,7 @@ typedef struct {
   float edge;                 ///< e^-c, which Gaussians are lowered by: they end at 0.
   float gaussian_share;       ///< 1 - e^-c (1 + c): what is then left of one.
   float gaussian_variance;    ///< And of its variance: 1 - c^2 e^-c / 2 over that share.
+  float aim;                  ///< Weights are so many times larger, for sums that are less even.
   DEFRAY_UINT one_sided;      ///< 1: surfaces with one side are seen from where normals point.
   DEFRAY_UINT has_discs;      ///< 1: what is mostly blur becomes a disc.
   DEFRAY_UINT has_headlight;  ///< 1: colours are shaded by a light at the eye.
@@ -88,7 +91,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DefraySplatNode) == 76);
 static_assert(sizeof(DefraySplat) == 88);
-static_assert(sizeof(DefraySplatParams) == 136);
+static_assert(sizeof(DefraySplatParams) == 140);
 static_assert(sizeof(DefraySplatTileParams) == 36);
 #endif
 

@@ -109,13 +109,13 @@ float set_shape(const DefraySplatParams& p, const Variance& w, float determinant
                 float blur, bool is_disc, DefraySplat& s) {
   const float root = std::sqrt(determinant);
   float reach = 2 * p.cutoff, form = 0.5f;
-  s.amplitude = size / (6.28318531f * root * p.gaussian_share);
+  s.amplitude = p.aim * size / (6.28318531f * root * p.gaussian_share);
   if (is_disc) {
     const float gaussian = std::fmax(root - blur, p.gaussian_variance);
     const BlurredDisc d = blurred_disc(std::fmin(gaussian / root, 0.4f));
     form = 1 / d.fall;
     reach = d.end;
-    s.amplitude = size / (3.14159274f * DEFRAY_SPLAT_AIM * (root * d.whole));
+    s.amplitude = p.aim * size / (3.14159274f * DEFRAY_SPLAT_DISC_LESS * (root * d.whole));
     s.disc_top = d.end / d.fall;
     s.disc_bulge = d.bulge;
   }
@@ -162,15 +162,11 @@ float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen
   return share;
 }
 
-/// How much is seen, from an amplitude of 1: from the lens's centre, or, with discs, from the point
-/// of the lens that each pixel stands for. Returns whether any is.
+/// How much is seen, from an amplitude of 1, from the point of the lens that each pixel stands for.
+/// Returns whether any is.
 bool face_lens(const DefraySplatParams& p, const Seen& seen, bool has_back, float coc,
                float sharp_coc, float share, DefraySplat& s) {
   s.back = has_back ? -1 : 0;
-  if (!p.has_discs) {
-    s.amplitude *= std::fabs(seen.towards);
-    return has_back || seen.towards < 0;
-  }
   const float x = dot({p.right_x, p.right_y, p.right_z}, seen.normal);
   const float y = dot({p.down_x, p.down_y, p.down_z}, seen.normal);
   const float units_a_px = sharp_coc != 0 ? share * (p.lens_units / sharp_coc) : 0;
@@ -217,7 +213,7 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const DefraySplat without_shape = s;
 
   const float sharp_coc = coc_px(p, z), coc = std::clamp(sharp_coc, -p.limit_px, p.limit_px);
-  const float own = p.gaussian_variance * (1 + scale * scale * n.variance);
+  const float own = 1 + scale * scale * n.variance;
   const bool is_disc = p.has_discs && coc * coc > DEFRAY_SPLAT_DISC * own;
   const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
   const float share = blur_node(p, n, seen, blur, is_disc, s);

@@ -14,12 +14,13 @@
 namespace defray {
 namespace {
 
-// How wide a node may be in the picture: so many pixels, or this share of its CoC's radius, of
-// discs of what narrower_disc_px less are. Even balls of 2000 to 80 000 points are then covered
-// within 1 % at 200 to 1500 mm; with the whole radius within 2.6 %, of Gaussians 3.4 (with
-// 0.85 3.1); at 2000 and 3000 mm, as wide as the balls, 1.5, and 6. With 0.7 of discs, too, within
-// 0.7 %, and `figure` at 1200 mm takes longer than sharp.
-constexpr double widest_px = 1, widest_disc = 0.85, narrower_disc_px = 2, widest_gaussian = 0.7;
+// How wide a node may be in the picture: so many pixels, or, with its points' own size, so many
+// radii of its CoC; 1 + narrower_in_lens times less where the lens's radius is the distance,
+// because nodes look narrower or wider from its sides than from its centre. Even balls (2000 to 300
+// 000 points, lenses up to three times as wide) then have weights of no less than 0.99; with 1.4
+// radii 0.98, with all lenses alike 0.95; with 1 radius 0.998, but `figure` takes longer at 1600 mm
+// than sharp.
+constexpr double widest_px = 1, widest_in_blur = 1.15, narrower_in_lens = 2;
 /// Areas of a node's points that point apart by more than this hide each other.
 constexpr double least_coherence = 0.9;
 
@@ -67,8 +68,9 @@ class View {
   bool is_small(const SeenNode& s, const HierarchyNode& n) const {
     const double near = s.z - s.radius;
     if (!(near > p_.near_units)) return false;
-    const double width_px = 2.0 * n.radius * p_.focal_px / near;
-    return (width_px <= widest_px || is_small_in_blur(width_px, near, s.z + s.radius)) &&
+    const double px = p_.focal_px / near, own = std::sqrt(static_cast<double>(n.splat.variance));
+    return (2.0 * n.radius * px <= widest_px ||
+            is_small_in_blur(2.0 * (n.radius + own) * px, near, s.z + s.radius)) &&
            is_coherent(n);
   }
 
@@ -77,8 +79,8 @@ class View {
     const double here = splat_coc_px(p_, near), there = splat_coc_px(p_, far);
     if ((here < 0) != (there < 0)) return false;  // some of it is in focus
     const double blur = std::min(std::abs(here), std::abs(there));
-    return width_px <=
-           (p_.has_discs ? widest_disc * (blur - narrower_disc_px) : widest_gaussian * blur);
+    const double lens = p_.lens_units / near;
+    return width_px * (1 + narrower_in_lens * lens * lens) <= widest_in_blur * blur;
   }
 
   static bool is_coherent(const HierarchyNode& n) {

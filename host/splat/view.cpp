@@ -116,11 +116,16 @@ float lens_radius_of(const DefraySplatParams& p) {
   return static_cast<float>(scale_px / p.focal_px);
 }
 
+/// Sums of Gaussians that end earlier are less even: with so much more those of even balls (1000 to
+/// 100 000 points) are no less than 0.99 at c = 2, without it than 0.979.
+constexpr double even_cutoff = 2.5, more_for_edges = 0.28;
+
 void put_cutoff(double cutoff, DefraySplatParams& p) {
   const double edge = std::exp(-cutoff), share = 1 - edge * (1 + cutoff);
   p.cutoff = static_cast<float>(cutoff);
   p.edge = static_cast<float>(edge);
   p.gaussian_share = static_cast<float>(share);
+  p.aim = static_cast<float>(1 + more_for_edges * std::max(edge - std::exp(-even_cutoff), 0.0));
   p.gaussian_variance = static_cast<float>(1 - cutoff * cutoff * edge / (2 * share));
 }
 

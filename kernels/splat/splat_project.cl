@@ -17,11 +17,11 @@
 // neither root nor power. D and bulge are fitted to such blurred discs by the share of the Gaussian
 // in W, 0.005 to 0.4, within 0.03 of them in the mean square; T gives it the variance W. A slanted
 // surface covers more of what is seen from the lens's one side than from the other, by A . (p - u)
-// from u: discs lean, and where that is 0 or less nothing of a surface with one side is seen.
+// from u: kernels lean, and where that is 0 or less nothing of a surface with one side is seen.
 //
 // A node is culled, with no pixels, if any of its basis function is nearer than near_units, if
-// surfaces have one side and it shows the other (a disc to all of the lens), or if it covers
-// nothing of the picture.
+// surfaces have one side and it shows the other to all of the lens, or if it covers nothing of the
+// picture.
 //
 // nodes   [count]
 // splats  [count]
@@ -139,7 +139,7 @@ INLINED floats shape_splats(const DefraySplatParams p, const SplatVariances vari
     const BlurredDisc d = blurred_disc(fmin(gaussian / root, (floats)(0.4f)));
     form = select(form, 1.0f / d.fall, is_disc);
     reach = select(reach, d.end, is_disc);
-    whole = select(whole, 3.14159274f * DEFRAY_SPLAT_AIM * (root * d.whole), is_disc);
+    whole = select(whole, 3.14159274f * DEFRAY_SPLAT_DISC_LESS * (root * d.whole), is_disc);
     s->disc_top = select(s->disc_top, d.end / d.fall, is_disc);
     s->disc_bulge = select(s->disc_bulge, d.bulge, is_disc);
   }
@@ -147,7 +147,7 @@ INLINED floats shape_splats(const DefraySplatParams p, const SplatVariances vari
   s->conic_xx = variance.yy * scale;
   s->conic_xy = -variance.xy * scale;
   s->conic_yy = variance.xx * scale;
-  s->amplitude = size / whole;
+  s->amplitude = p.aim * size / whole;
   const floats half_x = sqrt(reach * variance.xx), half_y = sqrt(reach * variance.yy);
   s->first_x = first_pixel(s->x - half_x, p.width);
   s->end_x = end_pixel(s->x + half_x, p.width);
@@ -195,18 +195,12 @@ INLINED floats blur_nodes(const DefraySplatParams p, const SplatNodes* n, const 
   return share;
 }
 
-// How much of a node is seen, from an amplitude of 1: from the lens's centre, or, with discs, from
-// that point of the lens whose light each pixel has, on average: the CoC's share of the way there.
-// Returns whether any is.
+// How much of a node is seen, from an amplitude of 1, from that point of the lens whose light each
+// pixel has, on average: the CoC's share of the way there. Returns whether any is.
 INLINED ints face_lens(const DefraySplatParams p, const SeenNodes* seen, const ints has_back,
                        const floats coc, const floats sharp_coc, const floats share,
                        SplatLanes* s) {
   s->back = select((floats)(0.0f), (floats)(-1.0f), has_back);
-  s->lean_x = s->lean_y = 0.0f;
-  if (!p.has_discs) {
-    s->amplitude *= fabs(seen->towards);
-    return IS(seen->towards < 0.0f) | has_back;
-  }
   const SplatVectors right = FRAME_VECTOR(p, right), down = FRAME_VECTOR(p, down);
   const floats lean_x = product(right, seen->normal), lean_y = product(down, seen->normal);
   // In focus a pixel has light from all of the lens.
@@ -246,7 +240,7 @@ INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, Splat
 
   const floats sharp_coc = splat_coc(p, z);
   const floats coc = clamp(sharp_coc, (floats)(-p.limit_px), (floats)(p.limit_px));
-  const floats own = p.gaussian_variance * (1.0f + scale * scale * n->variance);
+  const floats own = 1.0f + scale * scale * n->variance;
   const ints is_disc = IS(coc * coc > DEFRAY_SPLAT_DISC * own) & (ints)(p.has_discs ? -1 : 0);
   // 1/4, or 1 / (2 ln 4)
   const floats blur = select((floats)(0.36067376f), (floats)(0.25f), is_disc) * (coc * coc);

@@ -17,7 +17,14 @@ TEST_F(SplatCommand, EveryOptionChangesThePicture) {
     EXPECT_NE(hash(wide_lens + option), plain) << option;
   }
   EXPECT_NE(hash("--fstop 0.05"), hash("--fstop 0.1"));
-  EXPECT_NE(hash("--fstop 0.01 --lod off"), hash("--fstop 0.01"));
+  const auto drawn = [&](const char* lod) {
+    const Result result = defray(folder_,
+                                 "splat --model figure --model-points 20000 --size 64x64 "
+                                 "--fstop 0.02 --json -o lod.exr --lod " +
+                                     std::string(lod));
+    return json::parse(result.out)["drawn"].get<int>();
+  };
+  EXPECT_LT(drawn("on"), drawn("off"));
   EXPECT_EQ(hash("--fstop 0.1"), hash("--fstop 0.1 --focal-length 50"));
   EXPECT_EQ(hash("--fstop 0.1 --fov 90"), hash("--fstop 0.1 --focal-length 18"));
   EXPECT_EQ(hash(wide_lens + "--device reference"), plain);
