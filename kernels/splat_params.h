@@ -7,10 +7,6 @@
 #define DEFRAY_SPLAT_TILE 8
 #define DEFRAY_SPLAT_SQUARE 4
 #define DEFRAY_SPLAT_SQUARES (DEFRAY_SPLAT_TILE * DEFRAY_SPLAT_TILE / 16)
-/// What neighbours' weights add up to at least where they are sharp: more does not count there.
-#define DEFRAY_SPLAT_AIM 1.02f
-/// Discs of nodes, which lie less evenly than points, weigh so much more, as a share.
-#define DEFRAY_SPLAT_NODE_MORE 0.01f
 /// A disc's square radius over a splat's own variance: from here on its blur is a disc, where discs
 /// are asked for, and below a Gaussian is as near to what it should be.
 #define DEFRAY_SPLAT_DISC 4.74f

@@ -115,7 +115,7 @@ float set_shape(const DefraySplatParams& p, const Variance& w, float determinant
     const BlurredDisc d = blurred_disc(std::fmin(gaussian / root, 0.4f));
     form = 1 / d.fall;
     reach = d.end;
-    s.amplitude = p.aim * size / (3.14159274f * DEFRAY_SPLAT_AIM * (root * d.whole));
+    s.amplitude = p.aim * size / (3.14159274f * (root * d.whole));
     s.disc_top = d.end / d.fall;
     s.disc_bulge = d.bulge;
   }
@@ -158,9 +158,7 @@ float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen
                    own.yy + kept + added.all.yy};
   const float determinant = determinant_of(own, basis * seen.spread, kept, added);
   const float share = set_shape(p, w, determinant, seen.size, blur, is_disc, s);
-  const bool is_node = n.low_xx + n.low_yy + n.low_zz > 0;
-  const float more = is_node && is_disc ? DEFRAY_SPLAT_NODE_MORE : 0;
-  s.amplitude *= 1 + (n.cover - 1) * (1 - share * share) + more;
+  s.amplitude *= 1 + (n.cover - 1) * (1 - share * share);
   return share;
 }
 

@@ -62,8 +62,8 @@ double spacing_of(const CloudPoints& cloud, std::size_t point);
 
 /// What a point stands for.
 struct PointWeight {
-  double area;   ///< With which basis functions add up to 1 on average, and DEFRAY_SPLAT_AIM.
-  double cover;  ///< Times this they add up to no less anywhere.
+  double area;   ///< With which basis functions add up to 1 on average.
+  double cover;  ///< Times this they add up to no less than 1 anywhere.
 };
 
 /// Of all points.

@@ -18,8 +18,8 @@ namespace {
 // radii of its CoC; 1 + narrower_in_lens times less where the lens's radius is the distance,
 // because nodes look narrower or wider from its sides than from its centre. Even balls (2000 to 300
 // 000 points, lenses up to three times as wide) then have weights of no less than 0.99; with 1.4
-// radii 0.98, with all lenses alike 0.95; with 1 radius 0.998, but `figure` takes longer at 1600 mm
-// than sharp.
+// radii 0.975, with all lenses alike 0.945; with 1 radius 0.995, but `figure` takes longer at 1600
+// mm than sharp.
 constexpr double widest_px = 1, widest_in_blur = 1.15, narrower_in_lens = 2;
 /// Areas of a node's points that point apart by more than this hide each other.
 constexpr double least_coherence = 0.9;

@@ -5,14 +5,14 @@
 
 #include "base/falloff.h"
 #include "base/parallel.h"
-#include "kernels/splat_params.h"
 #include "splat/cells.h"
 
 namespace defray {
 namespace {
 
-/// What sums should be.
-constexpr double aim = DEFRAY_SPLAT_AIM;
+/// What sums should be where they are sharp, and where they are blurred, so that none is less than
+/// 0.99: more does not count within a surface, but at its edges, of which blur has more.
+constexpr double aim = 1.02, blurred_aim = 1.005;
 /// How weights are found: from sums at each point and around it, in so many steps. Those above the
 /// aim weigh too_much of what lower ones do, but as much along edges, which would grow.
 struct Search {
@@ -192,7 +192,8 @@ std::vector<PointWeight> weigh(const CloudPoints& cloud, const Progress& progres
   const std::vector<double> blurred = areas_of(of_areas), sharp = areas_of(of_cover);
   std::vector<PointWeight> weights;
   for (std::size_t i = 0; i < blurred.size(); ++i) {
-    weights.push_back({blurred[i], sharp[i] / blurred[i]});
+    const double area = blurred[i] * (blurred_aim / aim);
+    weights.push_back({area, sharp[i] / area});
   }
   return weights;
 }

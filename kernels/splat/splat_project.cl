@@ -139,7 +139,7 @@ INLINED floats shape_splats(const DefraySplatParams p, const SplatVariances vari
     const BlurredDisc d = blurred_disc(fmin(gaussian / root, (floats)(0.4f)));
     form = select(form, 1.0f / d.fall, is_disc);
     reach = select(reach, d.end, is_disc);
-    whole = select(whole, 3.14159274f * DEFRAY_SPLAT_AIM * (root * d.whole), is_disc);
+    whole = select(whole, 3.14159274f * (root * d.whole), is_disc);
     s->disc_top = select(s->disc_top, d.end / d.fall, is_disc);
     s->disc_bulge = select(s->disc_bulge, d.bulge, is_disc);
   }
@@ -191,9 +191,7 @@ INLINED floats blur_nodes(const DefraySplatParams p, const SplatNodes* n, const 
                                    own.yy + kept + added.yy, 0.0f};
   const floats determinant = determinant_of(own, along * seen->spread, kept, added);
   const floats share = shape_splats(p, variance, determinant, seen->size, blur, is_disc, s);
-  const ints is_node = IS(n->low.xx + n->low.yy + n->low.zz > 0.0f);
-  const floats more = select((floats)(0.0f), (floats)(DEFRAY_SPLAT_NODE_MORE), is_node & is_disc);
-  s->amplitude *= 1.0f + (n->cover - 1.0f) * (1.0f - share * share) + more;
+  s->amplitude *= 1.0f + (n->cover - 1.0f) * (1.0f - share * share);
   return share;
 }
 

@@ -43,8 +43,7 @@ TEST(SplatProject, DiscsAreWhatThePrefilterLeavesOfAnEvenDisc) {
     ASSERT_GT(s.disc_top, 0) << coc;
     const Plane alpha = device().splat_resolve({s}, p).colour[3];
     const std::vector<double> exact = blurred_disc(side, coc, 1);
-    const double covers =
-        area * p.focal_px * p.focal_px / 4 / DEFRAY_SPLAT_AIM;  // px, at distance 2
+    const double covers = area * p.focal_px * p.focal_px / 4;  // px, at distance 2
     double sum = 0, wrong = 0, all = 0;
     for (std::size_t i = 0; i < alpha.size(); ++i) {
       const double value = alpha[i] / covers;
