@@ -18,6 +18,10 @@ constexpr double alone_within = 0.4226;
 constexpr std::size_t others_at_edges = 2;
 /// Points as near to a surface's end, in spacings, may reach over it.
 constexpr double beside_edge = 2;
+/// Faces at an edge sharper than this cosine between their normals are two sides of a thin body,
+/// and do not end each other's cells: cubes', tetrahedra's and wedges' of 60 degrees do. Else the
+/// last points before an edge reach as far as those beside a hole.
+constexpr double opposite = -0.5;
 /// Cells are no wider than this, in spacings.
 constexpr double widest_cell = 2;
 /// Sums are looked at beyond cells' borders by this, but no farther than most_reach; along edges,
@@ -54,7 +58,8 @@ Cell cell_of(const CloudPoints& cloud, std::size_t point) {
   border.fill(widest_cell);
   std::array<bool, direction_count> has_neighbour{};
   for (const std::uint32_t other : cloud.around.of(point)) {
-    if (cloud.are_apart(point, other, dot(own.normal, cloud.points[other].normal))) continue;
+    const double same = dot(own.normal, cloud.points[other].normal);
+    if (cloud.are_apart(point, other, same, opposite)) continue;
     const Vec3 d = (cloud.place(other) - cloud.place(point)) / own.spacing;
     const double x = dot(d, axes.u), y = dot(d, axes.v), square = x * x + y * y;
     const double within = alone_within * std::sqrt(square);

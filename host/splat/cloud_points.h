@@ -39,9 +39,10 @@ struct CloudPoints {
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 
-  /// Whether what is seen of one is not seen of the other, for this cosine between their normals.
-  bool are_apart(std::size_t i, std::size_t j, double cosine) const {
-    return !(cosine > 0) && !points[i].is_two_sided && !points[j].is_two_sided;
+  /// Whether two with this cosine between their normals lie on faces that are apart from `least`
+  /// on; of what has two sides they never do.
+  bool are_apart(std::size_t i, std::size_t j, double cosine, double least) const {
+    return !(cosine > least) && !points[i].is_two_sided && !points[j].is_two_sided;
   }
 };
 

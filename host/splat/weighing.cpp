@@ -14,18 +14,23 @@ namespace {
 /// 0.99: more does not count within a surface, but at its edges, of which blur has more.
 constexpr double aim = 1.02, blurred_aim = 1.005;
 /// How weights are found: from sums at each point and around it, in so many steps. Those above the
-/// aim weigh too_much of what lower ones do, but as much along edges, which would grow.
+/// aim weigh too_much of what lower ones do, and count up to most_excess; but as much as lower ones
+/// along edges, which would grow.
 struct Search {
   int steps;
   float around;  ///< How far around, in spacings; 0: at the point's sites.
-  float too_much;
+  float too_much, most_excess;
+  double face;  ///< Of what looks elsewhere, by a cosine up to this, nothing is added.
 };
 /// Of areas: as large as the surface is, they are what counts where it is blurred.
-constexpr Search of_areas{4, 0.5f, 0.3f};
+constexpr Search of_areas{4, 0.5f, 0.3f, 1, 0};
 /// Where it is sharp what is behind shines through wherever sums are less than 1; what is more does
 /// not count (SplatMerge). Of points on a jittered grid the least sum is 0.99; with all areas
-/// alike, and 1.03, it is 0.91.
-constexpr Search of_cover{4, 0, 0.1f};
+/// alike, and 1.03, it is 0.91. At a ridge what is seen of the one face flat is seen of the other
+/// from its edge, so each covers itself all over: with ridges as all else the least sum of regular
+/// solids and prisms is 0.81. Sums are more there than twice their aim, and 0.96 in the next row if
+/// that counts. (perf/notes/point_clouds.md.)
+constexpr Search of_cover{4, 0, 0.1f, 0.05f, 0.9};
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
 /// A basis function is nothing where it is e to the minus this.
@@ -110,7 +115,7 @@ class Weighing {
   Sites basis(std::size_t of, std::size_t at) const {
     const Tangent &point = tangents_[of], &there = tangents_[at];
     const float same = dot(point.normal, there.normal);
-    if (cloud_.are_apart(of, at, static_cast<double>(same))) return {};
+    if (cloud_.are_apart(of, at, static_cast<double>(same), search_.face)) return {};
     const float inverse = 1 / std::max(there.spacing, 1e-30f);
     Axis d;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -148,9 +153,10 @@ class Weighing {
     const double covered = cloud_.points[point].covered;
     const auto wanted = static_cast<float>(aim * covered);
     const float weight = covered < 1 ? 1 : search_.too_much;
+    const float most = covered < 1 ? 1 : search_.most_excess;
     for (std::size_t k = 0; k < lanes; ++k) {
       const float lack = wanted / sums[k];
-      lacks_[point][k] = lack < 1 ? 1 + weight * (lack - 1) : lack;
+      lacks_[point][k] = lack < 1 ? 1 - weight * std::min(1 - lack, most) : lack;
     }
   }
 
