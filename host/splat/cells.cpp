@@ -21,7 +21,7 @@ constexpr double beside_edge = 2;
 /// Faces at an edge sharper than this cosine between their normals are two sides of a thin body,
 /// and do not end each other's cells: cubes', tetrahedra's and wedges' of 60 degrees do. Else the
 /// last points before an edge reach as far as those beside a hole.
-constexpr double opposite = -0.5;
+constexpr double opposite = -0.8;
 /// Cells are no wider than this, in spacings.
 constexpr double widest_cell = 2;
 /// Sums are looked at beyond cells' borders by this, but no farther than most_reach; along edges,

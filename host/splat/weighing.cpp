@@ -30,7 +30,7 @@ constexpr Search of_areas{4, 0.5f, 0.3f, 1, 0};
 /// from its edge, so each covers itself all over: with ridges as all else the least sum of regular
 /// solids and prisms is 0.81. Sums are more there than twice their aim, and 0.96 in the next row if
 /// that counts. (perf/notes/point_clouds.md.)
-constexpr Search of_cover{4, 0, 0.1f, 0.05f, 0.9};
+constexpr Search of_cover{4, 0, 0.1f, 0.02f, 0.9};
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
 /// A basis function is nothing where it is e to the minus this.

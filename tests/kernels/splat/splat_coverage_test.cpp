@@ -185,6 +185,49 @@ TEST(SplatCoverage, EvenBallsAndTheirNodesLeaveNoHoles) {
   }
 }
 
+/// A tilted prism's sides, of grids that end half a distance before its ridges, `rows` a unit.
+PointCloud prism(int sides, double rows) {
+  PointCloud cloud;
+  const double half_width = std::tan(M_PI / sides);
+  const int across = static_cast<int>(std::round(2 * half_width * rows));
+  const auto tilted = [](double x, double y, double z) {
+    return std::array{static_cast<float>(x),
+                      static_cast<float>(y * std::cos(0.4) - z * std::sin(0.4)),
+                      static_cast<float>(y * std::sin(0.4) + z * std::cos(0.4))};
+  };
+  for (int side = 0; side < sides; ++side) {
+    const double turn = 0.4 + 2 * M_PI * side / sides, c = std::cos(turn), s = std::sin(turn);
+    for (int i = 0; i < across; ++i) {
+      for (double y = -1.5 + 0.5 / rows; y < 1.5; y += 1 / rows) {
+        const double along = ((i + 0.5) * 2 / across - 1) * half_width;
+        cloud.positions.push_back(tilted(s + along * c, y, c - along * s));
+        cloud.normals.push_back(tilted(s, 0, c));
+        cloud.colours.push_back({1, 1, 1});
+      }
+    }
+  }
+  return cloud;
+}
+
+/// What is seen of the one face flat is seen of the other from its edge.
+TEST(SplatCoverage, FacesOfFewPointsCoverThemselvesUpToTheirRidges) {
+  for (const int sides : {3, 4, 5, 6, 8, 12}) {
+    for (const double rows : {8.0, 13.0, 25.0}) {
+      const Hierarchy tree = tree_of(prism(sides, rows));
+      for (const SplatPsf psf : {SplatPsf::disc, SplatPsf::gaussian}) {
+        SplatSettings settings;
+        settings.psf = psf;
+        for (const double aperture : {0.0, 100.0, 400.0, 1500.0}) {
+          const auto [least, most] =
+              range_inside(draw(tree, view_of(300, 4, aperture, settings)).colour[3], 300, 60);
+          EXPECT_GE(least, 0.99f) << sides << " sides, " << rows << ", " << aperture << " mm";
+          EXPECT_LE(most, 1.0001f) << sides << " sides, " << rows << ", " << aperture << " mm";
+        }
+      }
+    }
+  }
+}
+
 /// Of points anywhere on a plane, steep or not: up to a third of their distance too near, as the
 /// nearest count where they make more than a whole. The nearest one's was up to 2.5 of it.
 TEST(SplatCoverage, DepthsAreTheSurfaces) {
