@@ -12,7 +12,7 @@ namespace {
 
 /// What sums should be where they are sharp, and where they are blurred, so that none is less than
 /// 0.99: more does not count within a surface, but at its edges, of which blur has more.
-constexpr double aim = 1.02, blurred_aim = 1.005;
+constexpr double aim = 1.045, blurred_aim = 1.01;
 /// How weights are found: from sums at each point and around it, in so many steps. Those above the
 /// aim weigh too_much of what lower ones do, and count up to most_excess; but as much as lower ones
 /// along edges, which would grow.
@@ -33,8 +33,9 @@ constexpr Search of_areas{4, 0.5f, 0.3f, 1, 0};
 constexpr Search of_cover{4, 0, 0.1f, 0.02f, 0.9};
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
-/// A basis function is nothing where it is e to the minus this.
-constexpr float nothing_from = 79;
+/// Basis functions end, lowered, where splat_project lets them by default. If they did not, beside
+/// ridges, where some are three times as high, tails that are not drawn would count.
+constexpr float cutoff = 2.5f;
 /// Planes that lie flatter than this to a line of sight (a cosine) are seen as if by it.
 constexpr float least_facing = 1e-3f;
 
@@ -71,7 +72,7 @@ class Weighing {
   explicit Weighing(const CloudPoints& cloud)
       : cloud_(cloud),
         tangents_(cloud.points.begin(), cloud.points.end()),
-        heights_(cloud.points.size(), static_cast<float>(1 / whole_of_unit_height)),
+        areas_(cloud.points.size(), 1.0f),
         lacks_(cloud.points.size()) {
     for (std::size_t k = 0; k < site_count; ++k) {
       towards_u_[k + 1] = static_cast<float>(site_directions()[k].x);
@@ -81,19 +82,18 @@ class Weighing {
 
   void step(const Search& search) {
     search_ = search;
-    parallel_for_each(heights_.size(), [&](std::size_t i) { look(i); });
-    parallel_for_each(heights_.size(), [&](std::size_t i) {
+    parallel_for_each(areas_.size(), [&](std::size_t i) { look(i); });
+    parallel_for_each(areas_.size(), [&](std::size_t i) {
       const float f = factor(i);
-      heights_[i] *= f * f;
+      areas_[i] *= f * f;
     });
   }
 
   std::vector<double> areas() const {
     std::vector<double> areas;
-    for (std::size_t i = 0; i < heights_.size(); ++i) {
-      const double whole =
-          is_alone(i) ? M_PI : static_cast<double>(heights_[i]) * whole_of_unit_height;
-      areas.push_back(whole * square(cloud_.points[i].spacing));
+    for (std::size_t i = 0; i < areas_.size(); ++i) {
+      const double area = is_alone(i) ? M_PI : static_cast<double>(areas_[i]);
+      areas.push_back(area * square(cloud_.points[i].spacing));
     }
     return areas;
   }
@@ -107,11 +107,9 @@ class Weighing {
     });
   }
 
-  /// What a basis function of height 1 adds up to on its plane, in squares of its point's spacing.
-  static constexpr double whole_of_unit_height = 2 * M_PI * square(basis_deviation);
-
-  /// What a point's basis function of height 1 covers at the sites of another, or itself, seen
-  /// along the normal there: where that line meets the plane on which the basis function lies.
+  /// What a point's basis function of area 1, in squares of its spacing, covers at the sites of
+  /// another, or itself, seen along the normal there: where that line meets the plane on which the
+  /// basis function lies.
   Sites basis(std::size_t of, std::size_t at) const {
     const Tangent &point = tangents_[of], &there = tangents_[at];
     const float same = dot(point.normal, there.normal);
@@ -137,7 +135,7 @@ class Weighing {
       const float square = own + far[k] * far[k] + u * du + v * dv;
       const float down = (above + u * nu + v * nv) * on;  // along the line, to the plane
       const float power = 0.5f * size * size * (square + down * (down - twice));
-      covered[k] = falloff(power < nothing_from ? power : nothing_from);
+      covered[k] = top_ * (falloff(power < cutoff ? power : cutoff) - lowered_);
     }
     return covered;
   }
@@ -146,7 +144,7 @@ class Weighing {
     Sites sums{};
     const auto add = [&](std::size_t of) {
       const Sites covered = basis(of, point);
-      for (std::size_t k = 0; k < lanes; ++k) sums[k] += heights_[of] * covered[k];
+      for (std::size_t k = 0; k < lanes; ++k) sums[k] += areas_[of] * covered[k];
     };
     add(point);
     for (const std::uint32_t i : cloud_.around.of(point)) add(i);
@@ -174,11 +172,16 @@ class Weighing {
     return sum / weights;
   }
 
+  /// A basis function of area 1, in squares of its point's spacing: top_ (e^-power - lowered_).
+  const float lowered_ = falloff(cutoff);
+  const float top_ =
+      1 / (2 * static_cast<float>(M_PI * square(basis_deviation)) * (1 - lowered_ * (1 + cutoff)));
+
   const CloudPoints& cloud_;
   Search search_{};
   Sites towards_u_{}, towards_v_{};  ///< The sites' directions; of the point itself none.
   std::vector<Tangent> tangents_;
-  std::vector<float> heights_;  ///< Of the points' basis functions.
+  std::vector<float> areas_;  ///< Of the points' basis functions, in squares of their spacings.
   /// What sums at a point's sites are to be multiplied by.
   std::vector<Sites> lacks_;
 };

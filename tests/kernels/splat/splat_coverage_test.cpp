@@ -217,6 +217,7 @@ TEST(SplatCoverage, FacesOfFewPointsCoverThemselvesUpToTheirRidges) {
       for (const SplatPsf psf : {SplatPsf::disc, SplatPsf::gaussian}) {
         SplatSettings settings;
         settings.psf = psf;
+        settings.cutoff = psf == SplatPsf::disc ? 2.5 : 2;
         for (const double aperture : {0.0, 100.0, 400.0, 1500.0}) {
           const auto [least, most] =
               range_inside(draw(tree, view_of(300, 4, aperture, settings)).colour[3], 300, 60);
