@@ -1,6 +1,7 @@
 // Point clouds through the lens: what is solid is covered.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -227,6 +228,24 @@ TEST(SplatCoverage, FacesOfFewPointsCoverThemselvesUpToTheirRidges) {
       }
     }
   }
+}
+
+/// Faces that meet in a ridge end there, and not where another row of points would.
+TEST(SplatCoverage, RidgesReachLittleBeyondTheirFaces) {
+  constexpr double rows = 8;
+  const DefraySplatParams p = view_of(300, 5, 0);
+  double left = 0, right = 0;  // of what the middle row sees of its ridges, px
+  for (int k = 0; k < 4; ++k) {
+    const double turn = 0.4 + M_PI_4 * (2 * k + 1);
+    const double x = std::numbers::sqrt2 * std::sin(turn), z = std::numbers::sqrt2 * std::cos(turn);
+    const double seen = static_cast<double>(p.focal_px) * x / (5 - z / std::cos(0.4));
+    left = std::min(left, seen);
+    right = std::max(right, seen);
+  }
+  const Plane alpha = draw(tree_of(prism(4, rows)), p).colour[3];
+  const double covered = std::accumulate(&alpha[150 * 300], &alpha[151 * 300], 0.0);
+  const double distance_px = static_cast<double>(p.focal_px) / 5 / rows;
+  EXPECT_NEAR(covered, right - left, 0.5 * distance_px) << distance_px;
 }
 
 /// Of points anywhere on a plane, steep or not: up to a third of their distance too near, as the
