@@ -20,7 +20,7 @@ struct Search {
   int steps;
   float around;  ///< How far around, in spacings; 0: at the point's sites.
   float too_much, most_excess;
-  double face;  ///< Of what looks elsewhere, by a cosine up to this, nothing is added.
+  double face;  ///< Points with this cosine or less between their normals are not added.
 };
 /// Of areas: as large as the surface is, they are what counts where it is blurred.
 constexpr Search of_areas{4, 0.5f, 0.3f, 1, 0};
