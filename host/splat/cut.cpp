@@ -17,7 +17,7 @@ namespace {
 // How wide a node may be in the picture: so many pixels, or, with its points' own size, so many
 // radii of its CoC; 1 + narrower_in_lens times less where the lens's radius is the distance,
 // because nodes look narrower or wider from its sides than from its centre. Weights of even balls
-// (2000 to 300 000 points, lenses up to three times as wide) are then no less than 0.991; with 1.4
+// (2000 to 300 000 points, lenses up to three times as wide) are then no less than 0.990; with 1.4
 // radii 0.975, with all lenses alike 0.96; with 1 radius 0.996, but `figure` takes longer at 1600
 // mm than sharp.
 constexpr double widest_px = 1, widest_in_blur = 1.15, narrower_in_lens = 2;
