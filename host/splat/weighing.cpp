@@ -20,17 +20,20 @@ struct Search {
   int steps;
   float around;  ///< How far around, in spacings; 0: at the point's sites.
   float too_much, most_excess;
-  double face;  ///< Points with this cosine or less between their normals are not added.
+  bool by_faces;  ///< Sums are each face's own.
 };
 /// Of areas: as large as the surface is, they are what counts where it is blurred.
-constexpr Search of_areas{4, 0.5f, 0.3f, 1, 0};
+constexpr Search of_areas{4, 0.5f, 0.3f, 1, false};
 /// Where it is sharp what is behind shines through wherever sums are less than 1; what is more does
 /// not count (SplatMerge). Of points on a jittered grid the least sum is 0.99; with all areas
 /// alike, and 1.03, it is 0.91. At a ridge what is seen of the one face flat is seen of the other
 /// from its edge, so each covers itself all over: with ridges as all else the least sum of regular
 /// solids and prisms is 0.81. Sums are more there than twice their aim, and 0.96 in the next row if
 /// that counts. (perf/notes/point_clouds.md.)
-constexpr Search of_cover{4, 0, 0.1f, 0.02f, 0.9};
+constexpr Search of_cover{4, 0, 0.1f, 0.02f, true};
+/// Where normals turn faster there is a ridge: 1 - their cosine at a distance of one spacing (14
+/// degrees), and times its square farther away. Balls of 300 points turn by 12.
+constexpr double ridge_turn = 0.03;
 /// A point without another so near, in spacings, is a disc by itself.
 constexpr double alone_from = 4;
 /// Basis functions end, lowered, where splat_project lets them by default. If they did not, beside
@@ -107,13 +110,22 @@ class Weighing {
     });
   }
 
+  /// Of normals that turn no faster than on one face.
+  double ridge_cosine(std::size_t of, std::size_t at) const {
+    const Vec3 d = cloud_.place(at) - cloud_.place(of);
+    const double spacing = std::min(cloud_.points[at].spacing, cloud_.points[of].spacing);
+    return 1 - ridge_turn * std::max(1.0, dot(d, d) / square(spacing));
+  }
+
   /// What a point's basis function of area 1, in squares of its spacing, covers at the sites of
   /// another, or itself, seen along the normal there: where that line meets the plane on which the
   /// basis function lies.
   Sites basis(std::size_t of, std::size_t at) const {
     const Tangent &point = tangents_[of], &there = tangents_[at];
     const float same = dot(point.normal, there.normal);
-    if (cloud_.are_apart(of, at, static_cast<double>(same), search_.face)) return {};
+    if (cloud_.are_apart(of, at, static_cast<double>(same),
+                         search_.by_faces ? ridge_cosine(of, at) : 0))
+      return {};
     const float inverse = 1 / std::max(there.spacing, 1e-30f);
     Axis d;
     for (std::size_t k = 0; k < 3; ++k) {
