@@ -39,8 +39,8 @@ struct CloudPoints {
 
   Vec3 place(std::size_t i) const { return {places[i][0], places[i][1], places[i][2]}; }
 
-  /// Whether two with this cosine between their normals lie on faces that are apart from `least`
-  /// on; of what has two sides they never do.
+  /// Whether normals with this cosine between them, of at most `least`, set two points apart. Those
+  /// of what has two sides do not.
   bool are_apart(std::size_t i, std::size_t j, double cosine, double least) const {
     return !(cosine > least) && !points[i].is_two_sided && !points[j].is_two_sided;
   }
