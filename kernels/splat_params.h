@@ -13,6 +13,14 @@
 /// A pixel that lets less through is opaque.
 #define DEFRAY_SPLAT_OPAQUE 0.000244140625f
 
+/// Ridges at which a surface ends beside a point, at most: at a face's corner two.
+#define DEFRAY_SPLAT_RIDGES 2
+
+/// From a point along its surface to the nearest place of a straight ridge; nothing: none.
+typedef struct {
+  float x, y, z;
+} DefraySplatRidge;
+
 /// A point of a cloud, or a node of its hierarchy that stands for many: what `splat_project` reads.
 /// Places are in scene units from the cloud's origin. Krivanek & Zara 2003, section 5.3.
 typedef struct {
@@ -24,7 +32,14 @@ typedef struct {
   float cover;       ///< Where it is sharp it covers so many times its area, so that no holes show.
   float both_sides;  ///< Share of its area that is seen from both sides; above 1/2 all of it is.
   float r, g, b, a;  ///< Premultiplied.
+  DEFRAY_UINT ridges;  ///< Which set of DEFRAY_SPLAT_RIDGES, of points beside some; else 0.
 } DefraySplatNode;
+
+/// How much of a splat is on its side of a ridge: at + x dx + y dy, px from its centre, within
+/// [least, 1].
+typedef struct {
+  float at, x, y, least;
+} DefraySplatLine;
 
 /// A node's resampling kernel in the picture.
 typedef struct {
@@ -39,6 +54,7 @@ typedef struct {
   float z_near, z_far;                        ///< Of the basis function.
   DEFRAY_INT first_x, end_x, first_y, end_y;  ///< Pixels within the cut-off; none: culled.
   float r, g, b, a;
+  DEFRAY_UINT lines;  ///< Which set of DEFRAY_SPLAT_RIDGES; 0: none.
 } DefraySplat;
 
 /// Camera and lens of `splat_project`, and how splats become pixels in `splat_resolve`.
@@ -85,8 +101,8 @@ typedef struct {
 } DefraySplatTileParams;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DefraySplatNode) == 76);
-static_assert(sizeof(DefraySplat) == 88);
+static_assert(sizeof(DefraySplatNode) == 80);
+static_assert(sizeof(DefraySplat) == 92);
 static_assert(sizeof(DefraySplatParams) == 140);
 static_assert(sizeof(DefraySplatTileParams) == 36);
 #endif

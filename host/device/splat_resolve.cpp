@@ -25,8 +25,7 @@ std::array<Values<float>, 6> zeroed_planes(std::size_t pixels) {
 
 }  // namespace
 
-SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
-                                         const DefraySplatParams& params,
+SplatPlanes DeviceBackend::splat_resolve(const Splats& splats, const DefraySplatParams& params,
                                          const Progress& progress) {
   const std::uint32_t tiles_x = (params.width + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
   const std::uint32_t tiles_y = (params.height + DEFRAY_SPLAT_TILE - 1) / DEFRAY_SPLAT_TILE;
@@ -41,16 +40,19 @@ SplatPlanes DeviceBackend::splat_resolve(const Values<DefraySplat>& splats,
   std::array<cl::Buffer, 4> colour;
   for (std::size_t c = 0; c < 4; ++c) colour[c] = out(planes[c]);
   const cl::Buffer depth = out(planes[4]), count = out(planes[5]);
-  const cl::Buffer in = session_.in(splats);
-  const auto counts = splats_a_tile(splats, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
+  const Values<DefraySplatLine> sets =
+      splats.lines.empty() ? Values<DefraySplatLine>(DEFRAY_SPLAT_RIDGES) : splats.lines;
+  const cl::Buffer in = session_.in(splats.all), lines = session_.in(sets);
+  const auto counts =
+      splats_a_tile(splats.all, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
   const std::size_t most = std::min(list_bytes, session_.memory_bytes()) / sizeof(std::uint32_t);
   for (std::uint32_t tile = 0; tile < counts.size();) {
-    SplatTiles tiles = next_tiles(splats, counts, static_cast<int>(tiles_x), tile, most);
+    SplatTiles tiles = next_tiles(splats.all, counts, static_cast<int>(tiles_x), tile, most);
     if (tiles.list.empty()) tiles.list.push_back(0);
     const DefraySplatTileParams p{params.width, params.height,    tiles_x,
                                   tile,         tiles.tile_count, params.cutoff,
                                   params.edge,  params.averages,  params.layers};
-    session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_SQUARES}, p, in,
+    session_.launch("splat_resolve", {tiles.tile_count, DEFRAY_SPLAT_SQUARES}, p, in, lines,
                     session_.view(tiles.first), session_.view(tiles.list), colour, depth, count);
     session_.finish();  // before the lists go
     tile += tiles.tile_count;

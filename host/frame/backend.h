@@ -21,6 +21,7 @@ struct PatternShift;
 struct RayPlan;
 struct RayResult;
 struct SplatPlanes;
+struct Splats;
 
 class Backend {
  public:

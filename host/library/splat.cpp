@@ -43,7 +43,7 @@ SplatModel::SplatModel(const PointCloud& cloud, const Progress& progress)
   state_->has_normals = surfels.has_normals;
   state_->has_colours = surfels.has_colours;
   state_->notes = std::move(surfels.notes);
-  state_->tree = build_hierarchy(std::move(surfels.points));
+  state_->tree = build_hierarchy(std::move(surfels.points), std::move(surfels.ridges));
   state_->radius = radius_of(state_->tree);
 }
 

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "reference/twin_backend.h"
+#include "splat/splats.h"
 
 namespace defray::reference {
 namespace {
@@ -142,9 +144,36 @@ float half_depth_of(const DefraySplatParams& p, const DefraySplatNode& n, const 
   return std::fmax(std::sqrt(2 * p.cutoff * along), std::sqrt(n.variance));
 }
 
+/// What a node names, and what becomes of it; or nothing.
+struct Ridges {
+  std::span<const DefraySplatRidge> from;
+  DefraySplatLine* to;
+};
+
+/// The kernel's end at a ridge. `around`: the variance of blur and prefilter in `w`.
+DefraySplatLine end_at_ridge(const DefraySplatRidge& ridge, const Seen& seen, const Variance& own,
+                             float around, const Variance& w, float determinant, float sharp) {
+  const Row foot{ridge.x, ridge.y, ridge.z}, &n = seen.normal;
+  const Row along{foot[1] * n[2] - foot[2] * n[1], foot[2] * n[0] - foot[0] * n[2],
+                  foot[0] * n[1] - foot[1] * n[0]};
+  const float run_x = dot(seen.to_x, along), run_y = dot(seen.to_y, along);
+  const float run = std::sqrt(run_x * run_x + run_y * run_y);
+  if (!(run > 0)) return {1, 0, 0, 1 - sharp};
+  const float far = (run_x * dot(seen.to_y, foot) - run_y * dot(seen.to_x, foot)) / run;
+  const float side = far < 0 ? -run : run;
+  const float x = -run_y / side, y = run_x / side;
+  const float own_x = own.xx * x + own.xy * y, own_y = own.xy * x + own.yy * y;
+  const float slope_x = (w.yy * own_x - w.xy * own_y) / determinant;
+  const float slope_y = (w.xx * own_y - w.xy * own_x) / determinant;
+  const float spread = around * (x * slope_x + y * slope_y);
+  const float steep = sharp * (0.288675135f / std::sqrt(std::fmax(spread, 0.01f)));
+  return {1 - 0.48f * sharp + std::fabs(far) * steep, -slope_x * steep, -slope_y * steep,
+          1 - sharp};
+}
+
 /// Returns the share of `blur`.
 float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen& seen, float blur,
-                bool is_disc, DefraySplat& s) {
+                bool is_disc, const Ridges& ridges, DefraySplat& s) {
   const Covariance low = low_pass_of(n);
   const Row &to_x = seen.to_x, &to_y = seen.to_y;
   const Around added = circumellipse(
@@ -158,7 +187,11 @@ float blur_node(const DefraySplatParams& p, const DefraySplatNode& n, const Seen
                    own.yy + kept + added.all.yy};
   const float determinant = determinant_of(own, basis * seen.spread, kept, added);
   const float share = set_shape(p, w, determinant, seen.size, blur, is_disc, s);
-  s.amplitude *= 1 + (n.cover - 1) * (1 - share * share);
+  const float sharp = 1 - share * share;
+  s.amplitude *= 1 + (n.cover - 1) * sharp;
+  for (std::size_t i = 0; i < ridges.from.size(); ++i) {
+    ridges.to[i] = end_at_ridge(ridges.from[i], seen, own, kept + blur, w, determinant, sharp);
+  }
   return share;
 }
 
@@ -177,7 +210,7 @@ bool face_lens(const DefraySplatParams& p, const Seen& seen, bool has_back, floa
   return has_back || most - seen.towards > 0;
 }
 
-DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
+DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n, const Ridges& ridges) {
   const Row right{p.right_x, p.right_y, p.right_z}, down{p.down_x, p.down_y, p.down_z};
   const Row forward{p.forward_x, p.forward_y, p.forward_z};
   const Row from_eye{n.x - p.eye_x, n.y - p.eye_y, n.z - p.eye_z};
@@ -216,23 +249,34 @@ DefraySplat project(const DefraySplatParams& p, const DefraySplatNode& n) {
   const float own = 1 + scale * scale * n.variance;
   const bool is_disc = p.has_discs && coc * coc > DEFRAY_SPLAT_DISC * own;
   const float blur = (is_disc ? 0.25f : 0.36067376f) * (coc * coc);
-  const float share = blur_node(p, n, seen, blur, is_disc, s);
+  const float share = blur_node(p, n, seen, blur, is_disc, ridges, s);
   const bool has_back = n.both_sides > 0.5f || !p.one_sided;
   if (!face_lens(p, seen, has_back, coc, sharp_coc, share, s)) return depths;
   const float covered = std::fabs(s.amplitude) + std::fabs(s.lean_x) + std::fabs(s.lean_y);
   if (!(covered > 0)) return without_shape;
-  if (!(s.first_x < s.end_x && s.first_y < s.end_y)) s.first_x = s.end_x = s.first_y = s.end_y = 0;
+  if (s.first_x < s.end_x && s.first_y < s.end_y) {
+    s.lines = n.ridges;
+  } else {
+    s.first_x = s.end_x = s.first_y = s.end_y = 0;
+  }
   return s;
 }
 
 }  // namespace
 
-Values<DefraySplat> TwinBackend::splat_project(const Values<DefraySplatNode>& nodes,
-                                               const DefraySplatParams& params) {
+Splats TwinBackend::splat_project(const Values<DefraySplatNode>& nodes,
+                                  const Values<DefraySplatRidge>& ridges,
+                                  const DefraySplatParams& params) {
   std::vector<DefraySplat> splats;
   splats.reserve(nodes.size());
-  for (const DefraySplatNode& node : nodes) splats.push_back(project(params, node));
-  return splats;
+  std::vector<DefraySplatLine> lines(ridges.size());
+  for (const DefraySplatNode& node : nodes) {
+    const std::size_t first = std::size_t{node.ridges} * DEFRAY_SPLAT_RIDGES;
+    const std::size_t count = node.ridges == 0 ? 0 : DEFRAY_SPLAT_RIDGES;
+    splats.push_back(
+        project(params, node, {ridges.host().subspan(first, count), lines.data() + first}));
+  }
+  return {std::move(splats), std::move(lines)};
 }
 
 }  // namespace defray::reference

@@ -54,11 +54,22 @@ struct Pixel {
   }
 };
 
-float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) {
+float before_ridges(const DefraySplatLine* lines, float dx, float dy) {
+  float left = 1;
+  for (int i = 0; i < DEFRAY_SPLAT_RIDGES; ++i) {
+    const float here = lines[i].at + lines[i].x * dx + lines[i].y * dy;
+    left = std::fmin(left, std::fmax(here, lines[i].least));
+  }
+  return left;
+}
+
+float weight_at(const DefraySplat& s, const DefraySplatLine* lines, int x, int y,
+                const DefraySplatParams& p) {
   const float dx = static_cast<float>(x) + 0.5f - s.x, dy = static_cast<float>(y) + 0.5f - s.y;
   const float form = (s.conic_xx * dx + 2 * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
   const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
-  const float facing = std::fmax(s.back * leant, leant);
+  float facing = std::fmax(s.back * leant, leant);
+  if (s.lines != 0) facing *= before_ridges(lines + s.lines * DEFRAY_SPLAT_RIDGES, dx, dy);
   if (s.disc_top > 0) {
     const float left = std::fmin(std::fmax(s.disc_top - form, 0.0f), 1.0f);
     return facing * (left * left * (1 + s.disc_bulge * (1 - left)));
@@ -69,14 +80,16 @@ float weight_at(const DefraySplat& s, int x, int y, const DefraySplatParams& p) 
 
 }  // namespace
 
-SplatPlanes TwinBackend::splat_resolve(const Values<DefraySplat>& splats,
-                                       const DefraySplatParams& p, const Progress& progress) {
+SplatPlanes TwinBackend::splat_resolve(const Splats& given, const DefraySplatParams& p,
+                                       const Progress& progress) {
+  const Values<DefraySplat>& splats = given.all;
+  const DefraySplatLine* lines = given.lines.begin();
   std::vector<Pixel> pixels(std::size_t{p.width} * p.height);
   for (std::size_t i = 0; i < splats.size(); ++i) {
     const DefraySplat& s = splats[i];
     for (int y = s.first_y; y < s.end_y; ++y) {
       for (int x = s.first_x; x < s.end_x; ++x) {
-        pixels[size(y) * p.width + size(x)].add(s, weight_at(s, x, y, p), p);
+        pixels[size(y) * p.width + size(x)].add(s, weight_at(s, lines, x, y, p), p);
       }
     }
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(splats.size()));

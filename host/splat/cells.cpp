@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "splat/ridges.h"
 
 namespace defray {
 namespace {
@@ -50,34 +51,56 @@ struct Cell {
   bool ends;                             ///< In some direction there is none.
 };
 
+/// How far a cell is in all directions, as one thing after the other ends it.
+struct Borders {
+  std::array<double, direction_count> at;
+  std::array<bool, direction_count> are_known{};
+
+  Borders() { at.fill(widest_cell); }
+
+  /// By a line across (x, y), which is unit.
+  void end(double x, double y, double distance) {
+    static const auto directions = directions_around<direction_count>();
+    for (std::size_t k = 0; k < direction_count; ++k) {
+      const double along = x * directions[k].x + y * directions[k].y;
+      if (along > 0) at[k] = std::min(at[k], distance / along);
+      are_known[k] = are_known[k] || along > alone_within;
+    }
+  }
+
+  Cell cell() const {
+    Cell cell{};
+    for (std::size_t k = 0; k < site_count; ++k) {
+      cell.border[k] = static_cast<float>(at[finer * k]);
+    }
+    for (std::size_t k = 0; k < direction_count; ++k) {
+      if (are_known[k]) cell.farthest = std::max(cell.farthest, static_cast<float>(at[k]));
+      cell.ends = cell.ends || !are_known[k];
+    }
+    return cell;
+  }
+};
+
+/// Half way to each neighbour, but those beyond a ridge, and at ridges.
 Cell cell_of(const CloudPoints& cloud, std::size_t point) {
-  static const auto directions = directions_around<direction_count>();
   const CloudPoint& own = cloud.points[point];
   const TangentAxes axes = axes_across(own.normal);
-  std::array<double, direction_count> border;
-  border.fill(widest_cell);
-  std::array<bool, direction_count> has_neighbour{};
+  Borders borders;
+  const auto end = [&](const Vec3& to, double share) {
+    const double x = dot(to, axes.u) / own.spacing, y = dot(to, axes.v) / own.spacing;
+    const double distance = std::hypot(x, y);
+    if (distance > 0) borders.end(x / distance, y / distance, share * distance);
+  };
+  const bool has_ridge = length(own.ridges[0]) > 0;
   for (const std::uint32_t other : cloud.around.of(point)) {
     const double same = dot(own.normal, cloud.points[other].normal);
     if (cloud.are_apart(point, other, same, opposite)) continue;
-    const Vec3 d = (cloud.place(other) - cloud.place(point)) / own.spacing;
-    const double x = dot(d, axes.u), y = dot(d, axes.v), square = x * x + y * y;
-    const double within = alone_within * std::sqrt(square);
-    for (std::size_t k = 0; k < direction_count; ++k) {
-      const double along = x * directions[k].x + y * directions[k].y;
-      if (along > 0) border[k] = std::min(border[k], 0.5 * square / along);
-      has_neighbour[k] = has_neighbour[k] || along > within;
-    }
+    const bool is_beyond = cloud.is_beyond_ridge(point, other) ||
+                           (has_ridge && cloud.are_apart(point, other, same, ridge_cosine));
+    end(cloud.place(other) - cloud.place(point), is_beyond ? INFINITY : 0.5);
   }
-  Cell cell{};
-  for (std::size_t k = 0; k < site_count; ++k) {
-    cell.border[k] = static_cast<float>(border[finer * k]);
-  }
-  for (std::size_t k = 0; k < direction_count; ++k) {
-    if (has_neighbour[k]) cell.farthest = std::max(cell.farthest, static_cast<float>(border[k]));
-    cell.ends = cell.ends || !has_neighbour[k];
-  }
-  return cell;
+  for (const Vec3& ridge : own.ridges) end(ridge, 1);
+  return borders.cell();
 }
 
 /// Whether a surface ends at a point or so near that its basis function reaches over the edge.

@@ -15,14 +15,14 @@ namespace defray {
 namespace {
 
 /// Changes with whatever changes the bytes of what follows, or how they are made.
-constexpr char mark[16] = "defray surfels9";
+constexpr char mark[16] = "defray surfelsA";
 
 /// The file that the cache was made of, and what the cache holds.
 struct Head {
   char mark[16];
   std::uint64_t cloud_bytes;
   std::int64_t cloud_time;
-  std::uint64_t points, nodes, notes_bytes;
+  std::uint64_t points, nodes, ridges, notes_bytes;
   double origin[3];
   std::uint32_t has_normals, has_colours;
   std::uint64_t hash;  ///< Of all that follows, and of this with a hash of 0.
@@ -43,10 +43,11 @@ std::uint64_t hash_of(const void* bytes, std::size_t count) {
 
 std::uint64_t hash_of(Head head, const Hierarchy& tree, const std::string& notes) {
   head.hash = 0;
-  const std::array<std::uint64_t, 4> parts{
+  const std::array<std::uint64_t, 5> parts{
       hash_of(&head, sizeof(head)),
       hash_of(tree.points.data(), tree.points.size() * sizeof(DefraySplatNode)),
       hash_of(tree.nodes.data(), tree.nodes.size() * sizeof(HierarchyNode)),
+      hash_of(tree.ridges.data(), tree.ridges.size() * sizeof(DefraySplatRidge)),
       hash_of(notes.data(), notes.size())};
   return hash_of(parts.data(), sizeof(parts));
 }
@@ -70,6 +71,9 @@ bool is_sound(const Hierarchy& tree) {
     const HierarchyNode& n = tree.nodes[i];
     if (n.next <= i || n.next > tree.nodes.size()) return false;
     if (n.first_point > n.end_point || n.end_point > tree.points.size()) return false;
+  }
+  for (const DefraySplatNode& p : tree.points) {
+    if (p.ridges >= tree.ridges.size() / DEFRAY_SPLAT_RIDGES) return false;
   }
   return !tree.nodes.empty() && tree.nodes.front().next == tree.nodes.size();
 }
@@ -108,11 +112,15 @@ std::optional<CachedCloud> read_cache(const std::string& cloud, std::string& why
   std::vector<char> letters;
   std::error_code ignored;
   const std::uint64_t bytes = std::filesystem::file_size(path, ignored);
-  const bool fits = head.points < bytes && head.nodes < bytes && head.notes_bytes < bytes &&
+  const bool fits = head.points < bytes && head.nodes < bytes && head.ridges < bytes &&
+                    head.notes_bytes < bytes &&
                     bytes == sizeof(head) + head.points * sizeof(DefraySplatNode) +
-                                 head.nodes * sizeof(HierarchyNode) + head.notes_bytes;
+                                 head.nodes * sizeof(HierarchyNode) +
+                                 head.ridges * sizeof(DefraySplatRidge) + head.notes_bytes;
   if (!fits || !read_all(file, made.tree.points, head.points) ||
-      !read_all(file, made.tree.nodes, head.nodes) || !read_all(file, letters, head.notes_bytes) ||
+      !read_all(file, made.tree.nodes, head.nodes) ||
+      !read_all(file, made.tree.ridges, head.ridges) ||
+      !read_all(file, letters, head.notes_bytes) ||
       hash_of(head, made.tree, {letters.begin(), letters.end()}) != head.hash ||
       !is_sound(made.tree)) {
     why = path + ": is damaged: made anew";
@@ -128,6 +136,7 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
   for (const std::string& note : cached.notes) notes += note + "\n";
   head.points = cached.tree.points.size();
   head.nodes = cached.tree.nodes.size();
+  head.ridges = cached.tree.ridges.size();
   head.notes_bytes = notes.size();
   std::copy(cached.origin.begin(), cached.origin.end(), head.origin);
   head.has_normals = cached.has_normals;
@@ -138,6 +147,7 @@ void write_cache(const std::string& cloud, const CachedCloud& cached) {
     file.write(reinterpret_cast<const char*>(&head), sizeof(head));
     write_all(file, cached.tree.points);
     write_all(file, cached.tree.nodes);
+    write_all(file, cached.tree.ridges);
     file << notes;
     file.close();
     if (!file) fail(ErrorKind::output, "{}: cannot be written: {}", name, std::strerror(errno));

@@ -1,10 +1,12 @@
 #pragma once
 // Points of a cloud on their way to surfels.
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "base/vec3.h"
 #include "defray/report.h"
+#include "kernels/splat_params.h"
 #include "splat/neighbours.h"
 
 namespace defray {
@@ -28,6 +30,8 @@ struct CloudPoint {
   double covered = 1;         ///< Share of the basis function's reach where there is a surface.
   /// How far from it sums of basis functions are looked at, in spacings; in cells.h's directions.
   std::array<float, site_count> sites{};
+  /// From it along its surface to the nearest places of the ridges at which that ends; or nothing.
+  std::array<Vec3, DEFRAY_SPLAT_RIDGES> ridges{};
 };
 
 /// All points, with those around them.
@@ -43,6 +47,15 @@ struct CloudPoints {
   /// of what has two sides do not.
   bool are_apart(std::size_t i, std::size_t j, double cosine, double least) const {
     return !(cosine > least) && !points[i].is_two_sided && !points[j].is_two_sided;
+  }
+
+  /// Whether a point's face ends before another.
+  bool is_beyond_ridge(std::size_t of, std::size_t at) const {
+    const Vec3 d = place(at) - place(of);
+    return std::any_of(points[of].ridges.begin(), points[of].ridges.end(), [&](const Vec3& to) {
+      const double square = dot(to, to);
+      return square > 0 && dot(d, to) > square;
+    });
   }
 };
 

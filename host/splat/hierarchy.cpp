@@ -82,7 +82,8 @@ struct Moments {
             static_cast<float>(r / area),
             static_cast<float>(g / area),
             static_cast<float>(b / area),
-            static_cast<float>(a / area)};
+            static_cast<float>(a / area),
+            0};
   }
 };
 
@@ -214,9 +215,11 @@ class Builder {
 
 }  // namespace
 
-Hierarchy build_hierarchy(std::vector<DefraySplatNode> points) {
+Hierarchy build_hierarchy(std::vector<DefraySplatNode> points,
+                          std::vector<DefraySplatRidge> ridges) {
   Hierarchy tree;
   tree.points = std::move(points);
+  tree.ridges = std::move(ridges);
   const auto count = static_cast<std::uint32_t>(tree.points.size());
   tree.nodes.resize(nodes_above(count));
   Builder(tree).build(0, 0, count, 0);

@@ -23,12 +23,14 @@ struct HierarchyNode {
 struct Hierarchy {
   std::vector<DefraySplatNode> points;  ///< In the order of the leaves.
   std::vector<HierarchyNode> nodes;
+  std::vector<DefraySplatRidge> ridges;  ///< In sets of DEFRAY_SPLAT_RIDGES, as points name them.
 
   bool is_leaf(std::uint32_t node) const { return nodes[node].next == node + 1; }
 };
 
 /// Halves the points along the longest side of the box around them, until few are left. Areas of
 /// surfaces with one side are added up as they are, others by the side that they show.
-Hierarchy build_hierarchy(std::vector<DefraySplatNode> points);
+Hierarchy build_hierarchy(std::vector<DefraySplatNode> points,
+                          std::vector<DefraySplatRidge> ridges = {});
 
 }  // namespace defray

@@ -106,11 +106,12 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   report.drawn = nodes.size();
   if (params.one_sided) describe_sides(nodes, params, report);
   done("cut");
-  Values<DefraySplat> splats = backend.splat_project(nodes, params);
-  splats.host();  // once the kernel has made them
+  const auto ridges = Values<DefraySplatRidge>::view(tree.ridges.data(), tree.ridges.size());
+  Splats splats = backend.splat_project(nodes, ridges, params);
+  splats.all.host();  // once the kernel has made them
   done("project");
   splats = in_order(splats);
-  describe(splats, params, report);
+  describe(splats.all, params, report);
   done("order");
   SplatPlanes planes = backend.splat_resolve(splats, params, progress);
   count_fragments(planes.fragments, report);

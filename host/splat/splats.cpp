@@ -69,8 +69,8 @@ void sort(std::vector<DepthKey>& keys) {
 
 }  // namespace
 
-Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
-  const std::span<const DefraySplat> all = splats.host();
+Splats in_order(const Splats& splats) {
+  const std::span<const DefraySplat> all = splats.all.host();
   std::vector<DepthKey> keys(all.size());
   parallel_for_each(all.size(), [&](std::size_t i) {
     keys[i] = {has_pixels(all[i]) ? std::bit_cast<std::uint32_t>(all[i].z_near) : without_pixels,
@@ -81,7 +81,7 @@ Values<DefraySplat> in_order(const Values<DefraySplat>& splats) {
   auto sorted = Values<DefraySplat>::room(keys.size());
   const std::span<DefraySplat> to = sorted.edit();
   parallel_for_each(keys.size(), [&](std::size_t i) { to[i] = all[keys[i].index]; });
-  return sorted;
+  return {std::move(sorted), splats.lines};
 }
 
 std::vector<std::uint32_t> splats_a_tile(const Values<DefraySplat>& splats, int tiles_x,

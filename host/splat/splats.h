@@ -9,6 +9,12 @@
 
 namespace defray {
 
+/// What `splat_project` gives.
+struct Splats {
+  Values<DefraySplat> all;
+  Values<DefraySplatLine> lines;  ///< Sets of DEFRAY_SPLAT_RIDGES at which some end.
+};
+
 /// What `splat_resolve` gives, planes of the picture.
 struct SplatPlanes {
   std::vector<Plane> colour;  ///< R G B A.
@@ -17,7 +23,7 @@ struct SplatPlanes {
 
 /// Those that have pixels, in the order in which `splat_resolve` takes them: by z_near, equal ones
 /// as they were.
-Values<DefraySplat> in_order(const Values<DefraySplat>& splats);
+Splats in_order(const Splats& splats);
 
 /// Tiles one after the other, row by row: how many splats meet each.
 std::vector<std::uint32_t> splats_a_tile(const Values<DefraySplat>& splats, int tiles_x,

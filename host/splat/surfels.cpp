@@ -8,6 +8,7 @@
 #include "splat/cloud_points.h"
 #include "splat/estimates.h"
 #include "splat/placed_points.h"
+#include "splat/ridges.h"
 
 namespace defray {
 namespace {
@@ -47,6 +48,17 @@ DefraySplatNode surfel_of(const PointCloud& cloud, std::uint32_t index, const Cl
   n.g = n.a * (cloud.colours.empty() ? grey : cloud.colours[index][1]);
   n.b = n.a * (cloud.colours.empty() ? grey : cloud.colours[index][2]);
   return n;
+}
+
+/// The set of a point's ridges.
+std::uint32_t add_ridges(const CloudPoint& point, std::vector<DefraySplatRidge>& ridges) {
+  if (!(length(point.ridges[0]) > 0)) return 0;
+  const auto set = static_cast<std::uint32_t>(ridges.size() / DEFRAY_SPLAT_RIDGES);
+  for (const Vec3& to : point.ridges) {
+    ridges.push_back(
+        {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)});
+  }
+  return set;
 }
 
 void check_colours(const PointCloud& cloud) {
@@ -92,10 +104,12 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   CloudPoints known{std::move(places), std::vector<CloudPoint>(kept.size()), std::move(around)};
   const std::vector<std::uint8_t> has_radius = set_spacings(cloud, kept, known, out.notes);
   out.has_normals = set_normals(cloud, kept, known, out.notes);
+  if (out.has_normals) find_ridges(known);
   find_cells(known, has_radius);
   const std::vector<PointWeight> weights = weigh(known, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     out.points.push_back(surfel_of(cloud, kept[i], known.points[i], weights[i]));
+    out.points.back().ridges = add_ridges(known.points[i], out.ridges);
   }
   return out;
 }

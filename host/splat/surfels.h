@@ -11,6 +11,8 @@ namespace defray {
 
 struct Surfels {
   std::vector<DefraySplatNode> points;
+  /// In sets of DEFRAY_SPLAT_RIDGES, as points name them; the first is of those without.
+  std::vector<DefraySplatRidge> ridges = std::vector<DefraySplatRidge>(DEFRAY_SPLAT_RIDGES);
   bool has_normals = false;  ///< Given; else what is closed has an outside.
   bool has_colours = false;
   std::vector<std::string> notes;

@@ -111,7 +111,7 @@ class Weighing {
   }
 
   /// Up to this cosine between their normals two points lie on either side of a ridge.
-  double ridge_cosine(std::size_t of, std::size_t at) const {
+  double face_cosine(std::size_t of, std::size_t at) const {
     const Vec3 d = cloud_.place(at) - cloud_.place(of);
     const double spacing = std::min(cloud_.points[at].spacing, cloud_.points[of].spacing);
     return 1 - ridge_turn * std::max(1.0, dot(d, d) / square(spacing));
@@ -123,8 +123,9 @@ class Weighing {
   Sites basis(std::size_t of, std::size_t at) const {
     const Tangent &point = tangents_[of], &there = tangents_[at];
     const float same = dot(point.normal, there.normal);
-    const double least = search_.by_faces ? ridge_cosine(of, at) : 0;
+    const double least = search_.by_faces ? face_cosine(of, at) : 0;
     if (cloud_.are_apart(of, at, static_cast<double>(same), least)) return {};
+    if (search_.by_faces && cloud_.is_beyond_ridge(of, at)) return {};
     const float inverse = 1 / std::max(there.spacing, 1e-30f);
     Axis d;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -17,21 +17,37 @@ Outcome run_project(Backend& backend, const Case& c, const Input&) {
       &DefraySplat::lean_y,   &DefraySplat::back,       &DefraySplat::z,
       &DefraySplat::z_near,   &DefraySplat::z_far,      &DefraySplat::r,
       &DefraySplat::g,        &DefraySplat::b,          &DefraySplat::a};
-  static_assert(sizeof(DefraySplat) == (std::size(fields) + 4) * sizeof(float), "all of them");
+  static_assert(sizeof(DefraySplat) == (std::size(fields) + 5) * sizeof(float), "all of them");
+  constexpr float DefraySplatLine::*of_lines[] = {&DefraySplatLine::at, &DefraySplatLine::x,
+                                                  &DefraySplatLine::y, &DefraySplatLine::least};
+  static_assert(sizeof(DefraySplatLine) == std::size(of_lines) * sizeof(float), "all of them");
   Outcome v;
-  v.planes.resize(std::size(fields));
-  for (const DefraySplat& s : backend.splat_project(splat_nodes(c), splat_params(c))) {
+  v.planes.resize(std::size(fields) + std::size(of_lines));
+  const SplatInput input = splat_input(c);
+  const Splats splats = backend.splat_project(input.nodes, input.ridges, splat_params(c));
+  for (const DefraySplat& s : splats.all) {
     for (std::size_t i = 0; i < std::size(fields); ++i) v.planes[i].push_back(s.*fields[i]);
-    v.integers.insert(v.integers.end(), {s.first_x, s.end_x, s.first_y, s.end_y});
+    const auto set = static_cast<std::int32_t>(s.lines);
+    v.integers.insert(v.integers.end(), {s.first_x, s.end_x, s.first_y, s.end_y, set});
+    const std::size_t end = (std::size_t{s.lines} + 1) * DEFRAY_SPLAT_RIDGES;
+    if (s.lines == 0 || end > splats.lines.size()) continue;
+    for (std::size_t k = 0; k < DEFRAY_SPLAT_RIDGES; ++k) {
+      const DefraySplatLine& line = splats.lines[s.lines * DEFRAY_SPLAT_RIDGES + k];
+      for (std::size_t i = 0; i < std::size(of_lines); ++i) {
+        v.planes[std::size(fields) + i].push_back(line.*of_lines[i]);
+      }
+    }
   }
   return v;
 }
 
 Outcome run_resolve(Backend& backend, const Case& c, const Input&) {
   const DefraySplatParams params = splat_params(c);
-  auto splats = in_order(reference::TwinBackend().splat_project(splat_nodes(c), params));
+  const SplatInput input = splat_input(c);
+  Splats splats =
+      in_order(reference::TwinBackend().splat_project(input.nodes, input.ridges, params));
   // A splat's pixels are those that it names, whatever its shape.
-  for (DefraySplat& s : splats.edit()) {
+  for (DefraySplat& s : splats.all.edit()) {
     if (c.seed % 2 == 0) continue;
     s.end_x -= s.end_x - s.first_x > 2;
     s.first_y += s.end_y - s.first_y > 2;

@@ -30,6 +30,20 @@ void set_low_pass(DefraySplatNode& n, double scale, Random& random) {
   for (int k = 0; k < 6; ++k) *values[k] = static_cast<float>(sums[k]);
 }
 
+/// One or two, on the tangent plane.
+void add_ridges(DefraySplatNode& n, Random& random, std::vector<DefraySplatRidge>& ridges) {
+  n.ridges = static_cast<std::uint32_t>(ridges.size() / DEFRAY_SPLAT_RIDGES);
+  const double reach = 2 * std::sqrt(static_cast<double>(n.variance));
+  const Vec3 normal = normalized({n.area_x, n.area_y, n.area_z});
+  const int count = random.next() < 0.5 ? 1 : DEFRAY_SPLAT_RIDGES;
+  for (int i = 0; i < DEFRAY_SPLAT_RIDGES; ++i) {
+    const Vec3 any{either_side(random), either_side(random), either_side(random)};
+    const Vec3 to = (any - normal * dot(any, normal)) * (i < count ? reach : 0);
+    ridges.push_back(
+        {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)});
+  }
+}
+
 float colour_of(const Case& c, Random& random) {
   const double plain = random.next();
   switch (c.colours) {
@@ -77,12 +91,16 @@ DefraySplatNode node_of(const Case& c, std::uint32_t index) {
 
 }  // namespace
 
-std::vector<DefraySplatNode> splat_nodes(const Case& c) {
+SplatInput splat_input(const Case& c) {
   const std::size_t pixels = static_cast<std::size_t>(c.width) * static_cast<std::size_t>(c.height);
   const std::size_t count = std::clamp<std::size_t>(pixels / 4, 3, most_nodes);
-  std::vector<DefraySplatNode> nodes;
-  for (std::uint32_t i = 0; i < count; ++i) nodes.push_back(node_of(c, i));
-  return nodes;
+  SplatInput input{{}, std::vector<DefraySplatRidge>(DEFRAY_SPLAT_RIDGES)};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    DefraySplatNode& n = input.nodes.emplace_back(node_of(c, i));
+    Random random(static_cast<int>(i), 5, c.seed);
+    if (n.low_xx == 0 && random.next() < 0.7) add_ridges(n, random, input.ridges);
+  }
+  return input;
 }
 
 DefraySplatParams splat_params(const Case& c) {

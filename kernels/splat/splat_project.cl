@@ -24,30 +24,20 @@
 // picture.
 //
 // nodes   [count]
+// ridges  sets of DEFRAY_SPLAT_RIDGES that nodes name
 // splats  [count]
+// lines   sets as of ridges, which splats that have pixels name
 // A work-item: LANES nodes (base/lanes.clh), a lane each.
 // Global size: count / LANES, rounded up, or more.
-#include "splat/node_lanes.clh"
+#include "splat/ridge_lines.clh"
 
 #define FRAME_VECTOR(p, name) \
   { (p).name##_x, (p).name##_y, (p).name##_z }
-
-// As the lens's centre sees a node: its normal and how far the eye is behind its plane, px a unit,
-// the Jacobian's rows, what a unit of its area covers, and how much all of it would if it faced
-// the eye from a unit before it.
-typedef struct {
-  SplatVectors normal, row_x, row_y;
-  floats towards, scale, spread, size;
-} SeenNodes;
 
 // Signed radius, px: coc.cl without its rounding and without limits.
 INLINED floats splat_coc(const DefraySplatParams p, const floats z) {
   return p.focus_is_infinite ? -p.infinite_focus_scale / z
                              : p.coc_scale_px * ((z - p.focus_units) / z);
-}
-
-INLINED floats product(const SplatVectors a, const SplatVectors b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 // a^T V b.
@@ -191,7 +181,13 @@ INLINED floats blur_nodes(const DefraySplatParams p, const SplatNodes* n, const 
                                    own.yy + kept + added.yy, 0.0f};
   const floats determinant = determinant_of(own, along * seen->spread, kept, added);
   const floats share = shape_splats(p, variance, determinant, seen->size, blur, is_disc, s);
-  s->amplitude *= 1.0f + (n->cover - 1.0f) * (1.0f - share * share);
+  const floats sharp = 1.0f - share * share;
+  s->amplitude *= 1.0f + (n->cover - 1.0f) * sharp;
+  s->set = n->set;
+  if (!any_of(IS(n->set != 0))) return share;
+  const floats around = kept + blur;
+  s->lines[0] = end_at_ridge(n->ridges[0], seen, own, around, variance, determinant, sharp);
+  s->lines[1] = end_at_ridge(n->ridges[1], seen, own, around, variance, determinant, sharp);
   return share;
 }
 
@@ -264,12 +260,14 @@ INLINED void project_nodes(const DefraySplatParams p, const SplatNodes* n, Splat
 }
 
 __kernel void splat_project(const DefraySplatParams p, __global const DefraySplatNode* nodes,
-                            __global DefraySplat* splats) {
+                            __global const DefraySplatRidge* ridges, __global DefraySplat* splats,
+                            __global DefraySplatLine* lines) {
   const uint first = (uint)get_global_id(0) * LANES;
   if (first >= p.count) return;
   const uint count = min((uint)LANES, p.count - first);
-  const SplatNodes n = read_nodes(nodes, min(as_uints((ints)(LANE)) + first, (uints)(p.count - 1)));
+  const SplatNodes n =
+      read_nodes(nodes, ridges, min(as_uints((ints)(LANE)) + first, (uints)(p.count - 1)));
   SplatLanes s;
   project_nodes(p, &n, &s);
-  write_splats(&s, splats + first, count);
+  write_splats(&s, splats + first, lines, count);
 }

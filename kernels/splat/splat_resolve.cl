@@ -10,6 +10,7 @@
 // `layers` nothing is seen.
 //
 // splats   [count]           in order; DEFRAY_SPLAT_TILE-tiles know theirs
+// lines    at which splats that name them end
 // first    [tile_count + 1]  where a tile's part of `list` begins
 // list     splats that meet the tile, in order
 // out0..3  [height][width]   premultiplied colour and alpha
@@ -84,12 +85,23 @@ INLINED void end_layer(SplatSquare* r, const int16 where, const bool averages) {
   r->opaque |= where & (1.0f - r->sum3 < DEFRAY_SPLAT_OPAQUE);
 }
 
+// How much of a splat is on its side of all its ridges.
+INLINED float16 before_ridges(__global const DefraySplatLine* lines, const float16 dx,
+                              const float16 dy) {
+  float16 left = 1.0f;
+  for (int i = 0; i < DEFRAY_SPLAT_RIDGES; ++i) {
+    left = smaller(left, larger(lines[i].at + lines[i].x * dx + lines[i].y * dy, lines[i].least));
+  }
+  return left;
+}
+
 // A splat's weight in each pixel; 0 beyond its cut-off.
-INLINED float16 splat_weight(__global const DefraySplat* s, const float16 dx, const float16 dy,
-                             const DefraySplatTileParams p) {
+INLINED float16 splat_weight(__global const DefraySplat* s, __global const DefraySplatLine* lines,
+                             const float16 dx, const float16 dy, const DefraySplatTileParams p) {
   const float16 form = (s->conic_xx * dx + 2.0f * s->conic_xy * dy) * dx + s->conic_yy * dy * dy;
   const float16 leant = s->amplitude + s->lean_x * dx + s->lean_y * dy;
-  const float16 facing = larger(s->back * leant, leant);
+  float16 facing = larger(s->back * leant, leant);
+  if (s->lines != 0) facing *= before_ridges(lines + s->lines * DEFRAY_SPLAT_RIDGES, dx, dy);
   if (s->disc_top > 0.0f) {
     const float16 left = smaller(larger(s->disc_top - form, 0.0f), 1.0f);
     return facing * (left * left * (1.0f + s->disc_bulge * (1.0f - left)));
@@ -141,11 +153,12 @@ INLINED uint next_in_square(__global const DefraySplat* splats, __global const u
 }
 
 // splat_weight in the pixels of a square that are the splat's.
-INLINED float16 weight_in_square(__global const DefraySplat* s, const Square* q,
+INLINED float16 weight_in_square(__global const DefraySplat* s,
+                                 __global const DefraySplatLine* lines, const Square* q,
                                  const DefraySplatTileParams p) {
   const int16 inside = (q->column >= s->first_x) & (q->column < s->end_x) & (q->row >= s->first_y) &
                        (q->row < s->end_y);
-  const float16 weight = splat_weight(s, q->centre_x - s->x, q->centre_y - s->y, p);
+  const float16 weight = splat_weight(s, lines, q->centre_x - s->x, q->centre_y - s->y, p);
   return select((float16)(0.0f), weight, inside);
 }
 
@@ -169,9 +182,10 @@ INLINED void store_square(const DefraySplatTileParams p, __global float* plane, 
 }
 
 __kernel void splat_resolve(const DefraySplatTileParams p, __global const DefraySplat* splats,
-                            __global const uint* first, __global const uint* list,
-                            __global float* out0, __global float* out1, __global float* out2,
-                            __global float* out3, __global float* depth, __global float* count) {
+                            __global const DefraySplatLine* lines, __global const uint* first,
+                            __global const uint* list, __global float* out0, __global float* out1,
+                            __global float* out2, __global float* out3, __global float* depth,
+                            __global float* count) {
   if (get_global_id(0) >= p.tile_count) return;
   const uint tile = p.first_tile + (uint)get_global_id(0), square = (uint)get_global_id(1);
   const uint across = DEFRAY_SPLAT_TILE / SIDE;
@@ -198,8 +212,8 @@ __kernel void splat_resolve(const DefraySplatTileParams p, __global const Defray
     const uint j = next_in_square(splats, list, i + 1, end, &q);
     __global const DefraySplat* s = splats + list[i];
     __global const DefraySplat* next = splats + list[j < end ? j : i];
-    const float16 weight = weight_in_square(s, &q, p);
-    const float16 next_weight = weight_in_square(next, &q, p);
+    const float16 weight = weight_in_square(s, lines, &q, p);
+    const float16 next_weight = weight_in_square(next, lines, &q, p);
     add_splat(&r, s, weight, p);
     if (j >= end) break;
     add_splat(&r, next, next_weight, p);

@@ -42,7 +42,7 @@ Sheets make_sheets(int side, double gap) {
   both.normals.insert(both.normals.end(), back.normals.begin(), back.normals.end());
   both.colours.insert(both.colours.end(), back.colours.begin(), back.colours.end());
   const auto shot_of = [](const PointCloud& cloud) {
-    return SplatShot{"sheets", distance, build_hierarchy(make_surfels(cloud).points)};
+    return SplatShot{"sheets", distance, tree_of(cloud)};
   };
   return {shot_of(both), shot_of(front), shot_of(back)};
 }

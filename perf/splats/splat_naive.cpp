@@ -14,6 +14,7 @@ constexpr const char* source = R"CLC(
 #define MOST 512
 
 __kernel void rasterise(const DefraySplatParams p, __global const DefraySplat* splats,
+                        __global const DefraySplatLine* lines,
                         __global int* heads, __global int* next, __global int* splat_of,
                         __global float* weights, __global int* count) {
   const int i = get_global_id(0);
@@ -25,7 +26,12 @@ __kernel void rasterise(const DefraySplatParams p, __global const DefraySplat* s
       const float form = (s.conic_xx * dx + 2.0f * s.conic_xy * dy) * dx + s.conic_yy * dy * dy;
       const float left = clamp(s.disc_top - form, 0.0f, 1.0f);
       const float leant = s.amplitude + s.lean_x * dx + s.lean_y * dy;
-      const float weight = fmax(s.back * leant, leant) *
+      float before = 1.0f;
+      for (int k = 0; k < (s.lines != 0 ? DEFRAY_SPLAT_RIDGES : 0); ++k) {
+        const DefraySplatLine line = lines[s.lines * DEFRAY_SPLAT_RIDGES + k];
+        before = fmin(before, fmax(line.at + line.x * dx + line.y * dy, line.least));
+      }
+      const float weight = fmax(s.back * leant, leant) * before *
                            (s.disc_top > 0.0f ? left * left * (1.0f + s.disc_bulge * (1.0f - left))
                                               : form < p.cutoff ? exp(-form) - p.edge : 0.0f);
       if (!(weight > 0.0f)) continue;
@@ -92,9 +98,9 @@ NaiveSplats::NaiveSplats(const DeviceInfo& info)
       queue_(context_, info.device, CL_QUEUE_PROFILING_ENABLE),
       program_(context_, kernel_source({"splat/splat_project.cl"}, {}) + source, true) {}
 
-std::vector<Plane> NaiveSplats::draw(const Values<DefraySplat>& splats,
-                                     const DefraySplatParams& params, int repetitions,
-                                     double& seconds) {
+std::vector<Plane> NaiveSplats::draw(const Splats& given, const DefraySplatParams& params,
+                                     int repetitions, double& seconds) {
+  const Values<DefraySplat>& splats = given.all;
   DefraySplatParams p = params;
   p.count = static_cast<std::uint32_t>(splats.size());
   const std::size_t pixels = std::size_t{p.width} * p.height, most = fragments_of(splats);
@@ -104,6 +110,9 @@ std::vector<Plane> NaiveSplats::draw(const Values<DefraySplat>& splats,
   const cl::Buffer in(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
                       splats.size() * sizeof(DefraySplat),
                       const_cast<DefraySplat*>(splats.begin()));
+  const cl::Buffer lines(context_, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                         given.lines.size() * sizeof(DefraySplatLine),
+                         const_cast<DefraySplatLine*>(given.lines.begin()));
   const cl::Buffer heads = buffer(pixels * 4), next = buffer(most * 4), splat_of = buffer(most * 4);
   const cl::Buffer weights = buffer(most * 4), out = buffer(pixels * 16), count = buffer(4);
   cl::Kernel rasterise(program_, "rasterise"), resolve(program_, "resolve");
@@ -111,7 +120,7 @@ std::vector<Plane> NaiveSplats::draw(const Values<DefraySplat>& splats,
     cl_uint index = 0;
     (kernel.setArg(index++, args), ...);
   };
-  set(rasterise, p, in, heads, next, splat_of, weights, count);
+  set(rasterise, p, in, lines, heads, next, splat_of, weights, count);
   set(resolve, p, in, heads, next, splat_of, weights, out, count);
   for (int i = 0; i <= repetitions; ++i) {  // one more: to warm up
     queue_.enqueueFillBuffer(heads, cl_int{-1}, 0, pixels * 4);

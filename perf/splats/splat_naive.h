@@ -12,8 +12,8 @@ class NaiveSplats {
 
   /// R G B A of splats in order, and the seconds on the device, the best of `repetitions`. Throws
   /// Error(internal) where a pixel has more fragments than fit.
-  std::vector<Plane> draw(const Values<DefraySplat>& splats, const DefraySplatParams& params,
-                          int repetitions, double& seconds);
+  std::vector<Plane> draw(const Splats& splats, const DefraySplatParams& params, int repetitions,
+                          double& seconds);
 
  private:
   cl::Context context_;

@@ -11,8 +11,13 @@
 
 namespace defray::perf {
 
+Hierarchy tree_of(const PointCloud& cloud) {
+  Surfels surfels = make_surfels(cloud);
+  return build_hierarchy(std::move(surfels.points), std::move(surfels.ridges));
+}
+
 SplatShot make_splat_shot(const std::string& name, double distance, std::size_t points) {
-  return {name, distance, build_hierarchy(make_surfels(make_point_cloud(name, points)).points)};
+  return {name, distance, tree_of(make_point_cloud(name, points))};
 }
 
 DefraySplatParams splat_view(const SplatShot& shot, int width, int height, double aperture_mm,
@@ -55,8 +60,8 @@ namespace {
 std::string against_naive(const Bench& bench, const SplatShot& shot, double aperture_mm) {
   const int side = bench.size(512);
   const DefraySplatParams view = splat_view(shot, side, side, aperture_mm);
-  const auto splats =
-      in_order(bench.backend.splat_project(cut_hierarchy(shot.tree, view, true), view));
+  const auto splats = in_order(
+      bench.backend.splat_project(cut_hierarchy(shot.tree, view, true), shot.tree.ridges, view));
   double naive_s = 0;
   NaiveSplats naive(bench.backend.session().info());
   const std::vector<Plane> other = naive.draw(splats, view, bench.repetitions(), naive_s);
@@ -73,8 +78,8 @@ std::string against_naive(const Bench& bench, const SplatShot& shot, double aper
   return fmt::format(
       "{}, {:.0f} mm, {} splats at {}x{}: {:.2f} M splats and {:.0f} M fragments a second "
       "(lists of tiles included), {:.1f} times what a work-item a splat and lists of fragments do.",
-      shot.name, aperture_mm, splats.size(), side, side,
-      1e-6 * static_cast<double>(splats.size()) / timing.median_s,
+      shot.name, aperture_mm, splats.all.size(), side, side,
+      1e-6 * static_cast<double>(splats.all.size()) / timing.median_s,
       1e-6 * fragments / timing.median_s, naive_s / timing.median_s);
 }
 

@@ -16,6 +16,8 @@ struct SplatShot {
   Hierarchy tree;
 };
 
+Hierarchy tree_of(const PointCloud& cloud);
+
 /// `points`: 0: the model's own number.
 SplatShot make_splat_shot(const std::string& name, double distance, std::size_t points);
 

@@ -183,14 +183,14 @@ TEST(Splats, AreInOrderOfDepthEqualOnesAsTheyWere) {
       splats[i].x = static_cast<float>(i);
       splats[i].end_x = splats[i].end_y = i % 5 == 0 ? 0 : 1;  // a fifth has no pixels
     }
-    const auto sorted = in_order(splats);
+    const Values<DefraySplat> sorted = in_order({splats, {}}).all;
     std::erase_if(splats, [](const DefraySplat& s) { return s.end_x == 0; });
     std::stable_sort(splats.begin(), splats.end(),
                      [](const auto& a, const auto& b) { return a.z_near < b.z_near; });
     ASSERT_EQ(sorted.size(), splats.size());
     for (std::size_t i = 0; i < splats.size(); ++i) ASSERT_EQ(sorted[i].x, splats[i].x) << i;
   }
-  EXPECT_TRUE(in_order(std::vector<DefraySplat>()).empty());
+  EXPECT_TRUE(in_order({}).all.empty());
 }
 
 TEST(Cut, LeavesOutWhatCannotBeSeen) {

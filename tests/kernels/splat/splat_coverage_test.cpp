@@ -1,7 +1,6 @@
 // Point clouds through the lens: what is solid is covered.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "base/random.h"
@@ -9,18 +8,6 @@
 
 namespace defray::test::splat_coverage_test {
 namespace {
-
-/// The least and the largest value of a square about the middle.
-std::pair<float, float> range_inside(const Plane& plane, int side, int half) {
-  float least = 1e9f, most = -1e9f;
-  for (int y = side / 2 - half; y < side / 2 + half; ++y) {
-    for (int x = side / 2 - half; x < side / 2 + half; ++x) {
-      least = std::min(least, plane[size(y * side + x)]);
-      most = std::max(most, plane[size(y * side + x)]);
-    }
-  }
-  return {least, most};
-}
 
 /// The built-in figure in white.
 PointCloud white_figure() {
@@ -184,68 +171,6 @@ TEST(SplatCoverage, EvenBallsAndTheirNodesLeaveNoHoles) {
       }
     }
   }
-}
-
-/// A tilted prism's sides, of grids that end half a distance before its ridges, `rows` a unit.
-PointCloud prism(int sides, double rows) {
-  PointCloud cloud;
-  const double half_width = std::tan(M_PI / sides);
-  const int across = static_cast<int>(std::round(2 * half_width * rows));
-  const auto tilted = [](double x, double y, double z) {
-    return std::array{static_cast<float>(x),
-                      static_cast<float>(y * std::cos(0.4) - z * std::sin(0.4)),
-                      static_cast<float>(y * std::sin(0.4) + z * std::cos(0.4))};
-  };
-  for (int side = 0; side < sides; ++side) {
-    const double turn = 0.4 + 2 * M_PI * side / sides, c = std::cos(turn), s = std::sin(turn);
-    for (int i = 0; i < across; ++i) {
-      for (double y = -1.5 + 0.5 / rows; y < 1.5; y += 1 / rows) {
-        const double along = ((i + 0.5) * 2 / across - 1) * half_width;
-        cloud.positions.push_back(tilted(s + along * c, y, c - along * s));
-        cloud.normals.push_back(tilted(s, 0, c));
-        cloud.colours.push_back({1, 1, 1});
-      }
-    }
-  }
-  return cloud;
-}
-
-/// What is seen of the one face flat is seen of the other from its edge.
-TEST(SplatCoverage, FacesOfFewPointsCoverThemselvesUpToTheirRidges) {
-  for (const int sides : {3, 4, 6, 8, 12, 16, 24}) {
-    for (const double rows : {8.0, 13.0, 25.0}) {
-      const Hierarchy tree = tree_of(prism(sides, rows));
-      for (const SplatPsf psf : {SplatPsf::disc, SplatPsf::gaussian}) {
-        SplatSettings settings;
-        settings.psf = psf;
-        settings.cutoff = psf == SplatPsf::disc ? 2.5 : 2;
-        for (const double aperture : {0.0, 100.0, 400.0, 1500.0}) {
-          const auto [least, most] =
-              range_inside(draw(tree, view_of(300, 4, aperture, settings)).colour[3], 300, 60);
-          EXPECT_GE(least, 0.99f) << sides << " sides, " << rows << ", " << aperture << " mm";
-          EXPECT_LE(most, 1.0001f) << sides << " sides, " << rows << ", " << aperture << " mm";
-        }
-      }
-    }
-  }
-}
-
-/// Faces that meet in a ridge end there, and not where another row of points would.
-TEST(SplatCoverage, RidgesReachLittleBeyondTheirFaces) {
-  constexpr double rows = 8;
-  const DefraySplatParams p = view_of(300, 5, 0);
-  double left = 0, right = 0;  // of what the middle row sees of its ridges, px
-  for (int k = 0; k < 4; ++k) {
-    const double turn = 0.4 + M_PI_4 * (2 * k + 1);
-    const double x = std::numbers::sqrt2 * std::sin(turn), z = std::numbers::sqrt2 * std::cos(turn);
-    const double seen = static_cast<double>(p.focal_px) * x / (5 - z / std::cos(0.4));
-    left = std::min(left, seen);
-    right = std::max(right, seen);
-  }
-  const Plane alpha = draw(tree_of(prism(4, rows)), p).colour[3];
-  const double covered = std::accumulate(&alpha[150 * 300], &alpha[151 * 300], 0.0);
-  const double distance_px = static_cast<double>(p.focal_px) / 5 / rows;
-  EXPECT_NEAR(covered, right - left, 0.5 * distance_px) << distance_px;
 }
 
 /// Of points anywhere on a plane, steep or not: up to a third of their distance too near, as the

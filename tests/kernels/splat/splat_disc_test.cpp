@@ -41,7 +41,7 @@ TEST(SplatProject, DiscsAreWhatThePrefilterLeavesOfAnEvenDisc) {
     const double area = 1e-4;
     const DefraySplat s = project(surfel(0, 0, 2, {0, 0, area}, 1e-9), p);
     ASSERT_GT(s.disc_top, 0) << coc;
-    const Plane alpha = device().splat_resolve({s}, p).colour[3];
+    const Plane alpha = device().splat_resolve({{s}, {}}, p).colour[3];
     const std::vector<double> exact = blurred_disc(side, coc, 1);
     const double covers = area * p.focal_px * p.focal_px / 4;  // px, at distance 2
     double sum = 0, wrong = 0, all = 0;

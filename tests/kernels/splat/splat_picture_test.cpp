@@ -97,7 +97,7 @@ TEST(SplatPicture, WhatIsOutsideIsLeftOutAndNothingElse) {
     EXPECT_LE(static_cast<double>(report.drawn), most * static_cast<double>(report.points));
     const Values<DefraySplatNode> all(tree.points);
     const SplatPlanes whole =
-        device().splat_resolve(in_order(device().splat_project(all, p)), p, {});
+        device().splat_resolve(in_order(device().splat_project(all, tree.ridges, p)), p, {});
     EXPECT_EQ(cut.colour, whole.colour) << distance << ", " << aperture << " mm";
     EXPECT_EQ(cut.depth, whole.depth) << distance << ", " << aperture << " mm";
   }

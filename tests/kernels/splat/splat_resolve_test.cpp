@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "faults/fault.h"
 #include "splat_support.h"
 
 namespace defray::test::splat_resolve_test {
@@ -40,7 +39,8 @@ DefraySplat splat_at(int x, int y, float weight, float z, float half_depth, floa
 
 /// Red and alpha of pixel (1, 1).
 std::array<float, 2> resolved(const std::vector<DefraySplat>& splats, bool averages = false) {
-  const SplatPlanes planes = device().splat_resolve(in_order(splats), picture(3, 3, averages));
+  const SplatPlanes planes =
+      device().splat_resolve(in_order({splats, {}}), picture(3, 3, averages));
   return {planes.colour[0][4], planes.colour[3][4]};
 }
 
@@ -91,7 +91,7 @@ TEST(SplatResolve, DepthIsTheNearestSurfacesAndFragmentsAreCounted) {
   const std::vector<DefraySplat> splats{
       splat_at(1, 1, 0.5f, 4, 2, 1), splat_at(1, 1, 0.4f, 3, 0.1f, 1),
       splat_at(1, 1, 1, 9, 0.1f, 1), splat_at(1, 1, 1, 11, 0.1f, 1)};
-  const SplatPlanes planes = device().splat_resolve(in_order(splats), picture(3, 3));
+  const SplatPlanes planes = device().splat_resolve(in_order({splats, {}}), picture(3, 3));
   EXPECT_FLOAT_EQ(planes.depth[4], (0.5f * 4 + 0.4f * 3) / 0.9f);
   EXPECT_EQ(planes.fragments[4], 3) << "nothing shows through the third";
   EXPECT_EQ(planes.depth[0], INFINITY);
@@ -101,7 +101,7 @@ TEST(SplatResolve, DepthIsTheNearestSurfacesAndFragmentsAreCounted) {
 
 TEST(SplatResolve, WhatIsAllTransparentHasNoDepth) {
   const SplatPlanes planes = device().splat_resolve(
-      in_order({splat_at(1, 1, 0.5f, 3, 0.1f, 1, 0), splat_at(1, 1, 0.5f, 5, 0.1f, 1)}),
+      in_order({{splat_at(1, 1, 0.5f, 3, 0.1f, 1, 0), splat_at(1, 1, 0.5f, 5, 0.1f, 1)}, {}}),
       picture(3, 3, false));
   EXPECT_EQ(planes.depth[4], 5);
   EXPECT_EQ(planes.fragments[4], 2);
@@ -112,7 +112,7 @@ TEST(SplatResolve, GaussiansAreExponentialsToTheirCutOff) {
   s.conic_xx = s.conic_yy = 0.01f;
   s.first_x = 0;
   s.end_x = 41;
-  const SplatPlanes planes = device().splat_resolve({s}, picture(41, 1));
+  const SplatPlanes planes = device().splat_resolve({{s}, {}}, picture(41, 1));
   for (int x = 0; x < 41; ++x) {
     const double form = 0.01 * (x - 20) * (x - 20);
     const double exact = form < 2.5 ? std::exp(-form) : 0;
@@ -132,7 +132,7 @@ TEST(SplatResolve, DiscsAreEvenInsideAndFallTowardsTheirEnd) {
   s.end_x = s.end_y = 41;
   DefraySplatParams p = picture(41, 41);
   const auto row = [&] {
-    const SplatPlanes planes = device().splat_resolve({s}, p);
+    const SplatPlanes planes = device().splat_resolve({{s}, {}}, p);
     return std::vector<float>(planes.colour[0].begin() + 20 * 41,
                               planes.colour[0].begin() + 21 * 41);
   };
@@ -160,7 +160,7 @@ TEST(SplatResolve, LayersAreTheNearestSurfacesAndTheRestIsCounted) {
   DefraySplatParams p = picture(3, 3);
   const auto drawn = [&](int layers) {
     p.layers = layers;
-    return device().splat_resolve(in_order(splats), p);
+    return device().splat_resolve(in_order({splats, {}}), p);
   };
   EXPECT_FLOAT_EQ(drawn(3).colour[3][4], 0.875f);
   EXPECT_EQ(drawn(3).fragments[4], 3);
@@ -175,8 +175,9 @@ TEST(SplatResolve, LayersAreTheNearestSurfacesAndTheRestIsCounted) {
 }
 
 /// Splats of all sizes over a picture of this size.
-Values<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
+Splats random_splats(Size size, int count, std::uint32_t seed) {
   std::vector<DefraySplatNode> nodes;
+  std::vector<DefraySplatRidge> ridges(DEFRAY_SPLAT_RIDGES);
   for (int i = 0; i < count; ++i) {
     Random random(i, 5, seed);
     DefraySplatNode n{};
@@ -189,12 +190,17 @@ Values<DefraySplat> random_splats(Size size, int count, std::uint32_t seed) {
     n.cover = 1;
     n.r = static_cast<float>(random.next());
     n.a = 1;
+    if (i % 3 == 0) {
+      n.ridges = word(static_cast<int>(ridges.size() / DEFRAY_SPLAT_RIDGES));
+      ridges.push_back({0.02f, 0.01f, 0});
+      ridges.push_back({-0.01f, 0.03f, 0});
+    }
     nodes.push_back(n);
   }
   DefraySplatParams p = view_of(std::max(size.width, size.height), 4, 40);
   p.width = word(size.width);
   p.height = word(size.height);
-  return in_order(twins().splat_project(nodes, p));
+  return in_order(twins().splat_project(nodes, ridges, p));
 }
 
 TEST(SplatResolve, EqualsTwinAtAwkwardSizesAndInGroupsOfTiles) {
@@ -217,74 +223,8 @@ TEST(SplatResolve, WithoutSplatsThePictureIsEmpty) {
   const SplatPlanes planes = device().splat_resolve({}, picture(5, 3));
   EXPECT_EQ(planes.colour[3], Plane(15, 0.0f));
   EXPECT_EQ(planes.depth, Plane(15, INFINITY));
-  EXPECT_TRUE(device().splat_project({}, picture(5, 3)).empty());
+  EXPECT_TRUE(device().splat_project({}, {}, picture(5, 3)).all.empty());
 }
-
-const FaultRows faults{
-    {"splat_resolve", "nothing has a depth", {" & (r->layer_seen > 0.0f);", ";"}},
-    {"splat_resolve",
-     "surfaces never end",
-     {"hits & (s->z_near > r->far)", "hits & (s->z_near > INFINITY)"}},
-    {"splat_resolve",
-     "a surface's depth is its first splat's",
-     {"larger(r->far, s->z_far)", "s->z_far"}},
-    {"splat_resolve", "more than a whole", {"smaller(weight, 1.0f - r->weight)", "weight"}},
-    {"splat_resolve", "sums that are not divided", {"left / larger(r->weight, 1.0f)", "left"}},
-    {"splat_resolve",
-     "surfaces that hide nothing",
-     {"const float16 left = 1.0f - r->sum3;", "const float16 left = 1.0f;"}},
-    {"splat_resolve",
-     "the last surface forgotten",
-     {"end_layer(&r, ~r.opaque, p.averages);\n\n", "\n"}},
-    {"splat_resolve",
-     "one surface less than asked for",
-     {"(r->ended > p.layers)", "(r->ended >= p.layers)"}},
-    {"splat_resolve", "surfaces left out in silence", {"r->spilled |= spills;", ""}},
-    {"splat_resolve",
-     "discs as even as the bulge",
-     {"(1.0f + s->disc_bulge * (1.0f - left))", "1.0f"}},
-    {"splat_resolve", "cones", {"(left * left *", "(left *"}},
-    {"splat_resolve", "discs that lean the other way", {"+ s->lean_y * dy", "- s->lean_y * dy"}},
-    {"splat_resolve",
-     "surfaces with one side seen from behind",
-     {"larger(s->back * leant, leant)", "fabs(leant)"}},
-    {"splat_resolve", "no cut-off", {"form < p.cutoff);", "form < 80.0f);"}},
-    {"splat_resolve",
-     "pixels beside the splat's",
-     {"(q->column >= s->first_x) & (q->column < s->end_x)", "(q->column >= s->first_x)"}},
-    {"splat_resolve", "pixels above the splat's", {"(q->row >= s->first_y)", "(q->row == q->row)"}},
-    {"splat_resolve",
-     "splats that begin in a square's last column passed over",
-     {"(s->first_x < q->x + SIDE)", "(s->first_x < q->x + SIDE - 1)"}},
-    {"splat_resolve",
-     "splats that end in a square's first row passed over",
-     {"(q->y < s->end_y)", "(q->y + 1 < s->end_y)"}},
-    {"splat_resolve", "the farthest depth", {"(r->depth == INFINITY) & ", ""}},
-    {"splat_resolve",
-     "depths that count what cannot be seen",
-     {"seen = weight * s->a", "seen = weight"}},
-    {"splat_resolve",
-     "pixels' corners",
-     {"convert_float16(q.column) + 0.5f", "convert_float16(q.column)"}},
-    {"splat_resolve",
-     "a tile one row of squares high",
-     {"DEFRAY_SPLAT_TILE + square / across * SIDE", "DEFRAY_SPLAT_TILE"}},
-    {"splat_resolve",
-     "pixels of the last columns not written",
-     {"i < min(SIDE, columns)", "i < min(SIDE, columns) - 1"}},
-    {"splat_resolve",
-     "pixels of the last rows not written",
-     {"j < min(SIDE, rows)", "j < min(SIDE, rows - 1)"}},
-    {"splat_resolve",
-     "a whole square's third row is its last",
-     {"to + 2 * (size_t)p.width", "to + 3 * (size_t)p.width"}},
-    {"splat_resolve", "every second splat forgotten", {"add_splat(&r, next, next_weight, p);", ""}},
-    {"splat_resolve", "the second is the first", {"list[j < end ? j : i]", "list[i]"}},
-    {"splat_resolve", "every second splat twice", {"list, j + 1, end", "list, j, end"}},
-    {"splat_resolve",
-     "opaque pixels go on",
-     {"r->opaque |= where & (1.0f - r->sum3 < DEFRAY_SPLAT_OPAQUE);", ""}},
-};
 
 }  // namespace
 }  // namespace defray::test::splat_resolve_test

@@ -1,9 +1,11 @@
 #pragma once
 // What tests of point clouds share.
+#include <algorithm>
 #include <cmath>
 
 #include "splat/hierarchy.h"
 #include "splat/splat_picture.h"
+#include "splat/splats.h"
 #include "splat/surfels.h"
 #include "splat/view.h"
 #include "support.h"
@@ -26,7 +28,8 @@ inline DefraySplatParams view_of(int side, double distance, double aperture_mm,
 }
 
 inline Hierarchy tree_of(const PointCloud& cloud) {
-  return build_hierarchy(make_surfels(cloud).points);
+  Surfels surfels = make_surfels(cloud);
+  return build_hierarchy(std::move(surfels.points), std::move(surfels.ridges));
 }
 
 /// A square grid that faces the camera, of one colour; `half` is half its side.
@@ -59,6 +62,18 @@ inline SplatPlanes draw(const Hierarchy& tree, const DefraySplatParams& p, bool 
   return draw_splats(device(), tree, p, lod, 0, ignored);
 }
 
+/// The least and the largest value of a square about the middle.
+inline std::pair<float, float> range_inside(const Plane& plane, int side, int half) {
+  float least = 1e9f, most = -1e9f;
+  for (int y = side / 2 - half; y < side / 2 + half; ++y) {
+    for (int x = side / 2 - half; x < side / 2 + half; ++x) {
+      least = std::min(least, plane[size(y * side + x)]);
+      most = std::max(most, plane[size(y * side + x)]);
+    }
+  }
+  return {least, most};
+}
+
 /// A surfel of a cloud, area and variance given.
 inline DefraySplatNode surfel(double x, double y, double z, std::array<double, 3> area,
                               double variance) {
@@ -76,9 +91,9 @@ inline DefraySplatNode surfel(double x, double y, double z, std::array<double, 3
 }
 
 inline DefraySplat project(const DefraySplatNode& node, const DefraySplatParams& p) {
-  const auto splats = device().splat_project({node}, p);
-  EXPECT_EQ(splats.size(), 1u);
-  return splats.front();
+  const Splats splats = device().splat_project({node}, {}, p);
+  EXPECT_EQ(splats.all.size(), 1u);
+  return splats.all.front();
 }
 
 inline bool is_culled(const DefraySplat& s) { return s.first_x == s.end_x && s.first_y == s.end_y; }
