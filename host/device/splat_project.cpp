@@ -1,4 +1,6 @@
 // Kernel `splat_project`.
+#include <algorithm>
+
 #include "device/device_backend.h"
 #include "opencl/launch_table.h"
 #include "splat/splats.h"
@@ -16,14 +18,12 @@ Splats DeviceBackend::splat_project(const Values<DefraySplatNode>& nodes,
   if (nodes.empty()) return {};
   DefraySplatParams p = params;
   p.count = static_cast<std::uint32_t>(nodes.size());
-  const Values<DefraySplatRidge> sets =
-      ridges.empty() ? Values<DefraySplatRidge>(DEFRAY_SPLAT_RIDGES) : ridges;
   Splats splats;
   const cl::Buffer out = session_.out(splats.all, nodes.size());
-  const cl::Buffer lines = session_.out(splats.lines, sets.size());
+  const cl::Buffer lines = session_.out(splats.lines, std::max(ridges.size(), std::size_t{1}));
   const std::size_t lanes = session_.uses_vectors() ? DEFRAY_RAY_RUN : 1;
   session_.launch("splat_project", {(nodes.size() + lanes - 1) / lanes}, p, session_.in(nodes),
-                  session_.in(sets), out, lines);
+                  session_.in(ridges), out, lines);
   return splats;
 }
 

@@ -40,9 +40,7 @@ SplatPlanes DeviceBackend::splat_resolve(const Splats& splats, const DefraySplat
   std::array<cl::Buffer, 4> colour;
   for (std::size_t c = 0; c < 4; ++c) colour[c] = out(planes[c]);
   const cl::Buffer depth = out(planes[4]), count = out(planes[5]);
-  const Values<DefraySplatLine> sets =
-      splats.lines.empty() ? Values<DefraySplatLine>(DEFRAY_SPLAT_RIDGES) : splats.lines;
-  const cl::Buffer in = session_.in(splats.all), lines = session_.in(sets);
+  const cl::Buffer in = session_.in(splats.all), lines = session_.in(splats.lines);
   const auto counts =
       splats_a_tile(splats.all, static_cast<int>(tiles_x), static_cast<int>(tiles_y));
   const std::size_t most = std::min(list_bytes, session_.memory_bytes()) / sizeof(std::uint32_t);
