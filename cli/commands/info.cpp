@@ -9,7 +9,7 @@
 #include "commands/suggested_command.h"
 #include "defray/error.h"
 #include "options/option_table.h"
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 namespace defray::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include "lens/lens.h"
 #include "library/backend_of.h"
 #include "splat/cloud_cache.h"
-#include "splat/models.h"
-#include "splat/sides.h"
+#include "splat/clouds/models.h"
+#include "splat/seen_sides.h"
 #include "splat/splat_picture.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "splat/view.h"
 #include "tuning/results.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "base/vec3.h"
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 namespace {

@@ -83,4 +83,20 @@ void describe_sides(const Values<DefraySplatNode>& nodes, const DefraySplatParam
   report.is_inside_out = sides.are_inside_out();
 }
 
+bool is_within(const Hierarchy& tree, const Vec3& place) {
+  if (tree.nodes.front().splat.both_sides == 1) return false;
+  const double sum = parallel_sum(tree.points.size(), [&](std::size_t first, std::size_t end) {
+    double part = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const DefraySplatNode& n = tree.points[i];
+      if (n.both_sides > 0.5f) continue;
+      const Vec3 d = Vec3{n.x, n.y, n.z} - place;
+      const double square = dot(d, d) + static_cast<double>(n.variance);
+      part += dot({n.area_x, n.area_y, n.area_z}, d) / (square * std::sqrt(square));
+    }
+    return part;
+  });
+  return sum > 2 * M_PI;
+}
+
 }  // namespace defray

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "measure/metrics.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "splats/splat_shots.h"
 #include "tables/tables.h"
 

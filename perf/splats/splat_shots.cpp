@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "splat/cut.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "splat/view.h"
 #include "splats/splat_naive.h"
 #include "tables/tables.h"

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "fuzz.h"
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 using namespace defray;
 

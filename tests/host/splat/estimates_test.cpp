@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "base/vec3.h"
 #include "host/splat/splat_clouds.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "support.h"
 
 namespace defray::test::estimates_test {

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "base/vec3.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 
 namespace defray::test::ridges_test {
 namespace {

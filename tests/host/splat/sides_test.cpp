@@ -1,11 +1,11 @@
 // Clouds without normals: which side is outside.
-#include "splat/sides.h"
+#include "splat/seen_sides.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "support.h"
 
 namespace defray::test::sides_test {

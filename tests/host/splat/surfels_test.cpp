@@ -1,5 +1,5 @@
 // Points made ready: what is estimated, what is left out.
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "splat/hierarchy.h"
 #include "splat/splat_picture.h"
 #include "splat/splats.h"
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 #include "splat/view.h"
 #include "support.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 

@@ -1,4 +1,4 @@
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "splat/placed_points.h"
+#include "splat/surfels/placed_points.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 namespace {

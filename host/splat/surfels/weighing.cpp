@@ -5,7 +5,7 @@
 
 #include "base/falloff.h"
 #include "base/parallel.h"
-#include "splat/cells.h"
+#include "splat/surfels/cells.h"
 
 namespace defray {
 namespace {

@@ -1,4 +1,4 @@
-#include "splat/ply_header.h"
+#include "splat/clouds/ply_header.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 // Sharp edges between faces of a surface.
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "defray/splat.h"
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/text.h"
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 namespace defray {
 

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "splat/cloud_columns.h"
-#include "splat/ply_header.h"
+#include "splat/clouds/cloud_columns.h"
+#include "splat/clouds/ply_header.h"
 
 namespace defray {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 

@@ -1,4 +1,4 @@
-#include "splat/neighbours.h"
+#include "splat/surfels/neighbours.h"
 
 #include <algorithm>
 #include <nanoflann.hpp>

@@ -1,14 +1,14 @@
-#include "splat/surfels.h"
+#include "splat/surfels/surfels.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "splat/cells.h"
-#include "splat/cloud_points.h"
-#include "splat/estimates.h"
-#include "splat/placed_points.h"
-#include "splat/ridges.h"
+#include "splat/surfels/cells.h"
+#include "splat/surfels/cloud_points.h"
+#include "splat/surfels/estimates.h"
+#include "splat/surfels/placed_points.h"
+#include "splat/surfels/ridges.h"
 
 namespace defray {
 namespace {

@@ -1,4 +1,4 @@
-#include "splat/ridges.h"
+#include "splat/surfels/ridges.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "splat/estimates.h"
+#include "splat/surfels/estimates.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "base/parallel.h"
-#include "splat/placed_points.h"
-#include "splat/sides.h"
-#include "splat/strays.h"
+#include "splat/surfels/placed_points.h"
+#include "splat/surfels/sides.h"
+#include "splat/surfels/strays.h"
 
 namespace defray {
 namespace {

@@ -1,5 +1,5 @@
 // Those of Krivanek & Zara 2003, or what stands in for them.
-#include "splat/models.h"
+#include "splat/clouds/models.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "base/vec3.h"
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 namespace defray {
 namespace {

@@ -1,4 +1,4 @@
-#include "splat/sides.h"
+#include "splat/surfels/sides.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "splat/cloud_points.h"
+#include "splat/surfels/cloud_points.h"
 
 namespace defray {
 namespace {
@@ -208,22 +208,6 @@ void find_sides(CloudPoints& cloud) {
     p.is_two_sided = doubtful[i] || !shape.is_closed();
   }
   cloud.is_closed = true;
-}
-
-bool is_within(const Hierarchy& tree, const Vec3& place) {
-  if (tree.nodes.front().splat.both_sides == 1) return false;
-  const double sum = parallel_sum(tree.points.size(), [&](std::size_t first, std::size_t end) {
-    double part = 0;
-    for (std::size_t i = first; i < end; ++i) {
-      const DefraySplatNode& n = tree.points[i];
-      if (n.both_sides > 0.5f) continue;
-      const Vec3 d = Vec3{n.x, n.y, n.z} - place;
-      const double square = dot(d, d) + static_cast<double>(n.variance);
-      part += dot({n.area_x, n.area_y, n.area_z}, d) / (square * std::sqrt(square));
-    }
-    return part;
-  });
-  return sum > 2 * M_PI;
 }
 
 }  // namespace defray

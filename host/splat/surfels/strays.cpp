@@ -1,4 +1,4 @@
-#include "splat/strays.h"
+#include "splat/surfels/strays.h"
 
 #include <algorithm>
 #include <cmath>

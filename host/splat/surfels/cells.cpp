@@ -1,10 +1,10 @@
-#include "splat/cells.h"
+#include "splat/surfels/cells.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
-#include "splat/ridges.h"
+#include "splat/surfels/ridges.h"
 
 namespace defray {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/vec3.h"
 #include "defray/report.h"
 #include "kernels/splat_params.h"
-#include "splat/neighbours.h"
+#include "splat/surfels/neighbours.h"
 
 namespace defray {
 

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "splat/cloud_columns.h"
+#include "splat/clouds/cloud_columns.h"
 
 namespace defray {
 namespace {
