@@ -1,10 +1,9 @@
 // Clouds without normals: which side is outside.
-#include "splat/seen_sides.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/random.h"
+#include "splat/seen_sides.h"
 #include "splat/surfels/surfels.h"
 #include "support.h"
 
