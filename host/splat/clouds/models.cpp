@@ -134,7 +134,7 @@ PointCloud mask(std::size_t points) {
       const double eye = std::hypot((std::abs(x) - 0.4) / 0.2, (y - 0.25) / 0.12);
       if (x * x + y * y > 1 || eye < 1) continue;
       const double bend = std::sqrt(1.5 - x * x - 0.5 * y * y);
-      const Vec3 normal = normalized({x / bend, 0.5 * y / bend, 1});
+      const Vec3 normal = normalized({0.5 * x / bend, 0.25 * y / bend, 1});
       const double line = std::fmod(10 * std::hypot(x, y), 1.0) < 0.3 ? 0.5 : 1;
       add(cloud, {0.8 * x, 0.8 * y, 0.4 * bend}, normal, Vec3{0.3, 0.6, 0.7} * line, 0.5);
     }

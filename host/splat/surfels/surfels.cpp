@@ -9,6 +9,7 @@
 #include "splat/surfels/estimates.h"
 #include "splat/surfels/placed_points.h"
 #include "splat/surfels/ridges.h"
+#include "splat/surfels/smoothing.h"
 
 namespace defray {
 namespace {
@@ -28,10 +29,10 @@ void check_counts(const PointCloud& cloud) {
   check("alpha", cloud.alpha.size());
 }
 
-DefraySplatNode surfel_of(const PointCloud& cloud, std::uint32_t index, const CloudPoint& point,
+DefraySplatNode surfel_of(const PointCloud& cloud, std::uint32_t index,
+                          const std::array<float, 3>& place, const CloudPoint& point,
                           const PointWeight& weight) {
   DefraySplatNode n{};
-  const auto& place = cloud.positions[index];
   n.x = place[0];
   n.y = place[1];
   n.z = place[2];
@@ -104,11 +105,12 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   CloudPoints known{std::move(places), std::vector<CloudPoint>(kept.size()), std::move(around)};
   const std::vector<std::uint8_t> has_radius = set_spacings(cloud, kept, known, out.notes);
   out.has_normals = set_normals(cloud, kept, known, out.notes);
+  smooth(known);
   if (out.has_normals) find_ridges(known);
   find_cells(known, has_radius);
   const std::vector<PointWeight> weights = weigh(known, progress);
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    out.points.push_back(surfel_of(cloud, kept[i], known.points[i], weights[i]));
+    out.points.push_back(surfel_of(cloud, kept[i], known.places[i], known.points[i], weights[i]));
     out.points.back().ridges = add_ridges(known.points[i], out.ridges);
   }
   return out;

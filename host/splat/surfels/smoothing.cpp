@@ -1,0 +1,90 @@
+#include "splat/surfels/smoothing.h"
+
+#include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
+#include "splat/surfels/ridges.h"
+
+namespace defray {
+namespace {
+
+/// How often, and how far around a point others count, a Gaussian's deviation in spacings.
+constexpr int rounds = 2;
+constexpr double reach = 1.2;
+/// What lies this share of its distance above a surface is not of it.
+constexpr double far_above = 0.5;
+
+constexpr double square(double x) { return x * x; }
+
+/// How much a neighbour says of a point: `d` from the one to the other.
+double likeness(const CloudPoints& cloud, std::size_t point, std::size_t other, const Vec3& d) {
+  const CloudPoint &own = cloud.points[point], &there = cloud.points[other];
+  const double same = (dot(own.normal, there.normal) - ridge_cosine) / (1 - ridge_cosine);
+  if (!(same > 0) || !(dot(d, d) > 0)) return 0;
+  return same * std::exp(-0.5 * dot(d, d) / square(reach * own.spacing));
+}
+
+/// Where along a point's normal those around have the surface: on a circle through two points with
+/// their normals the mean of those is square to what is between them.
+Vec3 place_of_others(const CloudPoints& cloud, std::size_t point) {
+  double weights = 1, sum = 0;
+  for (const std::uint32_t other : cloud.around.of(point)) {
+    const Vec3 d = cloud.place(other) - cloud.place(point);
+    const double like = likeness(cloud, point, other, d);
+    if (!(like > 0)) continue;
+    const double above =
+        dot(d, normalized(cloud.points[point].normal + cloud.points[other].normal));
+    const double apart = square(above / far_above) / dot(d, d);
+    if (!(apart < 1)) continue;
+    const double weight = like * square(1 - apart);
+    weights += weight;
+    sum += weight * above;
+  }
+  return cloud.place(point) + cloud.points[point].normal * (sum / weights);
+}
+
+/// The mean of a point's normal and what it is on circles through those around with theirs.
+Vec3 mean_normal(const CloudPoints& cloud, std::size_t point) {
+  Vec3 sum = cloud.points[point].normal;
+  for (const std::uint32_t other : cloud.around.of(point)) {
+    const Vec3 d = cloud.place(other) - cloud.place(point);
+    const double like = likeness(cloud, point, other, d);
+    if (!(like > 0)) continue;
+    const Vec3& normal = cloud.points[other].normal;
+    sum = sum + (normal - d * (2 * dot(normal, d) / dot(d, d))) * like;
+  }
+  return normalized(sum);
+}
+
+/// What a function says of each point.
+template <typename Function>
+std::vector<Vec3> of_all(const CloudPoints& cloud, const Function& function) {
+  std::vector<Vec3> values(cloud.points.size());
+  parallel_for_each(values.size(), [&](std::size_t i) { values[i] = function(cloud, i); });
+  return values;
+}
+
+void smooth_places(CloudPoints& cloud) {
+  const std::vector<Vec3> places = of_all(cloud, place_of_others);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    cloud.places[i] = {static_cast<float>(places[i].x), static_cast<float>(places[i].y),
+                       static_cast<float>(places[i].z)};
+  }
+}
+
+void smooth_normals(CloudPoints& cloud) {
+  const std::vector<Vec3> normals = of_all(cloud, mean_normal);
+  for (std::size_t i = 0; i < normals.size(); ++i) cloud.points[i].normal = normals[i];
+}
+
+}  // namespace
+
+void smooth(CloudPoints& cloud) {
+  for (int i = 0; i < rounds; ++i) {
+    smooth_places(cloud);
+    smooth_normals(cloud);
+  }
+}
+
+}  // namespace defray
