@@ -70,6 +70,9 @@ struct EstimatedSurface {
 };
 EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point);
 
+/// Those from which a point's spacing comes.
+std::span<const std::uint32_t> closest(const CloudPoints& cloud, std::size_t point);
+
 /// Mean distance of the closest points that are not in the same place, in sides of a square grid's
 /// squares; 0 if all are in one place.
 double spacing_of(const CloudPoints& cloud, std::size_t point);

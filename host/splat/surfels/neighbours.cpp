@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/vec3.h"
 
 namespace defray {
 namespace {
@@ -13,6 +14,10 @@ namespace {
 struct Places {
   const std::vector<std::array<float, 3>>& all;
 
+  Vec3 from_to(std::size_t from, std::size_t to) const {
+    const auto &a = all[from], &b = all[to];
+    return Vec3{b[0], b[1], b[2]} - Vec3{a[0], a[1], a[2]};
+  }
   std::size_t kdtree_get_point_count() const { return all.size(); }
   float kdtree_get_pt(std::uint32_t point, std::size_t axis) const { return all[point][axis]; }
   template <typename Box>
@@ -38,6 +43,27 @@ void find_nearest(const Index& index, const Places& places, std::uint32_t point,
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = nearest[i].second;
 }
 
+/// From here on the directions in which others lie, their mean, are all to one side: of half a disc
+/// it is 0.64, of random ones around a point 0.2.
+constexpr double one_sided = 0.4;
+/// The other side is where directions have this cosine to theirs or less.
+constexpr double other_side = -0.3;
+
+/// The mean direction of the points around each that has them all on one side; else 0.
+std::vector<Vec3> find_one_sided(const Places& places, const Neighbours& around) {
+  std::vector<Vec3> sides(places.all.size());
+  parallel_for_each(sides.size(), [&](std::size_t i) {
+    Vec3 sum{};
+    for (const std::uint32_t other : around.of(i)) {
+      const Vec3 d = places.from_to(i, other);
+      if (dot(d, d) > 0) sum = sum + normalized(d);
+    }
+    const Vec3 mean = sum / static_cast<double>(std::max<std::size_t>(around.of(i).size(), 1));
+    if (length(mean) > one_sided) sides[i] = mean;
+  });
+  return sides;
+}
+
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<std::array<float, 3>>& places, std::size_t most)
@@ -47,6 +73,35 @@ Neighbours::Neighbours(const std::vector<std::array<float, 3>>& places, std::siz
   parallel_for_each(places.size(), [&](std::size_t i) {
     find_nearest(index, points, static_cast<std::uint32_t>(i), {all_.data() + i * count_, count_});
   });
+  add_coarser(places);
+}
+
+void Neighbours::add_coarser(const std::vector<std::array<float, 3>>& places) {
+  const Places points{places};
+  const std::vector<Vec3> sides = find_one_sided(points, *this);
+  std::vector<std::pair<std::uint32_t, std::pair<float, std::uint32_t>>> found;
+  for (std::uint32_t other = 0; other < places.size(); ++other) {
+    for (const std::uint32_t i : of(other)) {
+      const Vec3 d = points.from_to(i, other);
+      if (!(dot(d, sides[i]) < other_side * length(d) * length(sides[i]))) continue;
+      const auto around = of(i);
+      if (std::find(around.begin(), around.end(), other) != around.end()) continue;
+      found.push_back({i, {static_cast<float>(dot(d, d)), other}});
+    }
+  }
+  if (found.empty()) return;
+  std::sort(found.begin(), found.end());
+  coarser_.resize(places.size());
+  for (auto at = found.begin(); at != found.end();) {
+    const std::uint32_t point = at->first;
+    const auto end = std::find_if(at, found.end(), [&](const auto& f) { return f.first != point; });
+    const std::size_t count = std::min<std::size_t>(end - at, count_ / 2);
+    coarser_[point] = static_cast<std::uint8_t>(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      all_[(point + 1) * count_ - count + k] = at[static_cast<std::ptrdiff_t>(k)].second.second;
+    }
+    at = end;
+  }
 }
 
 }  // namespace defray
