@@ -73,7 +73,7 @@ Splats in_order(const Splats& splats) {
   const std::span<const DefraySplat> all = splats.all.host();
   std::vector<DepthKey> keys(all.size());
   parallel_for_each(all.size(), [&](std::size_t i) {
-    keys[i] = {has_pixels(all[i]) ? std::bit_cast<std::uint32_t>(all[i].z_near) : without_pixels,
+    keys[i] = {has_pixels(all[i]) ? std::bit_cast<std::uint32_t>(all[i].z) : without_pixels,
                static_cast<std::uint32_t>(i)};
   });
   std::erase_if(keys, [](const DepthKey& key) { return key.depth == without_pixels; });

@@ -21,8 +21,8 @@ struct SplatPlanes {
   Plane depth, fragments;
 };
 
-/// Those that have pixels, in the order in which `splat_resolve` takes them: by z_near, equal ones
-/// as they were.
+/// Those that have pixels, in the order in which `splat_resolve` takes them: by z, equal ones as
+/// they were.
 Splats in_order(const Splats& splats);
 
 /// Tiles one after the other, row by row: how many splats meet each.

@@ -1,9 +1,9 @@
 // splat_resolve: splats, the nearest first -> pixels (Krivanek & Zara 2003, sections 6.3, 6.4).
 //
 // The paper keeps fragments in an A-buffer, merges those whose depth ranges overlap and composites
-// what is left from front to back. Splats come here in the order of where their ranges begin: one
-// that begins beyond all before it begins a surface, and every other belongs to the last. So one
-// surface at a time is all that a pixel keeps, whatever number of fragments it has.
+// what is left from front to back. Splats come here in the order of their centres' depths: one
+// whose range begins beyond those of all before it begins a surface, and every other belongs to the
+// last. So one surface at a time is all that a pixel keeps, whatever number of fragments it has.
 //
 // A surface's weights estimate how much of the pixel it covers; beyond 1 the nearest count, or, as
 // the paper has it (`averages`), all of them, divided by their sum. Of surfaces behind the first

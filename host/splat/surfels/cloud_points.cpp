@@ -9,9 +9,9 @@
 namespace defray {
 namespace {
 
-/// The nearest of a square grid's point, and their mean distance in sides of its squares.
-constexpr std::size_t close_count = 8;
-constexpr std::size_t beside_count = 3;  ///< Of them on one side.
+/// The nearest of a square grid's point, those on one side of it, and their mean distance in sides
+/// of its squares.
+constexpr std::size_t close_count = 8, beside_count = 3;
 constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
 
 /// A line's variance across, of that along it. Of a grid with rows so far apart that the twenty
@@ -67,24 +67,22 @@ EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point) {
   return found;
 }
 
-std::span<const std::uint32_t> closest(const CloudPoints& cloud, std::size_t point) {
-  const auto coarser = cloud.around.coarser(point), around = cloud.around.of(point);
-  return coarser.empty() ? around.first(std::min(close_count, around.size()))
-                         : coarser.first(std::min(beside_count, coarser.size()));
+std::vector<std::uint32_t> closest(const CloudPoints& cloud, std::size_t point) {
+  const auto coarser = cloud.around.coarser(point);
+  const std::size_t most = coarser.empty() ? close_count : beside_count;
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t i : coarser.empty() ? cloud.around.of(point) : coarser) {
+    if (cloud.places[i] != cloud.places[point]) found.push_back(i);
+    if (found.size() == most) break;
+  }
+  return found;
 }
 
 double spacing_of(const CloudPoints& cloud, std::size_t point) {
   double sum = 0;
-  std::size_t count = 0;
-  const auto coarser = cloud.around.coarser(point);
-  const std::size_t most = coarser.empty() ? close_count : beside_count;
-  for (const std::uint32_t i : coarser.empty() ? cloud.around.of(point) : coarser) {
-    const double distance = length(cloud.place(i) - cloud.place(point));
-    if (!(distance > 0)) continue;
-    sum += distance;
-    if (++count == most) break;
-  }
-  return count > 0 ? sum / static_cast<double>(count) / close_distance : 0;
+  const std::vector<std::uint32_t> others = closest(cloud, point);
+  for (const std::uint32_t i : others) sum += length(cloud.place(i) - cloud.place(point));
+  return others.empty() ? 0 : sum / static_cast<double>(others.size()) / close_distance;
 }
 
 }  // namespace defray

@@ -1,6 +1,7 @@
 #include "splat/surfels/neighbours.h"
 
 #include <algorithm>
+#include <compare>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -64,43 +65,49 @@ std::vector<Vec3> find_one_sided(const Places& places, const Neighbours& around)
   return sides;
 }
 
+/// One that has a point around it, which has others on the other side alone.
+struct Coarser {
+  std::uint32_t point;
+  float square;  ///< Of their distance.
+  std::uint32_t other;
+
+  auto operator<=>(const Coarser&) const = default;
+};
+
+/// All of them, each point's nearest first.
+std::vector<Coarser> find_coarser(const Places& places, const Neighbours& around) {
+  const std::vector<Vec3> sides = find_one_sided(places, around);
+  std::vector<Coarser> found;
+  for (std::uint32_t other = 0; other < places.all.size(); ++other) {
+    for (const std::uint32_t point : around.of(other)) {
+      const Vec3 d = places.from_to(point, other);
+      if (!(dot(d, sides[point]) < other_side * length(d) * length(sides[point]))) continue;
+      const auto known = around.of(point);
+      if (std::find(known.begin(), known.end(), other) != known.end()) continue;
+      found.push_back({point, static_cast<float>(dot(d, d)), other});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<std::array<float, 3>>& places, std::size_t most)
-    : count_(std::min(most, places.size() - 1)), all_(count_ * places.size()) {
+    : count_(std::min(most, places.size() - 1)),
+      all_(count_ * places.size()),
+      coarser_(places.size()) {
   const Places points{places};
   const Index index(3, points);
   parallel_for_each(places.size(), [&](std::size_t i) {
     find_nearest(index, points, static_cast<std::uint32_t>(i), {all_.data() + i * count_, count_});
   });
-  add_coarser(places);
-}
-
-void Neighbours::add_coarser(const std::vector<std::array<float, 3>>& places) {
-  const Places points{places};
-  const std::vector<Vec3> sides = find_one_sided(points, *this);
-  std::vector<std::pair<std::uint32_t, std::pair<float, std::uint32_t>>> found;
-  for (std::uint32_t other = 0; other < places.size(); ++other) {
-    for (const std::uint32_t i : of(other)) {
-      const Vec3 d = points.from_to(i, other);
-      if (!(dot(d, sides[i]) < other_side * length(d) * length(sides[i]))) continue;
-      const auto around = of(i);
-      if (std::find(around.begin(), around.end(), other) != around.end()) continue;
-      found.push_back({i, {static_cast<float>(dot(d, d)), other}});
-    }
-  }
-  if (found.empty()) return;
-  std::sort(found.begin(), found.end());
-  coarser_.resize(places.size());
-  for (auto at = found.begin(); at != found.end();) {
-    const std::uint32_t point = at->first;
-    const auto end = std::find_if(at, found.end(), [&](const auto& f) { return f.first != point; });
-    const std::size_t count = std::min<std::size_t>(end - at, count_ / 2);
-    coarser_[point] = static_cast<std::uint8_t>(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      all_[(point + 1) * count_ - count + k] = at[static_cast<std::ptrdiff_t>(k)].second.second;
-    }
-    at = end;
+  for (const Coarser& c : find_coarser(points, *this)) {
+    if (coarser_[c.point] == count_ / 2) continue;
+    const auto end = all_.begin() + static_cast<std::ptrdiff_t>((c.point + 1) * count_);
+    const auto first = end - coarser_[c.point]++;
+    std::copy(first, end, first - 1);
+    *(end - 1) = c.other;
   }
 }
 

@@ -23,12 +23,10 @@ class Neighbours {
 
   /// Those on the side where points lie farther apart.
   std::span<const std::uint32_t> coarser(std::size_t point) const {
-    return of(point).last(coarser_.empty() ? 0 : coarser_[point]);
+    return of(point).last(coarser_[point]);
   }
 
  private:
-  void add_coarser(const std::vector<std::array<float, 3>>& places);
-
   std::size_t count_;
   std::vector<std::uint32_t> all_;
   std::vector<std::uint8_t> coarser_;  ///< How many of a point's are.

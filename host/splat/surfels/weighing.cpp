@@ -31,6 +31,10 @@ constexpr Search of_areas{4, 0.5f, 0.3f, 1, false};
 /// solids and prisms is 0.81. Sums are more there than twice their aim, and 0.96 in the next row if
 /// that counts. (perf/notes/point_clouds.md.)
 constexpr Search of_cover{4, 0, 0.1f, 0.02f, true};
+/// So much a step may change areas by more than the square of what sums lack: by its sixth power
+/// gaps between random points close in 4 steps instead of 16; without a limit those at corners
+/// grow. Not along edges, which would grow, too.
+constexpr float most_eager = 1.5f;
 /// Where normals turn faster there is a ridge: 1 - their cosine at a distance of one spacing (14
 /// degrees), and times its square farther away. Balls of 300 points turn by 12.
 constexpr double ridge_turn = 0.03;
@@ -38,7 +42,7 @@ constexpr double ridge_turn = 0.03;
 constexpr double alone_from = 4;
 /// Basis functions end, lowered, where splat_project lets them by default. If they did not, beside
 /// ridges, where some are three times as high, tails that are not drawn would count.
-constexpr float cutoff = 2.5f;
+constexpr float default_cutoff = 2.5f;
 /// Planes that lie flatter than this to a line of sight (a cosine) are seen as if by it.
 constexpr float least_facing = 1e-3f;
 
@@ -69,7 +73,8 @@ struct Tangent {
 
 /// Finds areas with which the basis functions add up to 1 all over the surface, by the steps of
 /// Richardson and Lucy: each area times the mean, by its own basis function, of what sums lack; its
-/// square, which takes half as many steps. In floats, and in units of each point's own size.
+/// square, which takes half as many steps, or more (eager). In floats, and in units of each point's
+/// own size.
 class Weighing {
  public:
   explicit Weighing(const CloudPoints& cloud)
@@ -86,10 +91,7 @@ class Weighing {
   void step(const Search& search) {
     search_ = search;
     parallel_for_each(areas_.size(), [&](std::size_t i) { look(i); });
-    parallel_for_each(areas_.size(), [&](std::size_t i) {
-      const float f = factor(i);
-      areas_[i] *= f * f;
-    });
+    parallel_for_each(areas_.size(), [&](std::size_t i) { areas_[i] *= change(i); });
   }
 
   std::vector<double> areas() const {
@@ -147,7 +149,7 @@ class Weighing {
       const float square = own + far[k] * far[k] + u * du + v * dv;
       const float down = (above + u * nu + v * nv) * on;  // along the line, to the plane
       const float power = 0.5f * size * size * (square + down * (down - twice));
-      covered[k] = top_ * (falloff(power < cutoff ? power : cutoff) - lowered_);
+      covered[k] = top_ * (falloff(power < default_cutoff ? power : default_cutoff) - lowered_);
     }
     return covered;
   }
@@ -184,10 +186,16 @@ class Weighing {
     return sum / weights;
   }
 
+  float change(std::size_t point) const {
+    const float f = factor(point), twice = f * f;
+    if (!search_.by_faces || cloud_.points[point].covered < 1) return twice;
+    return std::max(twice, std::min(twice * twice * twice, most_eager));
+  }
+
   /// A basis function of area 1, in squares of its point's spacing: top_ (e^-power - lowered_).
-  const float lowered_ = falloff(cutoff);
-  const float top_ =
-      1 / (2 * static_cast<float>(M_PI * square(basis_deviation)) * (1 - lowered_ * (1 + cutoff)));
+  const float lowered_ = falloff(default_cutoff);
+  const float top_ = 1 / (2 * static_cast<float>(M_PI * square(basis_deviation)) *
+                          (1 - lowered_ * (1 + default_cutoff)));
 
   const CloudPoints& cloud_;
   Search search_{};

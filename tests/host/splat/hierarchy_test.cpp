@@ -176,17 +176,17 @@ TEST(Splats, AreInOrderOfDepthEqualOnesAsTheyWere) {
     std::vector<DefraySplat> splats(20000);
     std::mt19937 random(5);
     for (std::size_t i = 0; i < splats.size(); ++i) {
-      splats[i].z_near = octaves == 0
-                             ? 3
-                             : std::ldexp(1.0f + static_cast<float>(random() % 3000) / 3000,
-                                          static_cast<int>(random() % size(octaves)) - octaves / 2);
+      splats[i].z = octaves == 0
+                        ? 3
+                        : std::ldexp(1.0f + static_cast<float>(random() % 3000) / 3000,
+                                     static_cast<int>(random() % size(octaves)) - octaves / 2);
       splats[i].x = static_cast<float>(i);
       splats[i].end_x = splats[i].end_y = i % 5 == 0 ? 0 : 1;  // a fifth has no pixels
     }
     const Values<DefraySplat> sorted = in_order({splats, {}}).all;
     std::erase_if(splats, [](const DefraySplat& s) { return s.end_x == 0; });
     std::stable_sort(splats.begin(), splats.end(),
-                     [](const auto& a, const auto& b) { return a.z_near < b.z_near; });
+                     [](const auto& a, const auto& b) { return a.z < b.z; });
     ASSERT_EQ(sorted.size(), splats.size());
     for (std::size_t i = 0; i < splats.size(); ++i) ASSERT_EQ(sorted[i].x, splats[i].x) << i;
   }
