@@ -10,7 +10,7 @@ namespace defray {
 namespace {
 
 /// How often, and how far around a point others count, a Gaussian's deviation in spacings.
-constexpr int rounds = 2;
+constexpr int rounds = 3;
 constexpr double reach = 1.2;
 /// What lies this share of its distance above a surface is not of it.
 constexpr double far_above = 0.5;

@@ -1,4 +1,6 @@
 // Where faces of a cloud's surface end at others.
+#include "splat/surfels/ridges.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -121,13 +123,18 @@ TEST(Ridges, AreDoubtfulWhereFacesAreNoisy) {
     const float off = static_cast<float>(0.1 * step * (2 * random.next() - 1));
     for (std::size_t k = 0; k < 3; ++k) rough.positions[i][k] += off * rough.normals[i][k];
   }
-  const Surfels surfels = make_surfels(rough);
-  double least = 1;
-  for (const DefraySplatNode& n : surfels.points) {
-    if (n.ridges == 0) continue;
-    const Vec3 to = ridge(surfels, n, 0), at = Vec3{n.x, n.y, n.z} + to;
-    least = std::min(least, dot(at, normalized(to)) - 1.5);
+  Neighbours around(rough.positions, neighbour_count);
+  CloudPoints points{rough.positions, {}, std::move(around)};
+  for (const auto& [x, y, z] : rough.normals) {
+    points.points.push_back({.normal = {x, y, z}, .spacing = step});
   }
+  find_ridges(points);
+  double least = 1;
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    const Vec3& to = points.points[i].ridges[0];
+    if (length(to) > 0) least = std::min(least, dot(points.place(i) + to, normalized(to)) - 1.5);
+  }
+  EXPECT_LT(least, 1);
   EXPECT_GT(least, -0.05 * step);
 }
 
