@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <numbers>
-#include <opencv2/core.hpp>
 
-#include "base/plane.h"
+#include "splat/surfels/spread.h"
 
 namespace defray {
 namespace {
@@ -19,45 +18,14 @@ constexpr double close_distance = (4 + 4 * std::numbers::sqrt2) / 8;
 /// 0.0003; at 6, which leave no gaps, 0.1.
 constexpr double widest_line = 0.01;
 
-/// How places lie: along unit axes, the largest variance first.
-struct Spread {
-  Vec3 mean;
-  std::array<double, 3> variances;
-  std::array<Vec3, 3> axes;
-};
-
-/// Of those around a point, and its own.
-Spread spread_around(const CloudPoints& cloud, std::size_t point) {
-  const auto around = cloud.around.of(point);
-  Vec3 mean = cloud.place(point);
-  for (const std::uint32_t i : around) mean = mean + cloud.place(i);
-  mean = mean / static_cast<double>(around.size() + 1);
-  cv::Matx33d covariance = cv::Matx33d::zeros();
-  const auto add = [&](std::size_t i) {
-    const Vec3 d = cloud.place(i) - mean;
-    const cv::Vec3d v(d.x, d.y, d.z);
-    covariance += v * v.t();
-  };
-  add(point);
-  for (const std::uint32_t i : around) add(i);
-  cv::Vec3d values;
-  cv::Matx33d vectors;
-  cv::eigen(covariance, values, vectors);
-  Spread spread{.mean = mean, .variances = {}, .axes = {}};
-  for (int k = 0; k < 3; ++k) {
-    spread.variances[size(k)] = values[k];
-    spread.axes[size(k)] = {vectors(k, 0), vectors(k, 1), vectors(k, 2)};
-  }
-  return spread;
-}
-
 }  // namespace
 
 EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point) {
-  const Spread spread = spread_around(cloud, point);
+  std::vector<Vec3> places{cloud.place(point)};
+  for (const std::uint32_t i : cloud.around.of(point)) places.push_back(cloud.place(i));
+  const Spread spread = spread_of(places);
   const auto [most, middle, least] = spread.variances;
-  const double all = most + middle + least;
-  EstimatedSurface found{spread.mean, spread.axes[2], all > 0 ? least / all : 0,
+  EstimatedSurface found{spread.mean, spread.axes[2], spread.thickness(),
                          middle < widest_line * most};
   if (middle > 1e-12 * most) return found;
   // Along a line, or alone: any direction across will do.
@@ -68,10 +36,9 @@ EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point) {
 }
 
 std::vector<std::uint32_t> closest(const CloudPoints& cloud, std::size_t point) {
-  const auto coarser = cloud.around.coarser(point);
-  const std::size_t most = coarser.empty() ? close_count : beside_count;
+  const std::size_t most = cloud.around.coarser(point).empty() ? close_count : beside_count;
   std::vector<std::uint32_t> found;
-  for (const std::uint32_t i : coarser.empty() ? cloud.around.of(point) : coarser) {
+  for (const std::uint32_t i : cloud.around.alike(point)) {
     if (cloud.places[i] != cloud.places[point]) found.push_back(i);
     if (found.size() == most) break;
   }

@@ -30,7 +30,7 @@ void limit_to_others(double of_all, std::vector<std::uint8_t>& has_size, CloudPo
   std::vector<std::uint8_t> may_be_stray(count);
   parallel_for_each(count, [&](std::size_t i) {
     std::vector<double> others;
-    for (const std::uint32_t k : closest(cloud, i)) others.push_back(cloud.points[k].spacing);
+    for (const std::uint32_t k : cloud.around.alike(i)) others.push_back(cloud.points[k].spacing);
     if (!others.empty()) of_others[i] = median(others);
     may_be_stray[i] =
         !has_size[i] && !others.empty() &&

@@ -9,9 +9,7 @@
 namespace defray {
 
 /// The points around each point of a cloud, the nearest first; those at equal distance in the order
-/// of their indices. Where all of them lie on one side, as where points begin to lie closer, those
-/// on the other side that have the point around them take the places of up to half of them: the
-/// last.
+/// of their indices.
 class Neighbours {
  public:
   /// As many as there are, `most` at most.
@@ -21,9 +19,18 @@ class Neighbours {
     return {all_.data() + point * count_, count_};
   }
 
-  /// Those on the side where points lie farther apart.
+  /// Puts others in the places of the last, as coarser ones (add_coarser).
+  void put_coarser(std::size_t point, std::span<const std::uint32_t> coarser);
+
+  /// Of those around a point the ones where points lie farther apart, if it lies beside such: the
+  /// last, the nearest of them first.
   std::span<const std::uint32_t> coarser(std::size_t point) const {
     return of(point).last(coarser_[point]);
+  }
+
+  /// Those that lie as far apart as the point from others.
+  std::span<const std::uint32_t> alike(std::size_t point) const {
+    return coarser_[point] > 0 ? coarser(point) : of(point);
   }
 
  private:

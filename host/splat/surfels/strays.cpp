@@ -22,8 +22,7 @@ constexpr double farthest_above = 3, least_away = 0.1;
 
 bool is_stray(const CloudPoints& cloud, const std::vector<EstimatedSurface>& surfaces,
               std::size_t point) {
-  const auto coarser = cloud.around.coarser(point);
-  const auto around = coarser.empty() ? cloud.around.of(point) : coarser;
+  const auto around = cloud.around.alike(point);
   std::vector<double> thicknesses;
   std::size_t away = 0;
   for (const std::uint32_t other : around) {

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "splat/surfels/cells.h"
 #include "splat/surfels/cloud_points.h"
+#include "splat/surfels/coarser.h"
 #include "splat/surfels/estimates.h"
 #include "splat/surfels/placed_points.h"
 #include "splat/surfels/ridges.h"
@@ -102,6 +103,7 @@ Surfels make_surfels(const PointCloud& cloud, const Progress& progress) {
   std::vector<std::array<float, 3>> places;
   for (const std::uint32_t i : kept) places.push_back(cloud.positions[i]);
   Neighbours around(places, neighbour_count);
+  add_coarser(places, around);
   CloudPoints known{std::move(places), std::vector<CloudPoint>(kept.size()), std::move(around)};
   const std::vector<std::uint8_t> has_radius = set_spacings(cloud, kept, known, out.notes);
   out.has_normals = set_normals(cloud, kept, known, out.notes);

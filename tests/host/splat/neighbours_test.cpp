@@ -1,9 +1,9 @@
 // The points around points.
-#include "splat/surfels/neighbours.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "splat/surfels/coarser.h"
 
 namespace defray::test::neighbours_test {
 namespace {
@@ -28,7 +28,8 @@ Places halves(int finer) {
 
 TEST(Neighbours, AreTheNearestInOrder) {
   const Places places = halves(1);
-  const Neighbours around(places, most);
+  Neighbours around(places, most);
+  add_coarser(places, around);
   const auto square = [&](std::size_t a, std::size_t b) {
     const float x = places[a][0] - places[b][0], y = places[a][1] - places[b][1];
     return x * x + y * y;
@@ -49,7 +50,8 @@ TEST(Neighbours, AreTheNearestInOrder) {
 /// The last row before finer ones has these alone nearest to it.
 TEST(Neighbours, OfTheLastRowBeforeFinerPointsAreTheCoarserOnesToo) {
   const Places places = halves(8);
-  const Neighbours around(places, most);
+  Neighbours around(places, most);
+  add_coarser(places, around);
   for (std::uint32_t i = 0; i < places.size(); ++i) {
     const auto coarser = around.coarser(i);
     if (places[i][0] != 4.5f) {
