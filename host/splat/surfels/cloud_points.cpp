@@ -35,21 +35,17 @@ EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point) {
   return found;
 }
 
-std::vector<std::uint32_t> closest(const CloudPoints& cloud, std::size_t point) {
-  const std::size_t most = cloud.around.coarser(point).empty() ? close_count : beside_count;
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t i : cloud.around.alike(point)) {
-    if (cloud.places[i] != cloud.places[point]) found.push_back(i);
-    if (found.size() == most) break;
-  }
-  return found;
-}
-
 double spacing_of(const CloudPoints& cloud, std::size_t point) {
+  const std::size_t most = cloud.around.coarser(point).empty() ? close_count : beside_count;
   double sum = 0;
-  const std::vector<std::uint32_t> others = closest(cloud, point);
-  for (const std::uint32_t i : others) sum += length(cloud.place(i) - cloud.place(point));
-  return others.empty() ? 0 : sum / static_cast<double>(others.size()) / close_distance;
+  std::size_t count = 0;
+  for (const std::uint32_t i : cloud.around.alike(point)) {
+    const double distance = length(cloud.place(i) - cloud.place(point));
+    if (!(distance > 0)) continue;
+    sum += distance;
+    if (++count == most) break;
+  }
+  return count > 0 ? sum / static_cast<double>(count) / close_distance : 0;
 }
 
 }  // namespace defray

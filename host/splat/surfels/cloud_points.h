@@ -70,11 +70,9 @@ struct EstimatedSurface {
 };
 EstimatedSurface estimate_surface(const CloudPoints& cloud, std::size_t point);
 
-/// The closest points that are not in the same place, where points are nearer to each other on one
-/// side those on the other.
-std::vector<std::uint32_t> closest(const CloudPoints& cloud, std::size_t point);
-
-/// Their mean distance, in sides of a square grid's squares; 0 if all are in one place.
+/// Mean distance of the closest points that are not in the same place, where points are nearer to
+/// each other on one side those on the other, in sides of a square grid's squares; 0 if all are in
+/// one place.
 double spacing_of(const CloudPoints& cloud, std::size_t point);
 
 /// What a point stands for.

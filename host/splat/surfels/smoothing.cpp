@@ -17,29 +17,36 @@ constexpr double far_above = 0.5;
 
 constexpr double square(double x) { return x * x; }
 
-/// How much a neighbour says of a point: `d` from the one to the other.
-double likeness(const CloudPoints& cloud, std::size_t point, std::size_t other, const Vec3& d) {
+/// What a neighbour says of a point.
+struct Saying {
+  Vec3 d;            ///< From the point to it.
+  double above = 0;  ///< How far it is above a surface through both that curves evenly.
+  double weight = 0;
+};
+
+Saying saying(const CloudPoints& cloud, std::size_t point, std::size_t other) {
   const CloudPoint &own = cloud.points[point], &there = cloud.points[other];
+  Saying s{.d = cloud.place(other) - cloud.place(point)};
+  const double square_distance = dot(s.d, s.d);
   const double same = (dot(own.normal, there.normal) - ridge_cosine) / (1 - ridge_cosine);
-  if (!(same > 0) || !(dot(d, d) > 0)) return 0;
-  return same * std::exp(-0.5 * dot(d, d) / square(reach * own.spacing));
+  if (!(same > 0) || !(square_distance > 0)) return s;
+  // On a circle through two points with their normals the mean of those is square to what is
+  // between them.
+  s.above = dot(s.d, normalized(own.normal + there.normal));
+  const double apart = square(s.above / far_above) / square_distance;
+  if (!(apart < 1)) return s;
+  const double near = std::exp(-0.5 * square_distance / square(reach * own.spacing));
+  s.weight = same * near * square(1 - apart);
+  return s;
 }
 
-/// Where along a point's normal those around have the surface: on a circle through two points with
-/// their normals the mean of those is square to what is between them.
+/// Where along a point's normal those around have the surface.
 Vec3 place_of_others(const CloudPoints& cloud, std::size_t point) {
   double weights = 1, sum = 0;
   for (const std::uint32_t other : cloud.around.of(point)) {
-    const Vec3 d = cloud.place(other) - cloud.place(point);
-    const double like = likeness(cloud, point, other, d);
-    if (!(like > 0)) continue;
-    const double above =
-        dot(d, normalized(cloud.points[point].normal + cloud.points[other].normal));
-    const double apart = square(above / far_above) / dot(d, d);
-    if (!(apart < 1)) continue;
-    const double weight = like * square(1 - apart);
-    weights += weight;
-    sum += weight * above;
+    const Saying s = saying(cloud, point, other);
+    weights += s.weight;
+    sum += s.weight * s.above;
   }
   return cloud.place(point) + cloud.points[point].normal * (sum / weights);
 }
@@ -48,11 +55,10 @@ Vec3 place_of_others(const CloudPoints& cloud, std::size_t point) {
 Vec3 mean_normal(const CloudPoints& cloud, std::size_t point) {
   Vec3 sum = cloud.points[point].normal;
   for (const std::uint32_t other : cloud.around.of(point)) {
-    const Vec3 d = cloud.place(other) - cloud.place(point);
-    const double like = likeness(cloud, point, other, d);
-    if (!(like > 0)) continue;
+    const Saying s = saying(cloud, point, other);
+    if (!(s.weight > 0)) continue;
     const Vec3& normal = cloud.points[other].normal;
-    sum = sum + (normal - d * (2 * dot(normal, d) / dot(d, d))) * like;
+    sum = sum + (normal - s.d * (2 * dot(normal, s.d) / dot(s.d, s.d))) * s.weight;
   }
   return normalized(sum);
 }

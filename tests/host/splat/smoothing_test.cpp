@@ -122,5 +122,15 @@ TEST(Smoothing, FacesAndSheetsKeepTheirPlaces) {
   EXPECT_LT(change_by_smoothing(sheet(0, 0, steps)).moved, 0.15);
 }
 
+/// What lies above a surface keeps its normal: reflected by what is below it would turn over.
+TEST(Smoothing, StraysKeepTheirNormals) {
+  std::vector<Vec3> places{{0.3, 0.4, 2}}, normals(101, {0, 0, 1});
+  for (int i = 0; i < 100; ++i) places.push_back({i % 10 - 4.5, i / 10 - 4.5, 0});
+  CloudPoints cloud = known(places, normals);
+  cloud.points[0].spacing = 2;
+  smooth(cloud);
+  EXPECT_NEAR(cloud.points[0].normal.z, 1, 1e-3);
+}
+
 }  // namespace
 }  // namespace defray::test::smoothing_test

@@ -163,7 +163,9 @@ std::pair<float, double> least_and_holes(const PointCloud& cloud, double apertur
   lens.focus_distance_units = 2.7;
   SplatSettings settings;
   settings.width = settings.height = 300;
-  const Plane alpha = draw(tree_of(cloud), splat_params(pose, {}, lens, settings)).colour[3];
+  DefraySplatParams p = splat_params(pose, {}, lens, settings);
+  p.one_sided = 1;
+  const Plane alpha = draw(tree_of(cloud), p).colour[3];
   const float least = range_inside(alpha, 300, 50).first;
   double holes = 0;
   for (int y = 90; y < 210; ++y) {
