@@ -12,31 +12,32 @@ namespace {
 /// How often, and how far around a point others count, a Gaussian's deviation in spacings.
 constexpr int rounds = 3;
 constexpr double reach = 1.2;
-/// What lies this share of its distance above a surface is not of it.
-constexpr double far_above = 0.5;
+/// What lies this share of its distance above a surface is not of it, and a point that stands for
+/// as much more as this than one around it does not lie on that one's: strays.
+constexpr double far_above = 0.5, much_larger = 1.5;
 
 constexpr double square(double x) { return x * x; }
 
 /// What a neighbour says of a point.
 struct Saying {
-  Vec3 d;            ///< From the point to it.
-  double above = 0;  ///< How far it is above a surface through both that curves evenly.
-  double weight = 0;
+  Vec3 d;               ///< From the point to it.
+  double above = 0;     ///< How far it is above a surface through both that curves evenly,
+  double height = 0;    ///< and as a share of what is too far, squared.
+  double likeness = 0;  ///< Of the two normals, and how near it is: 0 to 1.
 };
 
 Saying saying(const CloudPoints& cloud, std::size_t point, std::size_t other) {
   const CloudPoint &own = cloud.points[point], &there = cloud.points[other];
   Saying s{.d = cloud.place(other) - cloud.place(point)};
-  const double square_distance = dot(s.d, s.d);
   const double same = (dot(own.normal, there.normal) - ridge_cosine) / (1 - ridge_cosine);
-  if (!(same > 0) || !(square_distance > 0)) return s;
+  const bool is_alike = same > 0 && own.spacing < much_larger * there.spacing;
+  if (!is_alike || !(dot(s.d, s.d) > 0)) return s;
   // On a circle through two points with their normals the mean of those is square to what is
   // between them.
   s.above = dot(s.d, normalized(own.normal + there.normal));
-  const double apart = square(s.above / far_above) / square_distance;
-  if (!(apart < 1)) return s;
-  const double near = std::exp(-0.5 * square_distance / square(reach * own.spacing));
-  s.weight = same * near * square(1 - apart);
+  s.height = square(s.above / far_above) / dot(s.d, s.d);
+  if (s.height < 1)
+    s.likeness = same * std::exp(-0.5 * dot(s.d, s.d) / square(reach * own.spacing));
   return s;
 }
 
@@ -45,8 +46,9 @@ Vec3 place_of_others(const CloudPoints& cloud, std::size_t point) {
   double weights = 1, sum = 0;
   for (const std::uint32_t other : cloud.around.of(point)) {
     const Saying s = saying(cloud, point, other);
-    weights += s.weight;
-    sum += s.weight * s.above;
+    const double weight = s.likeness * square(1 - s.height);
+    weights += weight;
+    sum += weight * s.above;
   }
   return cloud.place(point) + cloud.points[point].normal * (sum / weights);
 }
@@ -56,9 +58,9 @@ Vec3 mean_normal(const CloudPoints& cloud, std::size_t point) {
   Vec3 sum = cloud.points[point].normal;
   for (const std::uint32_t other : cloud.around.of(point)) {
     const Saying s = saying(cloud, point, other);
-    if (!(s.weight > 0)) continue;
+    if (!(s.likeness > 0)) continue;
     const Vec3& normal = cloud.points[other].normal;
-    sum = sum + (normal - s.d * (2 * dot(normal, s.d) / dot(s.d, s.d))) * s.weight;
+    sum = sum + (normal - s.d * (2 * dot(normal, s.d) / dot(s.d, s.d))) * s.likeness;
   }
   return normalized(sum);
 }
