@@ -63,6 +63,26 @@ TEST(Estimates, ManyStraysAreSmallAndCoarseBodiesWhole) {
   EXPECT_NEAR(box, 6 * 1.96 * 1.96, 0.1 * 6 * 1.96 * 1.96);
 }
 
+/// They are coarser than a body, whose edges have its other points on one side.
+TEST(Estimates, StraysDoNotMakeABodysEdgesCoarse) {
+  PointCloud cloud;
+  constexpr int count = 20000;
+  for (int i = 0; i < count + 100; ++i) {
+    Random random(i, 0, 12);
+    const auto next = [&](double half) {
+      return static_cast<float>(half * (2 * random.next() - 1));
+    };
+    const float half = i < count ? 0.7f : 2;
+    cloud.positions.push_back({next(half), next(half), next(half)});
+    if (i < count) cloud.positions.back()[size(i % 3)] = i % 2 == 0 ? -half : half;
+  }
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    const float far = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+    if (far < 0.72f)
+      EXPECT_LT(std::sqrt(n.variance), 0.8 * 0.08) << n.x << " " << n.y << " " << n.z;
+  }
+}
+
 TEST(Estimates, NotesLinesTooFarApart) {
   const auto notes = [](int apart) {
     PointCloud cloud;

@@ -123,13 +123,17 @@ TEST(Smoothing, FacesAndSheetsKeepTheirPlaces) {
 }
 
 /// What lies above a surface keeps its normal: reflected by what is below it would turn over.
-TEST(Smoothing, StraysKeepTheirNormals) {
-  std::vector<Vec3> places{{0.3, 0.4, 2}}, normals(101, {0, 0, 1});
-  for (int i = 0; i < 100; ++i) places.push_back({i % 10 - 4.5, i / 10 - 4.5, 0});
-  CloudPoints cloud = known(places, normals);
-  cloud.points[0].spacing = 2;
-  smooth(cloud);
-  EXPECT_NEAR(cloud.points[0].normal.z, 1, 1e-3);
+TEST(Smoothing, StraysStayWhatTheyAre) {
+  for (const double height : {0.5, 2.0}) {
+    std::vector<Vec3> places{{0.3, 0.4, height}}, normals(101, {0, 0, 1});
+    normals[0] = normalized({0.2, 0, 1});
+    for (int i = 0; i < 100; ++i) places.push_back({i % 10 - 4.5, i / 10 - 4.5, 0});
+    CloudPoints cloud = known(places, normals);
+    cloud.points[0].spacing = 2;
+    smooth(cloud);
+    EXPECT_NEAR(cloud.places[0][2], height, 1e-6);
+    EXPECT_NEAR(dot(cloud.points[0].normal, normals[0]), 1, 1e-6) << height;
+  }
 }
 
 }  // namespace
