@@ -36,8 +36,8 @@ Saying saying(const CloudPoints& cloud, std::size_t point, std::size_t other) {
   // between them.
   s.above = dot(s.d, normalized(own.normal + there.normal));
   s.height = square(s.above / far_above) / dot(s.d, s.d);
-  if (s.height < 1)
-    s.likeness = same * std::exp(-0.5 * dot(s.d, s.d) / square(reach * own.spacing));
+  if (s.height >= 1) return s;
+  s.likeness = same * std::exp(-0.5 * dot(s.d, s.d) / square(reach * own.spacing));
   return s;
 }
 
