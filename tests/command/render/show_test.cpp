@@ -54,7 +54,7 @@ std::vector<Plane> levels_of(const ImageFile& file) {
   std::vector<Plane> levels;
   for (const int channel : {0, 1, 2}) {
     Plane& plane = levels.emplace_back(file.plane(0, channel));
-    for (float& value : plane) value = std::round(static_cast<float>(255 * shown_value(value)));
+    for (float& value : plane) value = static_cast<float>(std::round(255 * shown_value(value)));
   }
   return levels;
 }
