@@ -22,8 +22,10 @@ constexpr double other_side = -0.3;
 /// farther away than this times how far those reach.
 constexpr double coarser_reach = 1.25, most_distance = 3;
 /// So many are a surface, and not strays, if they lie in one with the point and the closest of each
-/// of most of them do: this share of the places' variance across it, or less.
-constexpr std::size_t least_count = 3, closest_count = 8;
+/// of most of them do, this share of the places' variance across it, or less, and if most of them
+/// are known: so many points have them among those around. Surfaces' are by 9 to 19, strays by 0
+/// to 8.
+constexpr std::size_t least_count = 3, closest_count = 8, least_known = 9;
 constexpr double thickest = 0.03;
 
 using AllPlaces = std::vector<std::array<float, 3>>;
@@ -89,28 +91,42 @@ double thickness_around(const AllPlaces& places, std::size_t point,
   return spread_of(all).thickness();
 }
 
-bool are_surface(const AllPlaces& places, const Neighbours& around, std::uint32_t point,
+/// How many points have each among those around them.
+std::vector<std::size_t> count_known(const Neighbours& around, std::size_t count) {
+  std::vector<std::size_t> known(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::uint32_t other : around.of(i)) ++known[other];
+  }
+  return known;
+}
+
+bool are_surface(const AllPlaces& places, const Neighbours& around,
+                 const std::vector<std::size_t>& known, std::uint32_t point,
                  const std::vector<std::uint32_t>& coarser) {
   if (coarser.size() < least_count) return false;
   std::vector<double> thicknesses;
+  std::size_t well_known = 0;
   for (const std::uint32_t other : coarser) {
+    well_known += known[other] >= least_known;
     const auto all = around.of(other);
     thicknesses.push_back(
         thickness_around(places, other, all.first(std::min(closest_count, all.size()))));
   }
-  return thickness_around(places, point, coarser) <= thickest && median(thicknesses) <= thickest;
+  return 2 * well_known > coarser.size() && thickness_around(places, point, coarser) <= thickest &&
+         median(thicknesses) <= thickest;
 }
 
 }  // namespace
 
 void add_coarser(const AllPlaces& places, Neighbours& around) {
   const std::vector<Coarser> found = find_coarser(places, around);
+  const std::vector<std::size_t> known = count_known(around, places.size());
   for (auto at = found.begin(); at != found.end();) {
     const std::uint32_t point = at->point;
     std::vector<std::uint32_t> coarser;
     for (; at != found.end() && at->point == point; ++at) coarser.push_back(at->other);
     coarser.resize(std::min(coarser.size(), around.of(point).size() / 2));
-    if (are_surface(places, around, point, coarser)) around.put_coarser(point, coarser);
+    if (are_surface(places, around, known, point, coarser)) around.put_coarser(point, coarser);
   }
 }
 

@@ -19,20 +19,24 @@ constexpr double thickest_around = 0.1, thickest_sum = 0.18;
 /// Where more than this share of the points around have it so many of their spacings above the
 /// surface that they lie in, a point is not of that surface.
 constexpr double farthest_above = 3, least_away = 0.1;
+/// Likewise where most have it this much above.
+constexpr double most_above = 1;
 
 bool is_stray(const CloudPoints& cloud, const std::vector<EstimatedSurface>& surfaces,
               std::size_t point) {
   const auto around = cloud.around.alike(point);
-  std::vector<double> thicknesses;
+  std::vector<double> thicknesses, heights;
   std::size_t away = 0;
   for (const std::uint32_t other : around) {
     const EstimatedSurface& there = surfaces[other];
     const double above = std::abs(dot(cloud.place(point) - there.middle, there.normal));
-    away += above > farthest_above * cloud.points[other].spacing;
+    heights.push_back(above / cloud.points[other].spacing);
+    away += heights.back() > farthest_above;
     thicknesses.push_back(there.thickness);
   }
   const double of_others = median(thicknesses);
-  return of_others > thickest_around || of_others + surfaces[point].thickness > thickest_sum ||
+  return median(heights) > most_above || of_others > thickest_around ||
+         of_others + surfaces[point].thickness > thickest_sum ||
          static_cast<double>(away) > least_away * static_cast<double>(around.size());
 }
 

@@ -86,6 +86,56 @@ TEST(Estimates, StraysDoNotMakeABodysEdgesCoarse) {
   EXPECT_LT(strays, 1.3);  // as wide as they lie apart: 90; the body is 11.8
 }
 
+/// A ball of 20 000 points around the origin.
+PointCloud fine_ball(double radius) {
+  PointCloud cloud;
+  for (int i = 0; i < 20000; ++i) {
+    Random random(i, 0, 14);
+    const double y = 2 * random.next() - 1, turn = 2 * M_PI * random.next(),
+                 r = radius * std::sqrt(1 - y * y);
+    cloud.positions.push_back({static_cast<float>(r * std::cos(turn)),
+                               static_cast<float>(radius * y),
+                               static_cast<float>(r * std::sin(turn))});
+  }
+  return cloud;
+}
+
+/// One to three of a floor's spacings above it: closer to it than its points to each other's
+/// neighbours, and as coarse.
+TEST(Estimates, StraysAboveACoarseFloorAreNotOfIt) {
+  PointCloud cloud = fine_ball(0.4);
+  constexpr int row = 40;
+  for (int i = 0; i < row * row; ++i) {
+    cloud.positions.push_back(
+        {0.1f * static_cast<float>(i % row - 20), -0.7f, 0.1f * static_cast<float>(i / row - 20)});
+  }
+  for (int i = 0; i < 60; ++i) {
+    Random random(i, 0, 15);
+    const double x = 3.6 * random.next() - 1.8, height = 0.12 + 0.17 * random.next();
+    cloud.positions.push_back({static_cast<float>(x), static_cast<float>(height - 0.7),
+                               static_cast<float>(0.8 + random.next())});
+  }
+  double strays = 0, floor = 0;
+  for (const DefraySplatNode& n : make_surfels(cloud).points) {
+    if (n.y < -0.69f && n.y > -0.71f) floor += area_of(n);
+    if (n.y > -0.6f && n.z > 0.7f) strays += area_of(n);
+  }
+  EXPECT_NEAR(floor, 16, 0.8);
+  EXPECT_LT(strays, 0.1);  // as wide as the floor's points: 0.6
+}
+
+/// A stray that has others behind it does not lie where a body ends and a coarser one begins.
+TEST(Estimates, StraysBehindAStrayAreNoCoarserBody) {
+  PointCloud cloud = fine_ball(1);
+  for (const auto& [x, y] :
+       {std::array{1.25f, 0.0f}, {1.65f, 0.0f}, {1.65f, 0.2f}, {1.6f, -0.4f}}) {
+    cloud.positions.push_back({x, y, 0});
+  }
+  const std::vector<std::string> notes = make_surfels(cloud).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].find("4 points lie apart"), 0u) << notes[0];
+}
+
 TEST(Estimates, NotesLinesTooFarApart) {
   const auto notes = [](int apart) {
     PointCloud cloud;
