@@ -119,7 +119,7 @@ OptionGroup splat_rows(SplatCommand& job) {
         "Surfaces that a pixel is made of at most, the nearest (the depth of its A-buffer); 0: "
         "all. A note says what it leaves out"},
        {"--two-sided", flag(s.two_sided),
-        "Surfaces are seen from behind, too (always where normals are estimated)"},
+        "Surfaces are seen from behind, too (always where they are open and have no normals)"},
        {"--transparency", value(s.transparency), "What all points let through, 0 to below 1"}}};
 }
 

@@ -1,10 +1,9 @@
 // Reading a file, and what is refused before anything is allocated for it.
-#include <unistd.h>
-
 #include <filesystem>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/memory.h"
 #include "base/window.h"
 #include "image/file_format.h"
 #include "image/image_file_part.h"
@@ -18,11 +17,6 @@ using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
 constexpr int max_channels = 4096;
-
-std::uint64_t physical_memory() {
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-}
 
 /// Sizes come from the header, before anything is allocated: OpenImageIO does not limit EXR.
 void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t bytes_before) {
@@ -40,9 +34,9 @@ void check_size(const std::string& path, const ImageSpec& spec, std::uint64_t by
          spec.full_height);
   }
   const std::uint64_t bytes = bytes_before + spec.image_bytes(true);
-  if (bytes > physical_memory()) {
-    fail(ErrorKind::input, "{}: its pixels take {} MiB; this machine has {} MiB of memory", path,
-         bytes >> 20, physical_memory() >> 20);
+  if (const std::uint64_t memory = usable_memory(); bytes > memory) {
+    fail(ErrorKind::input, "{}: its pixels take {} MiB; there are {} MiB of memory", path,
+         bytes >> 20, memory >> 20);
   }
 }
 

@@ -91,6 +91,25 @@ DefraySplatParams view_from(DefraySplatParams p, double u, double v) {
   return p;
 }
 
+/// Adds what is seen of surfaces that are in different places.
+void add_nearest_first(const std::vector<SplatPlanes>& surfaces,
+                       std::vector<std::vector<double>>& sums) {
+  std::vector<const SplatPlanes*> order;
+  for (const SplatPlanes& surface : surfaces) order.push_back(&surface);
+  for (std::size_t k = 0; k < sums[0].size(); ++k) {
+    std::sort(order.begin(), order.end(), [&](const SplatPlanes* a, const SplatPlanes* b) {
+      return std::pair(a->depth[k], a) < std::pair(b->depth[k], b);
+    });
+    double left = 1;
+    for (const SplatPlanes* surface : order) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        sums[c][k] += left * static_cast<double>(surface->colour[c][k]);
+      }
+      left *= 1 - static_cast<double>(surface->colour[3][k]);
+    }
+  }
+}
+
 }  // namespace
 
 SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySplatParams& params,
@@ -119,7 +138,7 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
   return planes;
 }
 
-std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& layers,
+std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& surfaces,
                                  const DefraySplatParams& params, int views,
                                  const Progress& progress) {
   std::vector<std::vector<double>> sums(
@@ -129,17 +148,12 @@ std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hiera
     const double radius = std::sqrt((i + 0.5) / views), angle = golden * i;
     const DefraySplatParams view =
         view_from(params, radius * std::cos(angle), radius * std::sin(angle));
-    std::vector<double> left(sums[0].size(), 1);  // of each pixel, for the layers to come
-    for (const Hierarchy* layer : layers) {
+    std::vector<SplatPlanes> drawn;
+    for (const Hierarchy* surface : surfaces) {
       SplatReport ignored;
-      const SplatPlanes planes = draw_splats(backend, *layer, view, true, 0, ignored);
-      for (std::size_t k = 0; k < left.size(); ++k) {
-        for (std::size_t c = 0; c < 4; ++c) {
-          sums[c][k] += left[k] * static_cast<double>(planes.colour[c][k]);
-        }
-        left[k] *= 1 - static_cast<double>(planes.colour[3][k]);
-      }
+      drawn.push_back(draw_splats(backend, *surface, view, true, 0, ignored));
     }
+    add_nearest_first(drawn, sums);
     if (progress) progress(static_cast<double>(i + 1) / views);
   }
   std::vector<Plane> mean;

@@ -15,9 +15,10 @@ SplatPlanes draw_splats(Backend& backend, const Hierarchy& tree, const DefraySpl
                         const Progress& progress = {});
 
 /// What the paper compares with: the mean of sharp pictures from points all over the lens, each of
-/// which shows the plane of focus in the same place (its figure 6 has 200). Of layers each is drawn
-/// by itself, over those after it. R G B A.
-std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& layers,
+/// which shows the plane of focus in the same place (its figure 6 has 200). Of surfaces each is
+/// drawn by itself, and in each pixel the nearer is over the farther: no splats of two surfaces
+/// merge. R G B A.
+std::vector<Plane> mean_of_views(Backend& backend, const std::vector<const Hierarchy*>& surfaces,
                                  const DefraySplatParams& params, int views,
                                  const Progress& progress = {});
 

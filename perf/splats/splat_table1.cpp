@@ -29,7 +29,7 @@ const std::vector<PaperRow>& rows() {
 
 /// All that is drawn through one aperture.
 struct Pictures {
-  SplatRun lod, points, gaussians, averaged;
+  SplatRun lod, points, gaussians;
   std::vector<Plane> truth, multisampled;
   double truth_s = 0;
 };
@@ -52,9 +52,8 @@ Pictures draw(const Bench& bench, const SplatShot& shot, double aperture_mm) {
   const auto view = [&](const SplatSettings& settings) {
     return splat_view(shot, bench.size(512), bench.size(512), aperture_mm, settings);
   };
-  SplatSettings gaussians, averaged;
+  SplatSettings gaussians;
   gaussians.psf = SplatPsf::gaussian;
-  averaged.merge = SplatMerge::average;
   Pictures p;
   p.truth_s = seconds_of(
       [&] { p.truth = mean_of_views(bench.backend, {&shot.tree}, view({}), views(bench)); });
@@ -66,7 +65,6 @@ Pictures draw(const Bench& bench, const SplatShot& shot, double aperture_mm) {
   p.lod = run_splats(bench, shot, view({}), true);
   p.points = run_splats(bench, shot, view({}), false);
   p.gaussians = run_splats(bench, shot, view(gaussians), true);
-  p.averaged = run_splats(bench, shot, view(averaged), true);
   return p;
 }
 
@@ -81,9 +79,8 @@ void add_row(const Bench& bench, const SplatShot& shot, double aperture_mm, cons
   };
   table.rows.push_back({shot.name, fixed(aperture_mm, 0), to_text(p.lod.timing), count(p.lod),
                         to_text(p.points.timing), count(p.points), fixed(p.truth_s, 1) + " s",
-                        psnr(p.lod), psnr(p.points), psnr(p.averaged),
-                        psnr_to(p.multisampled, p.lod), to_text(p.gaussians.timing),
-                        psnr(p.gaussians)});
+                        psnr(p.lod), psnr(p.points), psnr_to(p.multisampled, p.lod),
+                        to_text(p.gaussians.timing), psnr(p.gaussians)});
 }
 
 /// What the largest aperture comes to, each beside the paper's.
@@ -145,7 +142,7 @@ Section splat_table1(const Bench& bench) {
               fmt::format("{0}x{0}, c = 2.5; PSNR against {1} views, dB, sRGB-encoded",
                           bench.size(512), views(bench)),
               {"model", "aperture, mm", "time", "fragments, splats", "LOD off", "fragments, splats",
-               "200 views", "PSNR", "LOD off", "averaged", "to 2×2 samples", "Gaussians", "PSNR"},
+               "200 views", "PSNR", "LOD off", "to 2×2 samples", "Gaussians", "PSNR"},
               {}};
   Table largest = ratios(bench);
   for (const PaperRow& row : rows()) {

@@ -88,7 +88,10 @@ struct SplatResult {
 /// A cloud made ready: normals, radii, weights and the hierarchy.
 class DEFRAY_API SplatModel {
  public:
-  /// Throws Error(input) for an empty cloud, values that are not finite, radii and normals of 0.
+  /// Points without a finite place are left out; normals that are 0 or not finite, and radii that
+  /// are not above 0, are estimated; each with a note. Throws Error(input) for a cloud without
+  /// points, colours that are not finite, alpha outside 0 to 1, places and radii beyond 10^15
+  /// units; Error(usage) for lists of different lengths.
   explicit SplatModel(const PointCloud& cloud, const Progress& progress = {});
 
   /// Of a file (read_point_cloud). With `has_cache` it is read from, or written to, a cache beside

@@ -1,12 +1,11 @@
 #include "splat/clouds/cloud_columns.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/srgb.h"
 #include "base/text.h"
 
@@ -49,8 +48,7 @@ double middle_of(const std::vector<std::array<double, 3>>& places, std::size_t a
 }  // namespace
 
 void check_memory_for(std::uint64_t points, const std::string& path, const std::string& how_known) {
-  const std::uint64_t memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                               static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+  const std::uint64_t memory = usable_memory();
   if (points <= memory / bytes_a_point && points < 0xffffffffu) return;
   fail(ErrorKind::input,
        "{}: {} {} points, which need about {:.0f} MiB of memory; there are {}: thin it "

@@ -77,6 +77,15 @@ TEST_F(Windows, AFrameTooLargeForTheMemoryIsABadFrame) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "o.0003.png"));
 }
 
+TEST_F(Windows, AFrameTooLargeByItsHeaderIsNotRead) {
+  std::ofstream(folder_ / "l.hdr") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16000 +X 16000\n";
+  const Result result = shell(folder_, "ulimit -v 2500000; " + program() + " compare l.hdr l.hdr");
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_NE(result.err.find("l.hdr: its pixels take 2929 MiB; there are 2441 MiB of memory"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST_F(Windows, DepthOfALargerOneIsCutToTheColours) {
   write("cut.exr", 1, at);
   const std::string lens = " -o out.exr --fstop 0.25 --focal-length 50 --focus 3 ";
