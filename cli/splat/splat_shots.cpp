@@ -41,6 +41,10 @@ std::vector<std::optional<int>> frames_of(const SplatCommand& job) {
     frames = parse_frames(job.frames);
   } else if (has_frame_pattern(job.camera_file)) {
     frames = find_frames(job.camera_file);
+  } else if (has_frame_pattern(job.output)) {
+    fail(ErrorKind::usage,
+         "{}: has a frame pattern, and one picture is asked for: --turntable or --frames say more",
+         job.output);
   } else {
     return {std::nullopt};
   }

@@ -222,6 +222,9 @@ TEST_F(SplatCommand, MistakesAreNamed) {
           {"model figure: says it has 1000000000000 points, which need about 381469727 MiB"});
   refused(figure + "-o o.abc " + wide_lens, 2, {"o.abc"});
   refused(figure + "-o none/o.exr " + wide_lens, 4, {"none"});
+  refused(
+      figure + "-o o.####.exr " + wide_lens, 2,
+      {"o.####.exr: has a frame pattern, and one picture is asked for: --turntable or --frames"});
   refused(figure + wide_lens, 2, {"--output is missing"});
   refused(figure + "-o o.exr --focal-length 50", 2, {"--fstop"});
   refused(figure + "-o o.exr --from 1,2 " + wide_lens, 2, {"--from '1,2'", "1,2.5,-3"});
