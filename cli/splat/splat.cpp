@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "commands.h"
 #include "image/display.h"
 #include "image/output.h"
@@ -12,6 +13,7 @@
 #include "open_device.h"
 #include "progress.h"
 #include "splat/splat_run.h"
+#include "splat/view.h"
 #include "standard_streams.h"
 
 namespace defray::cli {
@@ -26,7 +28,7 @@ Examples:
   defray splat scan.ply -o out.exr --from 1,2,5 --look-at 0,1,0 --focus 4.2 --fstop 0.2 --fov 40
   defray splat --model figure -o turn.####.exr --turntable 36 --size 512x512 --fstop 0.2 --focal-length 50)";
 
-SplatModel model_of(const SplatCommand& job, bool has_bar) {
+void check_source(const SplatCommand& job) {
   if (job.input.empty() == job.model.empty()) {
     fail(ErrorKind::usage, "a point cloud is missing: name a file, or a model with --model");
   }
@@ -35,6 +37,9 @@ SplatModel model_of(const SplatCommand& job, bool has_bar) {
     fail(ErrorKind::usage,
          "{}: one cloud goes with all frames: a pattern is for cameras and pictures", job.input);
   }
+}
+
+SplatModel model_of(const SplatCommand& job, bool has_bar) {
   ProgressBar bar(1, "clouds", has_bar);
   const auto update = [&](double share) { bar.update(0, share); };
   try {
@@ -71,6 +76,8 @@ void check_place(const SplatCommand& job, const SplatShot& shot) {
 
 int run(const SplatCommand& job) {
   check_output_format(job.output);
+  check_source(job);
+  validate(job.settings);
   const std::vector<SplatShot> shots = shots_of(job);
   const auto is_left = [&](const SplatShot& shot) { return is_skipped(job, shot); };
   if (std::all_of(shots.begin(), shots.end(), is_left)) {
@@ -79,14 +86,16 @@ int run(const SplatCommand& job) {
   }
   check_place(job, *std::find_if_not(shots.begin(), shots.end(), is_left));
   Device device = open_device(job.device, {Math::strict, !job.no_tuning}, job.quiet);
+  const Stopwatch watch;
   const SplatModel model = model_of(job, !job.quiet && !job.json);
+  const double ready_seconds = watch.seconds();
   const std::string source = job.input.empty() ? "model " + job.model : job.input;
   if (!job.quiet) {
     for (const std::string& note : model.notes()) {
       print_error("defray: note: " + source + ": " + note);
     }
   }
-  SplatRun splats(job, device, model, source);
+  SplatRun splats(job, device, model, source, ready_seconds);
   splats.draw(shots);
   if (const auto& last = splats.last(); job.show && last) {
     show(last->colour, job.settings, "defray: " + last->shot.output);

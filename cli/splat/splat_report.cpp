@@ -61,6 +61,7 @@ void print_json(const SplatShot& shot, const SplatOutcome& outcome) {
                {"stages_s", stages},
                {"notes", outcome.notes},
                {"tuned", r.tuned},
+               {"ready_s", outcome.ready_seconds},
                {"render_s", outcome.render_seconds}});
   print_line(line);
 }
@@ -77,7 +78,10 @@ void print_text(const SplatShot& shot, const SplatOutcome& outcome,
   }
   fmt::print("  lens {}\n", lens_line(outcome.camera.lens));
   print_notes(notes);
-  fmt::print("  {:.3f} s on {}\n", outcome.render_seconds, outcome.device);
+  fmt::print("  {:.3f} s on {}{}\n", outcome.render_seconds, outcome.device,
+             outcome.ready_seconds > 0
+                 ? fmt::format(", after {:.3f} s to make the cloud ready", outcome.ready_seconds)
+                 : "");
 }
 
 }  // namespace defray::cli

@@ -13,6 +13,7 @@ struct SplatOutcome {
   std::string device;
   SplatCamera camera;
   SplatReport report;
+  double ready_seconds = 0;  ///< Of the cloud, with the first picture of it.
   double render_seconds = 0;
   std::vector<std::string> notes;
 };

@@ -18,6 +18,8 @@ namespace {
 constexpr double mostly_behind = 0.9;
 /// Less of it is a few normals that point the other way.
 constexpr double partly_behind = 0.1;
+/// With less blur, or of less of the surface, it is hardly seen that the back shows.
+constexpr double least_open = 0.1, least_coc_px = 2;
 
 /// Returns notes on the file.
 std::vector<std::string> write_splats(const std::string& path, const SplatCommand& job,
@@ -66,10 +68,13 @@ std::vector<std::string> splat_notes(const SplatCamera& camera, const SplatModel
                                      const std::vector<std::string>& written) {
   std::vector<std::string> notes = camera.notes;
   notes.insert(notes.end(), written.begin(), written.end());
-  if (report.seen > 0) {
-    note_small_coc(camera.lens,
-                   std::max(std::abs(report.nearest_coc_px), std::abs(report.farthest_coc_px)),
-                   notes);
+  const double coc = std::max(std::abs(report.nearest_coc_px), std::abs(report.farthest_coc_px));
+  if (report.seen > 0) note_small_coc(camera.lens, coc, notes);
+  if (model.open_share() > least_open && coc > least_coc_px) {
+    notes.push_back(fmt::format(
+        "{:.0f} % of the surface has no normals and is not closed, and is seen from both sides: "
+        "where its back is near, blurred outlines are too solid; normals in the file mend that",
+        100 * model.open_share()));
   }
   if (report.spilled > 0) {
     notes.push_back(fmt::format(
@@ -101,8 +106,12 @@ bool is_skipped(const SplatCommand& job, const SplatShot& shot) {
 }
 
 SplatRun::SplatRun(const SplatCommand& job, Device& device, const SplatModel& model,
-                   std::string source)
-    : job_(job), device_(device), model_(model), source_(std::move(source)) {}
+                   std::string source, double ready_seconds)
+    : job_(job),
+      device_(device),
+      model_(model),
+      source_(std::move(source)),
+      ready_seconds_(ready_seconds) {}
 
 void SplatRun::draw(const std::vector<SplatShot>& shots) {
   ProgressBar bar(shots.size(), "frames", !job_.quiet && !job_.json);
@@ -126,17 +135,27 @@ void SplatRun::draw(const std::vector<SplatShot>& shots) {
     const double seconds = watch.seconds();
     finish_last();
     writing = write_later(shots[i], camera, std::move(result), seconds);
+    ready_seconds_ = 0;
   }
   finish_last();
 }
 
 std::future<WrittenSplats> SplatRun::write_later(const SplatShot& shot, SplatCamera camera,
                                                  SplatResult result, double seconds) const {
-  return std::async(std::launch::async, [=, this, result = std::move(result)]() mutable {
+  return std::async(std::launch::async, [=, this, result = std::move(result),
+                                         ready_seconds = ready_seconds_]() mutable {
     const std::vector<std::string> notes = write_splats(shot.output, job_, result);
-    SplatOutcome outcome{source_, device_.name(),
-                         camera,  result.report,
-                         seconds, splat_notes(camera, model_, result.report, job_.settings, notes)};
+    SplatOutcome outcome{source_,
+                         device_.name(),
+                         camera,
+                         result.report,
+                         ready_seconds,
+                         seconds,
+                         splat_notes(camera, model_, result.report, job_.settings, notes)};
+    if (job_.json) {  // as text they were printed before the first
+      const std::vector<std::string>& of_cloud = model_.notes();
+      outcome.notes.insert(outcome.notes.begin(), of_cloud.begin(), of_cloud.end());
+    }
     return WrittenSplats{shot, std::move(outcome), std::move(result.colour)};
   });
 }

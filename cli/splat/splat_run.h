@@ -26,7 +26,8 @@ struct WrittenSplats {
 class SplatRun {
  public:
   /// `source` is what the points are of, for reports.
-  SplatRun(const SplatCommand& job, Device& device, const SplatModel& model, std::string source);
+  SplatRun(const SplatCommand& job, Device& device, const SplatModel& model, std::string source,
+           double ready_seconds);
 
   /// Draws and writes all, and tells about each in its order. Throws the Error of the first that
   /// fails.
@@ -44,6 +45,7 @@ class SplatRun {
   Device& device_;
   const SplatModel& model_;
   const std::string source_;
+  double ready_seconds_;  ///< Of the cloud; counted with the first picture.
   std::optional<WrittenSplats> last_;
   FrameNotes notes_;
 };

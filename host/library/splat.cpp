@@ -95,6 +95,10 @@ std::array<double, 3> SplatModel::centre() const {
 
 double SplatModel::radius() const { return state_->radius; }
 
+double SplatModel::open_share() const {
+  return static_cast<double>(state_->tree.nodes.front().splat.both_sides);
+}
+
 namespace {
 
 /// Whether surfaces with one side are seen from there alone. What is found to be closed is a room

@@ -33,8 +33,9 @@ void describe(const Values<DefraySplat>& splats, const DefraySplatParams& p, Spl
       short_stretch);
   report.nearest_units = nearest;
   report.farthest_units = farthest;
-  report.nearest_coc_px = splat_coc_px(p, report.nearest_units);
-  report.farthest_coc_px = splat_coc_px(p, report.farthest_units);
+  const double zero = 0;  // added, it leaves no -0
+  report.nearest_coc_px = zero + splat_coc_px(p, report.nearest_units);
+  report.farthest_coc_px = zero + splat_coc_px(p, report.farthest_units);
 }
 
 /// How many fragments pixels have, and how many of those lack surfaces (then below 0).

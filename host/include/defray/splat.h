@@ -109,6 +109,8 @@ class DEFRAY_API SplatModel {
   /// Centre and radius of a sphere around all points, scene units.
   std::array<double, 3> centre() const;
   double radius() const;
+  /// Share of the surface whose outside is not known, because it has no normals and is not closed.
+  double open_share() const;
 
  private:
   struct State;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "splat/clouds/cloud_columns.h"
 #include "splat/clouds/ply_header.h"
 
@@ -176,6 +177,10 @@ PointCloud read_ply(std::istream& file, std::uint64_t bytes, const std::string& 
   const std::uint64_t left =
       bytes - std::min<std::uint64_t>(bytes, static_cast<std::uint64_t>(file.tellg()));
   std::vector<double> row;
+  std::vector<std::string> unused;
+  for (const PlyElement& element : header.elements) {
+    if (element.name != "vertex" && element.count > 0) unused.push_back("element " + element.name);
+  }
   for (const PlyElement& element : header.elements) {
     if (element.name != "vertex") {
       // It has at least a byte a row where it has anything.
@@ -191,7 +196,9 @@ PointCloud read_ply(std::istream& file, std::uint64_t bytes, const std::string& 
       columns.add(row);
     }
     if (&element == &header.elements.back()) body.check_end(element);
-    return std::move(columns).take();
+    PointCloud cloud = std::move(columns).take();
+    if (!unused.empty()) cloud.notes.push_back("not used: " + join(unused, ", "));
+    return cloud;
   }
   fail(ErrorKind::input, "{}: has no element 'vertex', and so no points", path);
 }

@@ -61,15 +61,19 @@ void take_sides(const std::vector<std::uint8_t>& is_given, CloudPoints& cloud) {
   });
 }
 
-/// Points whose normal most of those around point against: flipped. Of two sheets closer to each
-/// other than their points are, about half do.
+/// Points whose normal most of those around point against, and hardly one with: flipped. Of two
+/// sheets closer to each other than their points are about half do, and where a body stands on a
+/// floor some are with each.
 std::size_t count_flipped(const CloudPoints& cloud) {
   const auto is_flipped = [&](std::size_t i) {
     const auto around = cloud.around.of(i);
-    const auto against = std::count_if(around.begin(), around.end(), [&](std::uint32_t other) {
-      return dot(cloud.points[i].normal, cloud.points[other].normal) < -0.5;
-    });
-    return 4 * static_cast<std::size_t>(against) > 3 * around.size();
+    std::size_t against = 0, with = 0;
+    for (const std::uint32_t other : around) {
+      const double cosine = dot(cloud.points[i].normal, cloud.points[other].normal);
+      against += cosine < -0.5;
+      with += cosine > 0.5;
+    }
+    return 4 * against > 3 * around.size() && 10 * with <= around.size();
   };
   std::vector<std::uint8_t> flipped(cloud.points.size());
   parallel_for_each(flipped.size(), [&](std::size_t i) { flipped[i] = is_flipped(i); });

@@ -27,13 +27,18 @@ constexpr double most_open = 0.01, most_off_volume = 0.06;
 /// Where more of a surface's points are near mistakes, others lie wrong, too.
 constexpr double most_doubtful = 0.1;
 
+/// Of points that are closer than this times what points are apart, noise says how they lie to each
+/// other: then as if they were so far apart.
+constexpr double least_apart = 1;
+
 /// How a neighbour's normal lies: 1 the same way, -1 the other, 0 cannot be said. As if the surface
 /// between were part of a circle, so that edges and what is thin are told apart (Koenig & Gumhold
 /// 2009).
 double likeness(const CloudPoints& cloud, std::size_t a, std::size_t b) {
   const Vec3 &n = cloud.points[a].normal, &m = cloud.points[b].normal;
   const Vec3 d = cloud.place(b) - cloud.place(a);
-  const double square = dot(d, d);
+  const double least = least_apart * cloud.points[a].spacing;
+  const double square = std::max(dot(d, d), least * least);
   return square > 0 ? dot(n, m) - 2 * dot(n, d) * dot(m, d) / square : dot(n, m);
 }
 
