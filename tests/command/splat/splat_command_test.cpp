@@ -76,6 +76,9 @@ TEST_F(SplatCommand, TheReportSaysWhatWasDrawn) {
   expect_nothing("0,0,20 ", "behind the camera");
   expect_nothing("20,0,9 ", "beside the picture, or is seen from its edge");
   EXPECT_TRUE(sharp["notes"].empty() && sharp["fragments"].is_number_integer());
+  EXPECT_GT(sharp["ready_s"], 0.0);
+  EXPECT_NE(text.out.find(" s to make the cloud ready\n"), std::string::npos) << text.out;
+  EXPECT_FALSE(std::signbit(sharp["nearest_coc_px"].get<double>()));
   EXPECT_TRUE(sharp["render_s"] > 0.0 && sharp["stages_s"]["resolve"] >= 0.0);
 }
 
@@ -216,6 +219,7 @@ TEST_F(SplatCommand, MistakesAreNamed) {
           {"far.xyz: point 1 lies 1e+20 0 0 units from the cloud's origin: allowed are 1e+15"});
   refused("splat --model figure --cache -o o.exr " + wide_lens, 2, {"--cache", "goes with a file"});
   refused("splat a.ply -o o.exr " + wide_lens, 3, {"a.ply", "no such file"});
+  refused("splat a.ply -o o.exr --layers -1 " + wide_lens, 2, {"--layers is -1"});  // at once
   refused("splat --model figur -o o.exr " + wide_lens, 2,
           {"model 'figur' is not known. Did you mean 'figure'? Allowed: plane figure"});
   refused("splat --model figure --model-points 1000000000000 -o o.exr " + wide_lens, 3,

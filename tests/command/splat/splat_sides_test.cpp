@@ -100,11 +100,35 @@ TEST_F(SplatCommand, AClosedBodyWithoutNormalsHasAnOutside) {
     EXPECT_FALSE(room["is_inside_out"].get<bool>());
     EXPECT_GT(alpha()[50 * 100 + 50], 0.95f);
   }
+  const auto notes = [&](const std::string& options) {
+    return shown("--from 0,0,4 --look-at 0,0,0 " + options)["notes"].dump();
+  };
+  EXPECT_EQ(notes(""), "[]");
   // Both sides of what is before the focus count, where asked for: too much at its rims.
   shown(outside + "--two-sided");
   const Plane both = alpha();
   EXPECT_GT(std::accumulate(both.begin(), both.end(), 0.0),
             1.01 * std::accumulate(given.begin(), given.end(), 0.0));
+}
+
+TEST_F(SplatCommand, AnOpenSurfaceWithoutNormalsIsNoted) {
+  std::ofstream points(folder_ / "open.xyz");
+  for (int i = 0; i < 400; ++i) points << 0.1 * (i % 20) - 1 << " " << 0.1 * (i / 20) - 1 << " 0\n";
+  points << "nan 0 0\n";
+  points.close();
+  const auto notes = [&](const std::string& options) {
+    const Result result = defray(folder_,
+                                 "splat open.xyz -o o.exr --json --size 100x100 --focus 2 "
+                                 "--focal-length 50 --from 0,0,4 --aperture-diameter " +
+                                     options);
+    expect_ok(result);
+    return json::parse(result.out)["notes"].dump();
+  };
+  const std::string open =
+      "100 % of the surface has no normals and is not closed, and is seen from";
+  EXPECT_NE(notes("300").find(open), std::string::npos);
+  EXPECT_EQ(notes("10").find(open), std::string::npos) << "hardly blurred";
+  EXPECT_NE(notes("10").find("1 of 401 points have no finite place"), std::string::npos);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Point clouds from files: PLY and text, and what is wrong with them.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -48,6 +50,7 @@ TEST_F(CloudFile, AsciiPly) {
   EXPECT_FLOAT_EQ(cloud.colours[0][2], static_cast<float>(srgb_decode(128.0 / 255)));
   EXPECT_TRUE(cloud.normals.empty());
   EXPECT_TRUE(cloud.radii.empty());
+  EXPECT_EQ(cloud.notes, std::vector<std::string>{"not used: element face"});
 }
 
 /// Values of any type as bytes of either order.
@@ -123,6 +126,26 @@ TEST_F(CloudFile, PlacesAreFromTheMiddle) {
   EXPECT_EQ(cloud.positions[9][1], 4);
   EXPECT_EQ(cloud.positions[0][0], -500000.0625f);
   EXPECT_TRUE(std::isnan(cloud.positions[1][0]));
+}
+
+TEST_F(CloudFile, PlacesThatFloatsDoNotHoldAreNoted) {
+  const auto notes = [&](double offset, bool as_floats, double size) {
+    std::string text;
+    for (int i = 0; i < 500; ++i) {
+      const double x = offset + size * ((i * 37) % 500) / 500.0;
+      text += fmt::format("{:.9f} {} 0\n",
+                          as_floats ? static_cast<double>(static_cast<float>(x)) : x, i % 25);
+    }
+    return read_point_cloud(write("far.xyz", text)).notes;
+  };
+  const auto noted = notes(4e6, true, 10);
+  ASSERT_EQ(noted.size(), 1u);
+  EXPECT_EQ(noted[0].find("places are in steps of 0.25 units: floats have no more digits so far"),
+            0u)
+      << noted[0];
+  EXPECT_TRUE(notes(4e6, false, 10).empty());
+  EXPECT_TRUE(notes(4e6, true, 4000).empty());
+  EXPECT_TRUE(notes(0, true, 500).empty());
 }
 
 TEST_F(CloudFile, Text) {

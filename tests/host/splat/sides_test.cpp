@@ -54,6 +54,21 @@ TEST(Sides, ClosedSurfacesAreSeenFromOutside) {
   }
 }
 
+/// Of points that happen to lie close to each other noise says more than the surface.
+TEST(Sides, NoisyClosedSurfacesAreSeenFromOutside) {
+  PointCloud cloud = ball(30000);
+  const double apart = std::sqrt(4 * M_PI / 30000);
+  for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+    Random random(static_cast<int>(i), 0, 22);
+    const double along = random.next() + random.next() + random.next() + random.next() - 2;
+    const auto off = static_cast<float>(1 + 0.17 * apart * along / std::sqrt(1.0 / 3));
+    for (float& c : cloud.positions[i]) c *= off;
+  }
+  const Surfels surfels = make_surfels(cloud);
+  EXPECT_LT(share_with_two_sides(surfels), 0.05);
+  for (const DefraySplatNode& n : surfels.points) EXPECT_TRUE(has_two_sides(n) || outwards(n) > 0);
+}
+
 /// Thin legs and ears among them: nearly all as the model's own normals say, or from both sides.
 TEST(Sides, NormalsAreThoseOfTheShape) {
   PointCloud cloud = make_point_cloud("figure", 20000);

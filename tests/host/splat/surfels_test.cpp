@@ -160,6 +160,18 @@ TEST(Surfels, NotesFlippedNormals) {
   }
 }
 
+/// The bottom of what stands on something points against it, as it should, though it is coarser.
+TEST(Surfels, WhatStandsOnAFloorIsNotFlipped) {
+  PointCloud cloud = slope(30);
+  cloud.normals.assign(cloud.positions.size(), {-0.5f, 0, 1});
+  for (int i = 0; i < 64; ++i) {
+    const float x = 0.65f + 0.2f * static_cast<float>(i % 8);
+    cloud.positions.push_back({x, 0.65f + 0.2f * static_cast<float>(i / 8), x / 2});
+    cloud.normals.push_back({0.5f, 0, -1});
+  }
+  EXPECT_EQ(make_surfels(cloud).notes, std::vector<std::string>{});
+}
+
 TEST(Surfels, PointsInOnePlaceHaveTheSizeOfTheOthers) {
   PointCloud cloud = slope(9);
   for (int i = 0; i < 40; ++i) cloud.positions.push_back({0.4f, 0.4f, 0.2f});
