@@ -164,9 +164,9 @@ TEST(Surfels, NotesFlippedNormals) {
 TEST(Surfels, WhatStandsOnAFloorIsNotFlipped) {
   PointCloud cloud = slope(30);
   cloud.normals.assign(cloud.positions.size(), {-0.5f, 0, 1});
-  for (int i = 0; i < 64; ++i) {
-    const float x = 0.65f + 0.2f * static_cast<float>(i % 8);
-    cloud.positions.push_back({x, 0.65f + 0.2f * static_cast<float>(i / 8), x / 2});
+  for (int i = 0; i < 15 * 15; ++i) {
+    const float x = 0.05f + 0.2f * static_cast<float>(i % 15);
+    cloud.positions.push_back({x, 0.05f + 0.2f * static_cast<float>(i / 15), x / 2});
     cloud.normals.push_back({0.5f, 0, -1});
   }
   EXPECT_EQ(make_surfels(cloud).notes, std::vector<std::string>{});
