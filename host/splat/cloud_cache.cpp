@@ -15,7 +15,7 @@ namespace defray {
 namespace {
 
 /// Changes with whatever changes the bytes of what follows, or how they are made.
-constexpr char mark[16] = "defray surfelsB";
+constexpr char mark[16] = "defray surfelsC";
 
 /// The file that the cache was made of, and what the cache holds.
 struct Head {
