@@ -23,8 +23,8 @@ constexpr double other_side = -0.3;
 constexpr double coarser_reach = 1.25, most_distance = 3;
 /// So many are a surface, and not strays, if they lie in one with the point and the closest of each
 /// of most of them do, this share of the places' variance across it, or less, and if most of them
-/// are known: so many points have them among those around. Surfaces' are by 9 to 19, strays by 0
-/// to 8.
+/// are known: so many points have them among those around. Those of faces are by 9 to 19, of a
+/// floor under a body now and then by 3 to 6, strays by 0 to 8.
 constexpr std::size_t least_count = 3, closest_count = 8, least_known = 9;
 constexpr double thickest = 0.03;
 
